@@ -16,17 +16,14 @@
 #include "mesh/merge.h"
 #include "mesh/patch_crossing.h"
 #include "mesh/touching_triangles.h"
+#include "meshing/engine/refinement_policy.h"
 
 namespace st {
 namespace {
 
-constexpr std::size_t kMaxCrossingPlaces = 2000;  // proposed at once
-constexpr std::size_t kMaxWallPlaces = 8000;      // likewise, where walls are measured
-constexpr double kAround = 4;                     // triangles that a place makes shorter, about
-constexpr double kCovering = 1.5;                 // of half a triangle's longest side: a circle that covers it
-constexpr double kWider = 0.75;                   // more than that in each later round: new places crossed beside
-constexpr double kPerWall = 1000;                 // triangles: the search among so many takes as long as a measurement
-constexpr double kLeastFactor = 1.0 / 32;         // of a triangle's length: walls that would need less cannot be parted
+using Policy = RefinementPolicy;
+
+constexpr double kPerMeasurement = 1000;  // triangles: the search among so many takes as long
 
 std::int64_t key_of(const BoundaryNumbering& numbering, std::int32_t id) {
   const BoundaryNumbering::Entity e = numbering.entity(id);
@@ -434,14 +431,14 @@ std::vector<RefinementPoint> CrossingSearch::places_to_refine(const BoundaryNumb
   for (const FacetPair& p : pairs_) {
     if (p.a.face == p.b.face && face_is_given_up_[p.a.face]) continue;
     if (p.factor > 0) apart.push_back(p);
-    if (p.factor == kHalve && facets.size() < kMaxCrossingPlaces) add(p, 1);
+    if (p.factor == kHalve && facets.size() < kFacePolicy.max_crossing_places) add(p, 1);
   }
-  const std::size_t step = 2 * apart.size() / kMaxWallPlaces + 1;
-  for (std::size_t i = 0; i < apart.size(); i += step) add(apart[i], kAround * static_cast<double>(step));
+  const std::size_t step = 2 * apart.size() / Policy::kMaxWallPlaces + 1;
+  for (std::size_t i = 0; i < apart.size(); i += step) add(apart[i], Policy::kAround * static_cast<double>(step));
   const std::vector<Corners> all = corners(std::move(facets), search);
   std::vector<RefinementPoint> refined;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    refined.push_back(refinement_of(all[i], how[i].first, kCovering + kWider * n_asked_));
+    refined.push_back(refinement_of(all[i], how[i].first, Policy::kCovering + Policy::kWider * n_asked_));
     refined.back().n_triangles = how[i].second;
   }
   ++n_asked_;
@@ -495,7 +492,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured(const FacetPairs& pairs, con
   if (groups.empty()) return known;
   const auto home = [&](const FacetPairs& p) { return search.sections[search.section_of(p[0].a)].place.rank; };
   const std::vector<Batch> batches =
-      batches_of(groups, home, [](const FacetPairs& p) { return kPerWall * static_cast<double>(p.size()); });
+      batches_of(groups, home, [](const FacetPairs& p) { return kPerMeasurement * static_cast<double>(p.size()); });
   NamedTasks tasks = tasks_of(batches, "walls");
   tasks.answer = [&](const Bytes& request) { return search.answer(request); };
   executor_.run_named_tasks(
@@ -538,7 +535,7 @@ CrossingSearch::FacetPairs CrossingSearch::measured_pair_of_faces(FacetPairs kep
   const bool is_one_body = face_body_[a] == face_body_[b];
   const double tolerance = meeting_distance(model_.tables(), a, b);
   const auto factor_of = [&](const std::optional<WallGap>& gap) {
-    if (gap && gap->is_apart) return gap->factor < kLeastFactor ? kHopeless : gap->factor;
+    if (gap && gap->is_apart) return gap->factor < Policy::kLeastFactor ? kHopeless : gap->factor;
     return is_one_body ? kHalve : kMeets;
   };
   const auto measure_every = [&](std::size_t step) {

@@ -32,18 +32,8 @@
 namespace st {
 namespace {
 
-constexpr double kPromisingFloor = 1.0 / 64;  // of the requested length: where few triangles cross, or ever fewer
-constexpr RoundLimits kLimits{
-    .max_rounds = 6, .max_crossing_rounds = 8, .max_promising_rounds = 14, .promising_floor = kPromisingFloor};
-constexpr int kFewPairs = 50;      // of crossing triangles: else faces that cross each other stay as they are
-constexpr double kWorthIt = 0.9;   // of the bad triangles before: as many or less are left by a refill that stays
-constexpr int kMostTakenBack = 4;  // times: bad places move
-constexpr double kLooser = 2;      // times a refined length
-constexpr int kMostLoosened = 4;   // times: most are no finer than 1/16 of the request
-constexpr int kMostTried = 2;      // meshings of one such time: places that are needed as they are come to light
-constexpr std::size_t kFewRefined = 200;      // places: else it takes too long
-constexpr std::int64_t kPerFailure = 1000;    // folds and crossings: as bad as a face that fails
-constexpr std::size_t kMostBadPlaces = 2000;  // that are looked at
+using Policy = RefinementPolicy;
+
 constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
 constexpr int kSamples = 32;        // of a curve, for its box
 constexpr double kMargin = 0.05;    // of the box's diagonal: the curve may leave the box of its samples
@@ -64,8 +54,8 @@ std::vector<Refinement> loosened(const std::vector<Refinement>& all, const std::
   for (std::size_t i = 0; i < all.size(); ++i) {
     Refinement r = all[i];
     if (!is_needed[i]) {
-      r.reach -= (kLooser - 1) * r.length / kRefinementSlope;
-      r.length *= kLooser;
+      r.reach -= (Policy::kLooser - 1) * r.length / kRefinementSlope;
+      r.length *= Policy::kLooser;
     }
     if (r.reach > r.radius) looser.push_back(r);
   }
@@ -76,7 +66,7 @@ std::vector<Refinement> loosened(const std::vector<Refinement>& all, const std::
 
 FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const SizeField& field, MeshPlan plan,
                        const MeshOptions& options, const Executor& executor, MeshResult& result)
-    : MeshRounds(field, kLimits, executor, result),
+    : MeshRounds(field, kFacePolicy, executor, result),
       model_(model),
       topology_(topology),
       tables_(topology.tables()),
@@ -148,7 +138,7 @@ FaceRounds::Patches FaceRounds::bring(const std::vector<FaceId>& faces) const {
 
 /// Local, on rank 0. Faces of which triangles may be bad, ascending.
 std::vector<FaceId> FaceRounds::suspects() const {
-  std::vector<FaceId> faces = crossings_.crossing_faces(crossings_.n_pairs() <= kFewPairs);
+  std::vector<FaceId> faces = crossings_.crossing_faces(crossings_.n_pairs() <= Policy::kFewPairs);
   for (FaceId f = 0; f < tables_.n_faces(); ++f)
     if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) faces.push_back(f);
   std::sort(faces.begin(), faces.end());
@@ -160,7 +150,7 @@ std::vector<FaceId> FaceRounds::suspects() const {
 FaceRounds::BadTriangles FaceRounds::bad_triangles(const Patches& patches) const {
   BadTriangles bad;
   for (const auto& [f, patch] : patches) {
-    std::vector<std::size_t> own = crossings_.crossing_in(f, crossings_.n_pairs() <= kFewPairs);
+    std::vector<std::size_t> own = crossings_.crossing_in(f, crossings_.n_pairs() <= Policy::kFewPairs);
     if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) {
       const std::vector<std::size_t> flawed = find_flawed(nodes_of(patch), patch);
       own.insert(own.end(), flawed.begin(), flawed.end());
@@ -173,7 +163,7 @@ FaceRounds::BadTriangles FaceRounds::bad_triangles(const Patches& patches) const
 /// Local, on rank 0. Failures, folds and crossings.
 std::int64_t FaceRounds::n_bad() const {
   std::int64_t n = crossings_.n_pairs();
-  for (const FaceOutcome& o : outcomes_) n += o.n_folds + (o.cause == FailureCause::kNone ? 0 : kPerFailure);
+  for (const FaceOutcome& o : outcomes_) n += o.n_folds + (o.cause == FailureCause::kNone ? 0 : Policy::kPerFailure);
   return n;
 }
 
@@ -190,7 +180,7 @@ std::vector<Vec3> FaceRounds::bad_places() const {
       places.push_back((xyz[n[0]] + xyz[n[1]] + xyz[n[2]]) / 3);
     }
   }
-  const std::size_t step = places.size() / kMostBadPlaces + 1;
+  const std::size_t step = places.size() / Policy::kMostBadPlaces + 1;
   for (std::size_t i = 1; i * step < places.size(); ++i) places[i] = places[i * step];
   places.resize((places.size() + step - 1) / step);
   return places;
@@ -232,7 +222,7 @@ void FaceRounds::take_back_refinements() {
   char has_hopeless = !hopeless_.all().empty();
   share(executor_, has_hopeless);
   if (has_hopeless) take_back_once(TakeBack::kOfHopelessFacesToo);
-  for (int i = 0; i < kMostTakenBack && take_back_once(TakeBack::kAtBadPlaces); ++i) {
+  for (int i = 0; i < Policy::kMostTakenBack && take_back_once(TakeBack::kAtBadPlaces); ++i) {
   }
 }
 
@@ -242,7 +232,7 @@ std::int64_t FaceRounds::n_more_of_hopeless() const {
   const std::vector<std::int64_t> n_crossing = crossings_.n_pairs_within();
   std::int64_t n = 0;
   for (const FaceId f : hopeless_.all()) n += outcomes_[f].n_folds + n_crossing[f];
-  return std::min(kPerFailure - 1, static_cast<std::int64_t>((1 / kClearlyFewer - 1) * static_cast<double>(n)));
+  return Policy::n_more_allowed(n);
 }
 
 /// Local, on rank 0. Faces without a fold, crossing or failure, ascending.
@@ -297,8 +287,8 @@ void FaceRounds::go_back(const Trial& before, const std::vector<FaceId>& meshed)
 void FaceRounds::loosen_refinements() {
   char is_sound = !is_restored_ && n_bad() == 0;
   share(executor_, is_sound);
-  if (!is_sound || refinements_.all().size() > kFewRefined) return;
-  for (int i = 0; i < kMostLoosened && loosen_once(); ++i) {
+  if (!is_sound || refinements_.all().size() > Policy::kFewRefined) return;
+  for (int i = 0; i < Policy::kMostLoosened && loosen_once(); ++i) {
   }
 }
 
@@ -311,7 +301,7 @@ bool FaceRounds::loosen_once() {
   for (std::size_t k = 0; k < is_needed.size(); ++k)
     if (!is_needed[k]) changed.push_back(before.refinements[k]);
   std::vector<FaceId> meshed;
-  for (int i = 0; i < kMostTried && !changed.empty() && std::ranges::count(is_needed, 0) > 0; ++i) {
+  for (int i = 0; i < Policy::kMostTried && !changed.empty() && std::ranges::count(is_needed, 0) > 0; ++i) {
     refinements_.assign(loosened(before.refinements, is_needed));
     mesh_without(changed, i == 0 ? "may be too much" : "is needed");
     meshed.insert(meshed.end(), dirty_faces_.begin(), dirty_faces_.end());
@@ -377,8 +367,7 @@ bool FaceRounds::refill_once() {
     if (FacePatch& patch = patches[f]; refill(nodes_of(patch), triangles, patch) > 0) put(f, std::move(patch));
   crossings_.run(*numbering_, places_);
   const BadTriangles left = bad_triangles(bring(suspects()));
-  char is_worse =
-      crossings_.n_pairs() > n_pairs || static_cast<double>(count(left)) > kWorthIt * static_cast<double>(count(bad));
+  char is_worse = crossings_.n_pairs() > n_pairs || !Policy::refill_stays(count(left), count(bad));
   share(executor_, is_worse);
   if (is_worse) {
     places_ = before;

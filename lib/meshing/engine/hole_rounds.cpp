@@ -22,7 +22,6 @@ namespace {
 
 constexpr int kGrowth[] = {2, 6};  // layers by which a hole grows when it cannot be filled; then the whole face is done
                                    // again
-constexpr std::size_t kMaxCrossingPlaces = 500;  // refined in one round
 
 }  // namespace
 
@@ -251,7 +250,7 @@ std::vector<RefinementPoint> HoleRounds::find_crossings() {
   crossing_.clear();
   for (const TrianglePair& pair : pairs)
     for (const TriangleId t : {pair.a, pair.b}) {
-      if (places.size() >= kMaxCrossingPlaces) break;
+      if (places.size() >= kHolePolicy.max_crossing_places) break;
       const NodeId* n = m.triangles[t].n;
       places.push_back(halve_triangle(m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]));
       if (m.triangle_previous[t] != kNone) crossing_.push_back(m.triangle_previous[t]);

@@ -19,7 +19,7 @@ class HoleRounds : public MeshRounds {
   /// All references outlive the object. `holes`: its marks grow.
   HoleRounds(HoleMarker& holes, const SizeField& field, const MeshOptions& options, const Executor& executor,
              MeshResult& result)
-      : MeshRounds(field, kLimits, executor, result),
+      : MeshRounds(field, kHolePolicy, executor, result),
         model_(holes.model()),
         old_(holes.mesh()),
         holes_(holes),
@@ -32,8 +32,6 @@ class HoleRounds : public MeshRounds {
   std::vector<FacePatch> all_patches() const;
 
  private:
-  static constexpr RoundLimits kLimits{.max_rounds = 0, .max_crossing_rounds = 4, .max_promising_rounds = 4};
-
   void mesh_edges() override;
   std::vector<RefinementPoint> mesh_regions() override;
   void join() override;

@@ -1,19 +1,10 @@
 #include "meshing/engine/hopeless_faces.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "meshing/engine/refinement_policy.h"
+
 namespace st {
-namespace {
-
-constexpr int kMostWithout = 2;                  // meshings in a row that leave not clearly fewer
-constexpr std::int64_t kManyBad = 100;           // folds and crossings of a face
-constexpr std::int64_t kMuchRepeated = 500'000;  // triangles of these meshings
-
-constexpr std::int64_t kMostTimes = 4;  // the triangles of the first meshing
-constexpr std::int64_t kFew = 1000;     // triangles of a face that are no harm
-
-}  // namespace
 
 void HopelessFaces::add_meshed(FaceId f, std::int64_t n_triangles) {
   Effort& effort = efforts_[f];
@@ -24,13 +15,12 @@ void HopelessFaces::add_meshed(FaceId f, std::int64_t n_triangles) {
 
 bool HopelessFaces::gives_up(Effort& effort, Count& count, std::int64_t n_bad) {
   if (effort.is_hopeless || std::exchange(count.n_asked, effort.n_meshed) == effort.n_meshed) return false;
-  if (count.fewest == 0 || static_cast<double>(n_bad) < kClearlyFewer * static_cast<double>(count.fewest)) {
+  if (count.fewest == 0 || RefinementPolicy::is_clearly_fewer(n_bad, count.fewest)) {
     count = {n_bad, 0, effort.n_meshed, effort.n_meshed};
     return false;
   }
-  const bool is_much = n_bad >= kManyBad || effort.n_meshed - count.n_before >= kMuchRepeated;
-  const bool is_over = effort.n_last > std::max(kMostTimes * effort.n_first, kFew);
-  return effort.is_hopeless = (++count.n_without >= kMostWithout && is_much) || is_over;
+  return effort.is_hopeless = RefinementPolicy::gives_up(
+             {++count.n_without, n_bad, effort.n_meshed - count.n_before, effort.n_last, effort.n_first});
 }
 
 std::vector<FaceId> HopelessFaces::all() const {

@@ -8,9 +8,6 @@
 
 namespace st {
 
-/// Of the bad places of a face before: as many or more are no success of a round.
-inline constexpr double kClearlyFewer = 0.9;
-
 /// What rounds did for each face, by two counts: its folds, which every meshing tells, and these with the pairs of its
 /// triangles that cross each other, which a search tells. A face is given up by the second meshing in a row that leaves
 /// not clearly fewer than the fewest before, where much is bad or much was meshed since; by the first one where it has

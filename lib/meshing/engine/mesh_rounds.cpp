@@ -13,14 +13,6 @@
 namespace st {
 namespace {
 
-constexpr double kLoopFloor = 1.0 / 16;  // of the requested length: refining loops, folds and narrow parts ends there
-constexpr std::uint64_t kFewCrossings = 200;     // places
-constexpr std::uint64_t kMostRepeated = 30;      // triangles of all rounds, by those of the first one
-constexpr std::uint64_t kFewTriangles = 200000;  // that may be meshed again in any case
-constexpr double kMostForWalls = 1.5e6;          // triangles that part walls, about
-constexpr double kPerWall = 2;                   // times what parting walls should take: its rounds may mesh so many
-constexpr double kPromising = 0.8;               // of the places before: as many or less is getting better
-
 /// Adds the seconds of its life.
 class TimeAdder {
  public:
@@ -53,17 +45,15 @@ void MeshRounds::run() {
     ++result_.n_rounds;
     if (n_rounds == 1) n_first_ = n_meshed_;
     const bool is_last = runs_away();
-    if (!is_last && n_rounds - n_crossing_rounds <= limits_.max_rounds && refine(wanted, kLoopFloor)) continue;
+    if (!is_last && policy_.refines_loops(n_rounds - n_crossing_rounds) && refine(wanted, RefinementPolicy::kLoopFloor))
+      continue;
     const Places crossings = join_and_check();
     std::uint64_t n = crossings.size();
     share(executor_, n);
-    const bool is_promising = n <= kFewCrossings || is_measured(crossings) ||
-                              static_cast<double>(n) < kPromising * static_cast<double>(n_last);
-    if (is_last || n == 0 ||
-        n_crossing_rounds++ >= (is_promising ? limits_.max_promising_rounds : limits_.max_crossing_rounds))
-      return;
+    const bool is_promising = RefinementPolicy::is_promising(n, n_last, is_measured(crossings));
+    if (is_last || n == 0 || !policy_.refines_crossings(n_crossing_rounds++, is_promising)) return;
     n_last = n;
-    if (!refine(crossings, is_promising ? limits_.promising_floor : kCrossingFloor)) return;
+    if (!refine(crossings, policy_.crossing_floor(is_promising))) return;
   }
 }
 
@@ -77,7 +67,7 @@ bool MeshRounds::is_measured(const Places& places) const {
 
 /// Collective. Whether more was meshed again than refining can be worth, as on surfaces that are damaged.
 bool MeshRounds::runs_away() {
-  char is_over = static_cast<double>(n_meshed_) > most_triangles();
+  char is_over = RefinementPolicy::runs_away(n_meshed_, n_first_, n_for_walls_);
   share(executor_, is_over);
   if (is_over && executor_.is_root())
     log_warning("refining was ended after " + std::to_string(n_meshed_) + " triangles instead of " +
@@ -113,7 +103,7 @@ MeshRounds::Places MeshRounds::affordable(const Places& places) {
     }
     all.push_back(p);
   }
-  if (n_for_walls_ + n_more < kMostForWalls) {
+  if (RefinementPolicy::affords_walls(n_for_walls_ + n_more)) {
     n_for_walls_ += n_more;
     return all;
   }
@@ -125,18 +115,13 @@ MeshRounds::Places MeshRounds::affordable(const Places& places) {
   return tries;
 }
 
-/// Of all rounds.
-double MeshRounds::most_triangles() const {
-  return static_cast<double>(kMostRepeated * n_first_ + kFewTriangles) + kPerWall * n_for_walls_;
-}
-
 /// Collective. Rank 0's places become part of the field, no finer than `floor` times the request. False when none
 /// changes anything.
 bool MeshRounds::refine(const Places& places, double floor) {
   const std::size_t n_before = refinements_.all().size();
   if (executor_.is_root())
     for (const RefinementPoint& p : affordable(places))
-      refinements_.add(p, p.factor > 0 ? limits_.promising_floor : floor);
+      refinements_.add(p, p.factor > 0 ? policy_.promising_floor : floor);
   std::vector<Refinement> all = refinements_.all();
   share(executor_, all);
   refinements_.assign(std::move(all));

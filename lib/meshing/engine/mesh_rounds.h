@@ -7,19 +7,10 @@
 
 #include "base/executor.h"
 #include "meshing/engine/mesh_result.h"
+#include "meshing/engine/refinement_policy.h"
 #include "meshing/face/refinements.h"
 
 namespace st {
-
-inline constexpr double kCrossingFloor = 1.0 / 8;  ///< of the requested length: refining crossing triangles ends there
-
-/// Where refining ends.
-struct RoundLimits {
-  int max_rounds;                           ///< refinements of loops, folds and narrow parts
-  int max_crossing_rounds;                  ///< of crossing triangles
-  int max_promising_rounds;                 ///< likewise where few are left, or ever fewer;
-  double promising_floor = kCrossingFloor;  ///< it ends there, of the requested length
-};
 
 /// The rounds; what they mesh (the faces of a model, or the holes of a mesh) is in the steps that derived classes have.
 class MeshRounds {
@@ -33,8 +24,8 @@ class MeshRounds {
 
  protected:
   /// All references outlive the object.
-  MeshRounds(const SizeField& field, const RoundLimits& limits, const Executor& executor, MeshResult& result)
-      : field_(field), executor_(executor), result_(result), refinements_(field), limits_(limits) {}
+  MeshRounds(const SizeField& field, const RefinementPolicy& policy, const Executor& executor, MeshResult& result)
+      : field_(field), executor_(executor), result_(result), refinements_(field), policy_(policy) {}
 
   const SizeField& field_;
   const Executor& executor_;
@@ -59,11 +50,10 @@ class MeshRounds {
   Places join_and_check();
   bool refine(const Places& places, double floor);
   Places affordable(const Places& places);
-  double most_triangles() const;
   bool is_measured(const Places& places) const;
   bool runs_away();
 
-  RoundLimits limits_;
+  RefinementPolicy policy_;
   std::uint64_t n_first_ = 0;    // triangles of the first round
   bool has_said_walls_ = false;  // too many triangles
   double n_for_walls_ = 0;       // triangles that were to part walls

@@ -18,8 +18,8 @@ class Scripted : public MeshRounds {
   using Places = std::vector<RefinementPoint>;
   using Script = std::function<Places(int call)>;
 
-  Scripted(const RoundLimits& limits, MeshResult& result, Script regions, Script crossings)
-      : MeshRounds(one, limits, one_rank, result), regions_(std::move(regions)), crossings_(std::move(crossings)) {}
+  Scripted(const RefinementPolicy& policy, MeshResult& result, Script regions, Script crossings)
+      : MeshRounds(one, policy, one_rank, result), regions_(std::move(regions)), crossings_(std::move(crossings)) {}
 
   std::string steps;
   std::vector<std::size_t> first_refinements;
@@ -60,8 +60,11 @@ Scripted::Places places(int call, int n) {
   return list;
 }
 
-constexpr RoundLimits kLimits{
-    .max_rounds = 3, .max_crossing_rounds = 2, .max_promising_rounds = 5, .promising_floor = 0.125};
+constexpr RefinementPolicy kLimits{.max_rounds = 3,
+                                   .max_crossing_rounds = 2,
+                                   .max_promising_rounds = 5,
+                                   .promising_floor = 0.125,
+                                   .max_crossing_places = 2000};
 
 TEST(MeshRounds, end_after_one_round_where_nothing_is_wrong) {
   MeshResult result;

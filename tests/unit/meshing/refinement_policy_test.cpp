@@ -1,0 +1,84 @@
+// When rounds of refinement stop, as a table.
+#include "meshing/engine/refinement_policy.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace st {
+namespace {
+
+using Policy = RefinementPolicy;
+
+struct Decision {
+  std::string what;
+  std::function<bool()> is_taken;
+  bool expected;
+};
+
+void expect(const std::vector<Decision>& table) {
+  for (const Decision& d : table) EXPECT_EQ(d.is_taken(), d.expected) << d.what;
+}
+
+TEST(RefinementPolicy, ends_the_rounds_of_faces_and_of_holes) {
+  const auto &faces = kFacePolicy, &holes = kHolePolicy;
+  expect({{"loops in round 6", [&] { return faces.refines_loops(6); }, true},
+          {"loops in round 7", [&] { return faces.refines_loops(7); }, false},
+          {"loops of holes: they grow", [&] { return holes.refines_loops(1); }, false},
+          {"crossings after 7 rounds", [&] { return faces.refines_crossings(7, false); }, true},
+          {"crossings after 8 rounds", [&] { return faces.refines_crossings(8, false); }, false},
+          {"while it gets better, after 13", [&] { return faces.refines_crossings(13, true); }, true},
+          {"while it gets better, after 14", [&] { return faces.refines_crossings(14, true); }, false},
+          {"of holes after 3", [&] { return holes.refines_crossings(3, false); }, true},
+          {"of holes after 4", [&] { return holes.refines_crossings(4, true); }, false}});
+  EXPECT_EQ(faces.crossing_floor(false), 1.0 / 8);
+  EXPECT_EQ(faces.crossing_floor(true), 1.0 / 64);
+  EXPECT_EQ(holes.crossing_floor(true), 1.0 / 8);
+}
+
+TEST(RefinementPolicy, goes_on_while_crossings_become_fewer) {
+  expect({{"200 places", [] { return Policy::is_promising(200, 200, false); }, true},
+          {"201 places of 201", [] { return Policy::is_promising(201, 201, false); }, false},
+          {"799 of 1000", [] { return Policy::is_promising(799, 1000, false); }, true},
+          {"800 of 1000", [] { return Policy::is_promising(800, 1000, false); }, false},
+          {"the first search", [] { return Policy::is_promising(201, 0, false); }, false},
+          {"measured", [] { return Policy::is_promising(9000, 9000, true); }, true}});
+}
+
+TEST(RefinementPolicy, ends_what_costs_more_than_it_can_be_worth) {
+  expect({{"30 times and 200,000", [] { return Policy::runs_away(500'000, 10'000, 0); }, false},
+          {"one more", [] { return Policy::runs_away(500'001, 10'000, 0); }, true},
+          {"twice what walls take is allowed", [] { return Policy::runs_away(700'000, 10'000, 100'000); }, false},
+          {"one more than that", [] { return Policy::runs_away(700'001, 10'000, 100'000); }, true},
+          {"walls", [] { return Policy::affords_walls(1'499'999); }, true},
+          {"too many for walls", [] { return Policy::affords_walls(1'500'000); }, false}});
+}
+
+TEST(RefinementPolicy, tells_success_from_none) {
+  expect({{"89 of 100", [] { return Policy::is_clearly_fewer(89, 100); }, true},
+          {"90 of 100", [] { return Policy::is_clearly_fewer(90, 100); }, false},
+          {"a refill that leaves 9 of 10", [] { return Policy::refill_stays(9, 10); }, true},
+          {"10 of 11", [] { return Policy::refill_stays(10, 11); }, false},
+          {"none of one", [] { return Policy::refill_stays(0, 1); }, true}});
+  EXPECT_EQ(Policy::n_more_allowed(91), 10) << "a ninth";
+  EXPECT_EQ(Policy::n_more_allowed(1'000'000), 999) << "no face may fail for it";
+}
+
+TEST(RefinementPolicy, gives_up_faces_that_smaller_triangles_do_not_help) {
+  const auto gives_up = [](int n_without, std::int64_t n_bad, std::int64_t n_since, std::int64_t n_last,
+                           std::int64_t n_first) {
+    return [=] { return Policy::gives_up({n_without, n_bad, n_since, n_last, n_first}); };
+  };
+  expect({{"100 bad, twice", gives_up(2, 100, 0, 10, 10), true},
+          {"100 bad, once", gives_up(1, 100, 0, 10, 10), false},
+          {"99 bad", gives_up(2, 99, 499'999, 10, 10), false},
+          {"much was meshed", gives_up(2, 1, 500'000, 10, 10), true},
+          {"four times its first triangles", gives_up(1, 1, 0, 4000, 1000), false},
+          {"more than that", gives_up(1, 1, 0, 4001, 1000), true},
+          {"never by 1,000 triangles", gives_up(1, 1, 0, 1000, 1), false}});
+}
+
+}  // namespace
+}  // namespace st
