@@ -7,14 +7,14 @@
 #include <tuple>
 
 #include "geometry/model/bodies.h"
+#include "geometry/model/sameness.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
 namespace {
 
-constexpr double kSameBox = 1e-3;   // of the face's diagonal: boxes are made of samples and tolerances
-constexpr double kSameArea = 1e-4;  // relative
-constexpr int kStations = 3;        // along u and v
+constexpr double kSameBox = 1e-3;  // of the face's diagonal: boxes are made of samples and tolerances
+constexpr int kStations = 3;       // along u and v
 
 /// Edges that bound the face: seams and slits, which it uses twice, and poles do not.
 std::vector<EdgeId> outline(const ModelTables& t, FaceId f) {

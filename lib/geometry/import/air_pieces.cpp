@@ -17,6 +17,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
+#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
@@ -26,7 +27,6 @@ constexpr int kGrid = 8;                 // samples of a face along u and along 
 constexpr double kInPlane = 1e-4;        // over the model's diagonal: edges have tolerances
 constexpr double kRounding = 1e-6;       // likewise: of places in a plane
 constexpr double kCell = 16;             // of the grid in which edges are looked for, over the rounding
-constexpr double kSameArea = 1e-3;       // of faces with the same edges: relative
 constexpr double kAlong = 0.999;         // cosine between normals in a plane
 constexpr double kLargePlane = 0.25;     // diagonal of the box of a face that may be a symmetry plane, over the model's
 constexpr double kStraight = 20;         // degrees
@@ -170,8 +170,8 @@ void AirPieces::find_first_faces() {
     std::sort(edges.begin(), edges.end());
     std::vector<FaceId>& same = by_edges[edges];
     const auto twin = std::find_if(same.begin(), same.end(), [&](FaceId g) {
-      return std::abs(t_.face_area[f] - t_.face_area[g]) <= kSameArea * t_.face_area[f] &&
-             distance(t_.face_box[f].center(), t_.face_box[g].center()) <= kSameArea * t_.face_box[f].diagonal();
+      return std::abs(t_.face_area[f] - t_.face_area[g]) <= kAboutSameArea * t_.face_area[f] &&
+             distance(t_.face_box[f].center(), t_.face_box[g].center()) <= kAboutSameArea * t_.face_box[f].diagonal();
     });
     first_face_.push_back(twin == same.end() ? f : *twin);
     if (twin == same.end()) same.push_back(f);

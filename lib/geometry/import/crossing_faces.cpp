@@ -17,6 +17,7 @@
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/model/cad_tolerance.h"
+#include "geometry/model/sameness.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/projection.h"
 #include "geometry/shape/surface_crossing.h"
@@ -24,7 +25,6 @@
 namespace st::occt {
 namespace {
 
-constexpr double kSamePlace = 1e-6;    // of the diagonal: the tolerance of places
 constexpr double kDeep = 10;           // times the tolerance: what counts as a crossing
 constexpr int kStations = 32;          // along an edge, every eighth of them first
 constexpr double kSideBySide = 0.7;    // cosine of the angle between walls that may come close

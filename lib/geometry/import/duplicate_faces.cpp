@@ -14,12 +14,10 @@
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/import.h"
+#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
-
-constexpr double kSamePlace = 1e-6;  // of the diagonal
-constexpr double kSameArea = 1e-4;   // relative
 
 struct Candidate {
   int id;

@@ -27,18 +27,18 @@
 #include "geometry/brep/wire_walk.h"
 #include "geometry/import/edge_spurs.h"
 #include "geometry/model/cad_tolerance.h"
+#include "geometry/model/sameness.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/projection.h"
 
 namespace st::occt {
 namespace {
 
-constexpr double kSmall = 0.25;      // of the neighbour's area: a larger face is no sliver
-constexpr double kOn = 3;            // tolerances: how far from its neighbour's surface it may be
-constexpr double kSamePlace = 1e-6;  // of the diagonal: the least of them
-constexpr double kSameArea = 0.5;    // of the sliver's area: how far the neighbour's may be from what should be left
-constexpr int kAcross = 12;          // samples of the sliver in u and in v,
-constexpr int kAlong = 24;           // and of each of its edges
+constexpr double kSmall = 0.25;    // of the neighbour's area: a larger face is no sliver
+constexpr double kOn = 3;          // tolerances: how far from its neighbour's surface it may be
+constexpr double kLeftArea = 0.5;  // of the sliver's area: how far the neighbour's may be from what should be left
+constexpr int kAcross = 12;        // samples of the sliver in u and in v,
+constexpr int kAlong = 24;         // and of each of its edges
 
 /// The edges of one wire that bound something, oriented for the neighbour taken forward.
 using Chain = std::vector<TopoDS_Edge>;
@@ -134,7 +134,7 @@ class SliverMerger {
         }
         if (!runs_clear(chain, slivers[0], on)) return std::nullopt;
         const double area = t_.face_area[neighbour] - t_.face_area[sliver];
-        const auto face = face_of(b, own, area, kSameArea * t_.face_area[sliver]);
+        const auto face = face_of(b, own, area, kLeftArea * t_.face_area[sliver]);
         if (!face) return std::nullopt;
         merge.faces.insert({neighbour, *face});
         return merge;

@@ -28,6 +28,7 @@
 #include "geometry/import/boolean_child.h"
 #include "geometry/import/edge_places.h"
 #include "geometry/import/face_probe.h"
+#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
@@ -36,7 +37,6 @@ constexpr int kStations = 9;                     // along an edge, and both ways
 constexpr double kRoom = 1.1;                    // times the largest distance measured: the fuzzy value
 constexpr double kFuzzy[] = {1e-7, 1e-6, 1e-5};  // of the diagonal, at least: one after the other, while faces are left
                                                  // that lie on others
-constexpr double kSameArea = 1e-4;               // relative, of faces
 constexpr double kCpuSeconds = 10;               // for dividing
 constexpr std::size_t kMostNamed = 3;            // faces on which one ends
 

@@ -20,6 +20,7 @@
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
@@ -27,7 +28,6 @@ namespace {
 constexpr int kSteps = 4;           // along each trimming curve: the same before and after
 constexpr double kSameInUv = 1e-3;  // of what the loops enclose
 constexpr double kRoom = 3;         // times what edges sweep: bends, and both sides of an edge
-constexpr double kSameArea = 1e-3;  // rounding, and what loops that are sampled leave open
 
 /// What the loops of a face enclose in (u,v), by a few points of each curve; edges in any order.
 double enclosed(const TopoDS_Face& shape) {
@@ -114,7 +114,7 @@ TopTools_IndexedMapOfShape changed_faces(const ImportedShape& before, const Impo
       const double was = enclosed(faces);
       if (std::abs(enclosed(now) - was) <= kSameInUv * std::abs(was)) continue;
       const Extent a = extent_of(faces), b = extent_of(now);
-      if (std::abs(a.area - b.area) <= kRoom * b.tolerance * a.perimeter + kSameArea * a.area) continue;
+      if (std::abs(a.area - b.area) <= kRoom * b.tolerance * a.perimeter + kAboutSameArea * a.area) continue;
       const Box3 box = rough_box(faces[0]);
       findings.push_back(
           {FindingKind::kUndoneRepair, "face " + std::to_string(before.faces.FindIndex(faces[0])), box.center(),

@@ -28,12 +28,12 @@
 #include "geometry/import/pcurve_repair.h"
 #include "geometry/import/placed_copy.h"
 #include "geometry/import/surface_kinks.h"
+#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
 
 constexpr double kBeyond = 0.01;      // of a face's range in (u,v): its trimming curves stay inside the new surfaces
-constexpr double kSameArea = 1e-4;    // of the area: integrals are exact to 1e-5
 constexpr double kSameLength = 1e-3;  // of a face's diagonal: free edges before and after
 
 using Kinks = std::map<int, SurfaceKinks>;  // by the number of the face

@@ -20,6 +20,7 @@
 #include "geometry/brep/shape_queries.h"
 #include "geometry/brep/wire_walk.h"
 #include "geometry/import/import.h"
+#include "geometry/model/sameness.h"
 #include "geometry/shape/projection.h"
 
 namespace st::occt {
@@ -27,8 +28,7 @@ namespace {
 
 constexpr int kSamples = 33;
 constexpr double kLost = 0.25;  // of the edge's length between edge and trimming curve: no matter of accuracy any more
-constexpr double kHarmless = 1e-6;  // of the model's diagonal
-constexpr double kRaised = 10;      // times what is needed: a tolerance that covers what is no more
+constexpr double kRaised = 10;  // times what is needed: a tolerance that covers what is no more
 constexpr double kAccurate = 1e-7;  // unit of the shape: OpenCASCADE's confusion
 
 /// A use of an edge by a loop.

@@ -21,13 +21,13 @@
 #include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/import.h"
+#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
 
 constexpr int kFewSamples = 17, kManySamples = 1025;  // to look, to judge
 constexpr double kExcess = 2.0;                       // of the tolerance: readers leave distances just above it
-constexpr double kHarmless = 1e-6;                    // of the diagonal: below it a distance matters to nobody
 constexpr double kWide = 1e-3;  // of the diagonal: what st-check accepts of nodes at most; more is no tolerance
 constexpr double kFar = 0.01;   // of the edge: a curve that moves by less leaves its face in shape
 

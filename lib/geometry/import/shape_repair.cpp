@@ -25,11 +25,10 @@
 #include "geometry/brep/shape_queries.h"
 #include "geometry/brep/wire_walk.h"
 #include "geometry/import/import.h"
+#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
-
-constexpr double kSameArea = 1e-3;  // of a sound face, before and after others were repaired
 
 /// Loops of a face that cannot be walked; 1 for a face without loops.
 int count_bad_wires(const TopoDS_Shape& face) {
@@ -62,7 +61,7 @@ bool is_worse(const ImportedShape& model, const TopoDS_Shape& repaired, const Fa
     double area = 0;
     for (TopExp_Explorer e(changed, TopAbs_FACE); e.More(); e.Next()) area += area_of(e.Current());
     const double before = area_of(model.faces(i));
-    if (std::abs(area - before) > kSameArea * before) return true;
+    if (std::abs(area - before) > kAboutSameArea * before) return true;
   }
   return false;
 }

@@ -27,14 +27,14 @@
 
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/model/sameness.h"
 #include "geometry/shape/projection.h"
 
 namespace st::occt {
 namespace {
 
-constexpr double kHarmless = 1e-6;  // of the diagonal
-constexpr double kWild = 0.05;      // of the edge's extent between its curves: no matter of accuracy any more
-constexpr double kAgree = 0.01;     // of that distance, between the trimming curves
+constexpr double kWild = 0.05;   // of the edge's extent between its curves: no matter of accuracy any more
+constexpr double kAgree = 0.01;  // of that distance, between the trimming curves
 constexpr double kFractions[] = {0.31, 0.69};
 constexpr int kFewest = 17, kMost = 1025;  // points of a new curve
 

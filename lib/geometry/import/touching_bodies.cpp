@@ -29,14 +29,13 @@
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/boolean_child.h"
 #include "geometry/import/face_probe.h"
+#include "geometry/model/sameness.h"
 #include "geometry/shape/projection.h"
 
 namespace st::occt {
 namespace {
 
-constexpr double kSamePlace = 1e-6;   // of the diagonal
 constexpr double kSameCurve = 1e-3;   // of an edge's length: where another one has its ends, middle and length
-constexpr double kSameArea = 1e-4;    // relative, of faces
 constexpr double kSameVolume = 1e-5;  // relative, of all solids
 constexpr double kCpuSeconds = 60;    // for one attempt
 constexpr int kAttempts = 3;
