@@ -102,18 +102,6 @@ Expansion<4 * N> multiply(const Expansion<N>& e, const Expansion<2>& f) {
   return add(low, f.n == 2 ? scale(e, f.term[1]) : Expansion<2 * N>{});
 }
 
-/// e * f for two long expansions.
-template <int N, int M>
-Expansion<2 * N * M> multiply_long(const Expansion<N>& e, const Expansion<M>& f) {
-  Expansion<2 * N * M> sum;
-  for (int j = 0; j < f.n; ++j) {
-    const auto longer = add(sum, scale(e, f.term[j]));
-    for (int i = 0; i < longer.n; ++i) sum.term[i] = longer.term[i];
-    sum.n = longer.n;
-  }
-  return sum;
-}
-
 using Difference = Expansion<2>;
 
 /// a * d - b * c.
@@ -136,17 +124,6 @@ double orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
   const auto first = multiply(det2(rx, ry, qx, qy), pz);
   const auto second = multiply(det2(px, py, rx, ry), qz);
   const auto third = multiply(det2(qx, qy, px, py), rz);
-  return add(add(first, second), third).estimate();
-}
-
-double incircle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const Difference px = difference(a.x, d.x), py = difference(a.y, d.y), qx = difference(b.x, d.x),
-                   qy = difference(b.y, d.y);
-  const Difference rx = difference(c.x, d.x), ry = difference(c.y, d.y);
-  const auto square = [](const Difference& x, const Difference& y) { return add(multiply(x, x), multiply(y, y)); };
-  const auto first = multiply_long(det2(qx, qy, rx, ry), square(px, py));
-  const auto second = multiply_long(det2(rx, ry, px, py), square(qx, qy));
-  const auto third = multiply_long(det2(px, py, qx, qy), square(rx, ry));
   return add(add(first, second), third).estimate();
 }
 

@@ -3,8 +3,7 @@
 // Robust Geometric Predicates, 1997).
 //
 // Range: exact as long as no product of coordinate differences overflows or underflows: differences that are zero or
-// between 1e-70 and 1e+70 in absolute value (incircle: 1e-50 to 1e+50). Coordinates must be finite. Compile with
-// -ffp-contract=off.
+// between 1e-70 and 1e+70 in absolute value. Coordinates must be finite. Compile with -ffp-contract=off.
 #pragma once
 
 #include <cmath>
@@ -18,10 +17,8 @@ namespace detail {
 inline constexpr double kHalfUlp = std::numeric_limits<double>::epsilon() / 2;
 inline constexpr double kOrient2dBound = (3 + 16 * kHalfUlp) * kHalfUlp;
 inline constexpr double kOrient3dBound = (7 + 56 * kHalfUlp) * kHalfUlp;
-inline constexpr double kIncircleBound = (10 + 96 * kHalfUlp) * kHalfUlp;
 double orient2d_exact(Vec2 a, Vec2 b, Vec2 c);
 double orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
-double incircle_exact(Vec2 a, Vec2 b, Vec2 c, Vec2 d);
 }  // namespace detail
 
 /// Twice the signed area of the triangle (a, b, c): positive when counter-clockwise, zero exactly when collinear. The
@@ -46,20 +43,6 @@ inline double orient3d(Vec3 a, Vec3 b, Vec3 c, Vec3 d) {
                            (std::fabs(pxqy) + std::fabs(qxpy)) * std::fabs(r.z);
   const double bound = detail::kOrient3dBound * permanent;
   return det >= bound || -det >= bound ? det : detail::orient3d_exact(a, b, c, d);
-}
-
-/// Positive when d lies inside the circle through a, b, c (counter-clockwise), negative outside, zero exactly when
-/// cocircular; the opposite for a clockwise triangle. The sign is exact.
-inline double incircle(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
-  const Vec2 p = a - d, q = b - d, r = c - d;
-  const double qxry = q.x * r.y, rxqy = r.x * q.y, rxpy = r.x * p.y, pxry = p.x * r.y, pxqy = p.x * q.y,
-               qxpy = q.x * p.y;
-  const double p2 = p.x * p.x + p.y * p.y, q2 = q.x * q.x + q.y * q.y, r2 = r.x * r.x + r.y * r.y;
-  const double det = p2 * (qxry - rxqy) + q2 * (rxpy - pxry) + r2 * (pxqy - qxpy);
-  const double permanent = (std::fabs(qxry) + std::fabs(rxqy)) * p2 + (std::fabs(rxpy) + std::fabs(pxry)) * q2 +
-                           (std::fabs(pxqy) + std::fabs(qxpy)) * r2;
-  const double bound = detail::kIncircleBound * permanent;
-  return det >= bound || -det >= bound ? det : detail::incircle_exact(a, b, c, d);
 }
 
 }  // namespace st

@@ -254,17 +254,6 @@ SubModel extract(const Model& model, std::span<const FaceId> wanted) {
   return {Model(std::move(out), occt::brep_bytes(part)), std::move(faces), std::move(edges), std::move(vertices)};
 }
 
-SubModel remove_faces(const Model& model, std::span<const FaceId> faces) {
-  const ModelTables& t = model.tables();
-  std::vector<char> stays(t.n_faces(), 1);
-  if (!faces.empty())
-    for (const FaceId f : checked(t, faces)) stays[f] = 0;
-  std::vector<FaceId> rest;
-  for (FaceId f = 0; f < t.n_faces(); ++f)
-    if (stays[f]) rest.push_back(f);
-  return extract(model, rest);
-}
-
 Model transform(const Model& model, const Similarity& motion) {
   const ModelTables& t = model.tables();
   const gp_Trsf trsf = trsf_of(motion);

@@ -23,9 +23,6 @@ struct SubModel {
 /// Throws Error(kUsage) for an unknown face, one named twice, or none.
 SubModel extract(const Model& model, std::span<const FaceId> faces);
 
-/// All faces but those named. Throws Error(kUsage) for an unknown face, and when none would stay.
-SubModel remove_faces(const Model& model, std::span<const FaceId> faces);
-
 /// The model moved; ids, names and groups stay, normals point out of the solids as before. Throws Error(kGeometry).
 Model transform(const Model& model, const Similarity& motion);
 

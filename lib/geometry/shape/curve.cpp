@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "base/assert.h"
-#include "geometry/shape/samples.h"
 
 namespace st {
 
@@ -26,21 +25,6 @@ double arc_length(const Curve& curve, double t0, double t1, int n_intervals) {
 double curvature(const CurvePoint& p) {
   const double speed = norm(p.d1);
   return speed > 0 ? norm(cross(p.d1, p.d2)) / (speed * speed * speed) : 0.0;
-}
-
-Box3 bounding_box(const Curve& curve) {
-  const std::vector<double> t =
-      sample_parameters(curve.t_min(), curve.t_max(), curve.knots(), kBoxSamples, kBoxSamplesPerPiece);
-  Box3 box;
-  for (std::size_t i = 0; i < t.size(); ++i) {
-    const CurvePoint p = curve.evaluate(t[i]);
-    const double h = i + 1 < t.size() ? t[i + 1] - t[i] : t[i] - t[i - 1];
-    // Taylor's remainder over half an interval; twice, as the second derivative varies inside it
-    const Vec3 reach = (h * h / 4) * Vec3{std::abs(p.d2.x), std::abs(p.d2.y), std::abs(p.d2.z)};
-    box.add(p.x - reach);
-    box.add(p.x + reach);
-  }
-  return box;
 }
 
 }  // namespace st

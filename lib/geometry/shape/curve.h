@@ -48,7 +48,4 @@ double arc_length(const Curve& curve, double t0, double t1, int n_intervals = 16
 /// Curvature (1/model unit, never negative); zero where the first derivative vanishes.
 double curvature(const CurvePoint& p);
 
-/// Box of the curve over its bounds. Samples through the knots, enlarged by what second derivatives allow between them.
-Box3 bounding_box(const Curve& curve);
-
 }  // namespace st

@@ -74,28 +74,6 @@ std::optional<Vec2> tangent_step(Vec3 du, Vec3 dv, Vec3 d, double singular) {
   return step ? std::optional(to_vec2(*step)) : std::nullopt;
 }
 
-Box3 bounding_box(const Surface& surface) {
-  const std::vector<double> u =
-      sample_parameters(surface.u_min(), surface.u_max(), surface.u_knots(), kBoxSamples, kBoxSamplesPerPiece);
-  const std::vector<double> v =
-      sample_parameters(surface.v_min(), surface.v_max(), surface.v_knots(), kBoxSamples, kBoxSamplesPerPiece);
-  Box3 box;
-  for (std::size_t i = 0; i < u.size(); ++i)
-    for (std::size_t j = 0; j < v.size(); ++j) {
-      const SurfacePoint2 p = surface.evaluate2({u[i], v[j]});
-      const double hu = u[std::min(i + 1, u.size() - 1)] - u[i], hv = v[std::min(j + 1, v.size() - 1)] - v[j];
-      // Taylor's remainder over half a cell; twice, as second derivatives vary inside it
-      const auto reach = [&](double uu, double uv, double vv) {
-        return (std::abs(uu) * hu * hu + 2 * std::abs(uv) * hu * hv + std::abs(vv) * hv * hv) / 4;
-      };
-      const Vec3 r{reach(p.duu.x, p.duv.x, p.dvv.x), reach(p.duu.y, p.duv.y, p.dvv.y),
-                   reach(p.duu.z, p.duv.z, p.dvv.z)};
-      box.add(p.x - r);
-      box.add(p.x + r);
-    }
-  return box;
-}
-
 std::vector<SingularSide> singular_sides(const Surface& surface, double tolerance) {
   std::vector<SingularSide> singular;
   for (int side = 0; side < 4; ++side) {

@@ -95,10 +95,6 @@ Vec3 flattest_direction(const SurfacePoint2& p, const Curvature& c);
 /// of the angle between du and dv is not above `singular`, or one of them is zero.
 std::optional<Vec2> tangent_step(Vec3 du, Vec3 dv, Vec3 d, double singular = 0);
 
-/// Box of the surface over its bounds. Samples on a grid through the knots, enlarged by what second derivatives allow
-/// between them.
-Box3 bounding_box(const Surface& surface);
-
 /// A side of the bounds that is a point in space: a pole, an apex, a collapsed side.
 struct SingularSide {
   int side;  ///< 0: u_min, 1: u_max, 2: v_min, 3: v_max

@@ -47,23 +47,6 @@ TEST(CurveCurvature, of_a_circle_is_one_over_r) {
   EXPECT_EQ(curvature(CurvePoint{}), 0);
 }
 
-TEST(CurveBox, holds_the_curve_and_little_more) {
-  for (const char* shape : {"wave", "rational_wave", "kinked", "revolution", "drilled_cylinder", "torus"}) {
-    const Model model = test::make_model(shape);
-    for (EdgeId e = 0; e < model.tables().n_edges(); ++e) {
-      if (model.tables().edge_is_degenerate[e]) continue;
-      const auto c = model.curve(e);
-      const Box3 box = bounding_box(*c);
-      Box3 samples;
-      for (int i = 0; i <= 997; ++i) samples.add(c->point(c->t_min() + (c->t_max() - c->t_min()) * i / 997));
-      Box3 both = box;
-      both.add(samples);
-      EXPECT_LE(both.diagonal() - box.diagonal(), 1e-12 * box.diagonal()) << shape;
-      EXPECT_LE(box.diagonal(), 1.1 * samples.diagonal()) << shape;
-    }
-  }
-}
-
 TEST(CurvePeriod, brings_back_the_same_point) {
   const EllipseCurve e(kFrame, 4, 2, 1, 2);
   EXPECT_LE(distance(e.point(1.3), e.point(1.3 + e.period())), 1e-14);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
@@ -125,9 +126,9 @@ TEST(Extract, refuses_faces_that_are_not_there_or_named_twice) {
   EXPECT_ERROR(extract(box, {}), kUsage, "no face");
 }
 
-TEST(RemoveFaces, leaves_the_others_and_opens_the_shell) {
+TEST(Extract, of_some_faces_opens_the_shell) {
   const Model box = test::make_model("box");
-  const SubModel open = remove_faces(box, std::vector<FaceId>{2, 0});
+  const SubModel open = extract(box, std::vector<FaceId>{1, 3, 4, 5});
   EXPECT_EQ(open.faces, (std::vector<FaceId>{1, 3, 4, 5}));
   expect_consistent(open.model);
   std::vector<std::int32_t> offsets;
@@ -137,8 +138,6 @@ TEST(RemoveFaces, leaves_the_others_and_opens_the_shell) {
   for (EdgeId e = 0; e < open.model.tables().n_edges(); ++e) n_free += offsets[e + 1] - offsets[e] == 1;
   EXPECT_GE(n_free, 6);
   EXPECT_FALSE(open.model.tables().volume);
-  EXPECT_EQ(remove_faces(box, {}).model.tables().n_faces(), 6);
-  EXPECT_ERROR(remove_faces(open.model, std::vector<FaceId>{0, 1, 2, 3}), kUsage, "no face");
 }
 
 Similarity turned(double scale, bool is_mirrored) {
@@ -253,7 +252,9 @@ TEST(Append, of_a_model_to_itself_or_to_its_image_doubles_it) {
 
 TEST(Append, takes_back_what_was_extracted) {
   const Model whole = test::make_model("drilled_cylinder");
-  const SubModel first = extract(whole, std::vector<FaceId>{0}), rest = remove_faces(whole, std::vector<FaceId>{0});
+  std::vector<FaceId> others(whole.tables().n_faces() - 1);
+  std::iota(others.begin(), others.end(), 1);
+  const SubModel first = extract(whole, std::vector<FaceId>{0}), rest = extract(whole, others);
   const Model again = append(first.model, rest.model);
   expect_consistent(again);
   for (FaceId f = 0; f < whole.tables().n_faces(); ++f) expect_same_face(again, f, whole, f);

@@ -143,29 +143,6 @@ const char* const kManyShapes[] = {"square",         "sphere",        "cylinder"
                                    "revolution",     "extrusion",     "offset",          "bezier", "closed_tube",
                                    "rational_torus", "tube_window",   "high_degree_wave"};
 
-TEST(BoundingBox, holds_the_surface_and_little_more) {
-  for (const char* shape : kManyShapes) {
-    const auto model = test::make_model(shape);
-    const auto s = model.surface(0);
-    const Box3 box = bounding_box(*s);
-    Box3 samples;
-    for (int i = 0; i <= 97; ++i)
-      for (int j = 0; j <= 97; ++j)
-        samples.add(s->point(
-            {s->u_min() + (s->u_max() - s->u_min()) * i / 97, s->v_min() + (s->v_max() - s->v_min()) * j / 97}));
-    Box3 both = box;
-    both.add(samples);
-    EXPECT_LE(both.diagonal() - box.diagonal(), 1e-12 * box.diagonal()) << shape;
-    EXPECT_LE(box.diagonal(), 1.15 * samples.diagonal()) << shape;
-  }
-}
-
-TEST(BoundingBox, of_a_plane_is_exact) {
-  const Box3 box = bounding_box(PlaneSurface(kFrame, -1, 2, 0, 4));
-  EXPECT_TRUE(box.lo == (Vec3{0, 2, 3}));
-  EXPECT_TRUE(box.hi == (Vec3{3, 6, 3}));
-}
-
 TEST(SingularSides, are_the_poles_of_a_sphere_and_the_apex_of_a_cone) {
   const AxialSurface sphere(SurfaceType::kSphere, kFrame, 5, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
   const auto poles = singular_sides(sphere, 1e-9);
