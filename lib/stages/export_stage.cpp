@@ -280,6 +280,8 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
 
 }  // namespace
 
+std::string mesh_suffixes() { return export_suffixes() + " .vtm .sol"; }
+
 StageSummary run_export(const ExportStageOptions& o) {
   const Timer timer;
   parse_length(o.tolerance, "--tolerance");

@@ -31,4 +31,7 @@ struct ExportStageOptions {
 /// Error(kUsage) for what the format cannot hold, Error(kInput), Error(kMismatch), Error(kOutput).
 StageSummary run_export(const ExportStageOptions& options);
 
+/// Suffixes of meshes.
+std::string mesh_suffixes();
+
 }  // namespace st

@@ -4,11 +4,9 @@
 
 int main(int argc, char** argv) {
   st::ExportStageOptions o;
-  st::ToolMain tool(
-      "st-export",
-      "Converts a mesh, sizes or a geometry for other programs. Mesh: .cgns .su2 .ugrid .msh .msh2 .mesh .meshb .bdf "
-      ".stl .obj .ply .vtu .vtm .off .smesh .poly .fro .eMesh .sol. Sizes: .vtu .pos .bac. Geometry: .vtu, FLITE "
-      ".dat. ParaView shows .vtu and .vtm.");
+  st::ToolMain tool("st-export",
+                    "Converts a mesh, sizes or a geometry for other programs. Mesh: " + st::mesh_suffixes() +
+                        ". Sizes: .vtu .pos .bac. Geometry: .vtu, .html, FLITE .dat. ParaView shows .vtu and .vtm.");
   tool.input("artifact", o.artifact, "mesh, raster, sizing, failures or geometry artifact");
   tool.output(o.output, "file to write; its suffix selects the format");
   tool.text("--format", o.format, "SUFFIX", "format of a mesh, whatever the suffix of the file: msh2, ascii.stl ...");

@@ -154,6 +154,13 @@ std::string stem_of(const std::string& path) {
 
 }  // namespace
 
+std::string export_suffixes() {
+  std::string list;
+  for (const Format& f : kFormats)
+    if (std::strrchr(f.suffix, '.') == f.suffix) list.append(list.empty() ? "" : " ").append(f.suffix);
+  return list;
+}
+
 std::string clean_name(std::string name, bool is_word) {
   for (char& c : name) {
     const auto byte = static_cast<unsigned char>(c);

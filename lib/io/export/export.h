@@ -43,11 +43,12 @@ struct ExportMesh {
 /// Throws Error(kUsage) unless a format is known that has all that is wanted: encoding, quadrilaterals, second order.
 void require_export_format(const std::string& path, const ExportOptions& options);
 
-/// Exports by suffix: .stl, .ascii.stl (one solid per group), .vtu, .obj, .ply, .msh (Gmsh 4.1), .msh2 (Gmsh 2.2),
-/// .fro, .ugrid, .lb8.ugrid and .b8.ugrid (with .mapbc beside), .su2, .bdf, .nas, .mesh, .meshb, .off, .smesh, .poly,
-/// .cgns, .eMesh. Names of faces, groups and parts go into all that can hold them (docs/st-export.md). Elements are in
-/// the order triangles, quadrilaterals (.msh, .cgns, .obj: in blocks). Returns what the format has no room for, for a
-/// message: "names of groups (3)"; empty when nothing is lost. Throws Error(kUsage) as above, Error(kOutput).
+/// The suffixes of all formats, without those that say the encoding or are another one's: ".stl .vtu".
+std::string export_suffixes();
+
+/// Exports by suffix (docs/st-export.md). Names of faces, groups and parts go into all that can hold them. Elements are
+/// in the order triangles, quadrilaterals (.msh, .cgns, .obj: in blocks). Returns what the format has no room for, for
+/// a message: "names of groups (3)"; empty when nothing is lost. Throws Error(kUsage) as above, Error(kOutput).
 std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& mesh, const ExportOptions& options);
 std::vector<std::string> export_mesh(const std::string& path, const SurfaceMesh& mesh);
 
