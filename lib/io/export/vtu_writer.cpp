@@ -1,25 +1,11 @@
 #include "io/export/vtu_writer.h"
 
-#include <algorithm>
 #include <map>
+#include <span>
+
+#include "base/base64.h"
 
 namespace st {
-namespace {
-
-/// Bytes in base64, padded.
-std::string base64(const unsigned char* data, std::size_t n) {
-  static const char* digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text((n + 2) / 3 * 4, '=');
-  char* out = text.data();
-  for (std::size_t i = 0; i < n; i += 3, out += 4) {
-    const std::size_t left = std::min<std::size_t>(3, n - i);
-    const std::uint32_t bits = data[i] << 16 | (left > 1 ? data[i + 1] << 8 : 0) | (left > 2 ? data[i + 2] : 0);
-    for (std::size_t k = 0; k <= left; ++k) out[k] = digits[bits >> (18 - 6 * k) & 63];
-  }
-  return text;
-}
-
-}  // namespace
 
 std::string xml_escaped(const std::string& text) {
   std::string out;
@@ -43,7 +29,7 @@ void write_vtu_bytes(Output& out, const char* type, const std::string& name, int
   out.text(std::string("<DataArray type=\"") + type + "\" Name=\"" + xml_escaped(name) +
            (n_components > 1 ? "\" NumberOfComponents=\"" + std::to_string(n_components) : "") +
            "\" NumberOfTuples=\"" + std::to_string(n_tuples) + "\" format=\"binary\">");
-  out.text(base64(reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+  out.text(base64(std::as_bytes(std::span(bytes))));
   out.text("</DataArray>\n");
 }
 

@@ -202,7 +202,7 @@ class BoundaryMaker {
       const auto &a = nodes[first + i], &b = nodes[first + (i + 1) % n], &p = nodes[first + (i + n - 1) % n];
       const double next = distance(a.x, b.x), previous = distance(a.x, p.x);
       const double mean = next > 0 && previous > 0 ? 0.5 * (next + previous) : std::max(next, previous);
-      if (mean > 0 && mean < 0.6 * a.h) nodes[first + i].h = 1.25 * mean;
+      if (mean > 0 && mean < kShortSides * a.h) nodes[first + i].h = kGrowFrom * mean;
     }
   }
 

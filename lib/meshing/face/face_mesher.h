@@ -19,6 +19,11 @@ namespace st {
 /// Neighbours the cosine between whose normals is less are folded onto each other.
 inline constexpr double kFoldedCosine = -0.8;
 
+/// Of the requested length: where the sides around a boundary node are shorter on the mean, the mesh grows from them.
+inline constexpr double kShortSides = 0.6;
+/// Times the length of such sides: what the node asks for.
+inline constexpr double kGrowFrom = 1.25;
+
 /// Places to refine that a face tells of, at most.
 inline constexpr std::size_t kMostRefined = 64;
 

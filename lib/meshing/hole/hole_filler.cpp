@@ -11,10 +11,6 @@
 namespace st {
 namespace {
 
-constexpr double kShortSides = 0.6;  // of the requested length: where the sides around a node are shorter the mesh
-                                     // grows from them
-constexpr double kGrowFrom = 1.25;   // times their length
-
 /// A marked segment as one triangle of the hole uses it.
 struct ChainLink {
   CoedgeId coedge;
