@@ -40,7 +40,7 @@ struct NamedTasks {
   /// Where compute() leaves a part of the result on its rank. Local, on the thread of the task: all of it, for a later
   /// run.
   std::function<Bytes(std::int32_t task, const Bytes& result)> record = {};
-  /// Likewise. Local, on rank 0: takes what record() returned in an earlier run, and returns what compute() did.
+  /// The way back. Local, on rank 0: takes what record() returned in an earlier run, and returns what compute() did.
   std::function<Bytes(std::int32_t task, Bytes&& whole)> restore = {};
   /// Local, one call at a time, while tasks run: what a task of another rank has asked for by Executor::ask.
   std::function<Bytes(const Bytes& request)> answer = {};

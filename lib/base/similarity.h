@@ -21,7 +21,7 @@ struct Similarity {
   Vec3 operator()(Vec3 x) const { return scale * rotated(x) + translation; }
   /// This one first, then `next`.
   Similarity then(const Similarity& next) const;
-  /// Likewise this one, of which `point` is the origin.
+  /// Moves this one in the same way, of which `point` is the origin.
   Similarity about(Vec3 point) const;
   Similarity inverse() const;
   bool is_mirrored() const { return dot(rotation[0], cross(rotation[1], rotation[2])) < 0; }

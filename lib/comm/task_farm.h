@@ -44,7 +44,7 @@ void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const
 /// Every other rank's side: returns when rank 0 says that there is no more.
 void work_on_tasks(const Compute& compute, const Answer& answer);
 
-/// Within `compute`: the answers of these ranks, in order. Waits.
+/// Gives within `compute` the answers of these ranks, in order. Waits.
 std::vector<Bytes> ask_ranks(const std::vector<Request>& requests);
 
 }  // namespace st

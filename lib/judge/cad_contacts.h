@@ -20,7 +20,7 @@ class CadContacts {
   /// The two faces touch (not: cross) within the longest side of both triangles, away from what they share. Of the
   /// pairs of faces after the first kMaxFacePairs it says no.
   bool touches(const TrianglePair& pair);
-  /// Likewise, but the faces cross.
+  /// The same, but the faces cross.
   bool crosses(const TrianglePair& pair);
 
  private:

@@ -18,7 +18,7 @@ struct NearParts {
   bool is_done() const { return n_compared == faces.size() || n_found == kMaxCrossings; }
 };
 
-/// By the numbers of the parts.
+/// Pairs come by the numbers of the parts.
 using AllNearParts = std::map<std::pair<std::int32_t, std::int32_t>, NearParts>;
 
 AllNearParts near_parts(const ModelTables& t, const FaceParts& parts) {

@@ -59,7 +59,7 @@ EdgeTable::EdgeTable(std::span<const Triangle> triangles, std::int64_t n_nodes) 
                [&](std::size_t begin, std::size_t end) { sort_buckets(begin, end); });
 }
 
-/// Of the lower nodes in [first, last).
+/// Sorts the sides of the lower nodes in [first, last).
 void EdgeTable::sort_buckets(std::size_t first, std::size_t last) {
   std::vector<std::pair<NodeId, SideId>> bucket;
   for (std::size_t low = first; low < last; ++low) {

@@ -12,9 +12,9 @@ namespace st {
 /// Corner k of triangle t is corner 3*t + k. The patch is valid: has_all_uv().
 Vec2 corner_uv(const FacePatch& patch, std::size_t corner);
 
-/// Of the corners of triangles [begin, end).
+/// The (u,v) of the corners of triangles [begin, end).
 std::vector<Vec2> corner_uvs(const FacePatch& patch, std::size_t begin, std::size_t end);
-/// Of all corners, [3*n_triangles].
+/// The (u,v) of all corners, [3*n_triangles].
 inline std::vector<Vec2> corner_uvs(const FacePatch& patch) { return corner_uvs(patch, 0, patch.triangles.size()); }
 
 /// The inverse: uv_corner and own_uv, from `all` [3*n_triangles] and from the nodes inside.

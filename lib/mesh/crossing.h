@@ -22,8 +22,8 @@ struct TrianglePair {
 /// whatever the rounding; the order of the input does not matter for what is found. `points` finite. About n log n; a
 /// million triangles of a clean mesh take a second or two.
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
-/// Likewise. Where triangles lie in each other without end the search is ended (most_comparisons()): then `was_ended`
-/// is set, and these are not all pairs.
+/// The same, but where triangles lie in each other without end the search is ended (most_comparisons()). `was_ended` is
+/// set then, and these are not all pairs.
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                                   bool& was_ended);
 

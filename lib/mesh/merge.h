@@ -18,7 +18,7 @@ inline std::int32_t boundary_id(VertexId n_vertices, const EdgeMesh& edges, Edge
   return n_vertices + edges.first_node(e) + index;
 }
 
-/// Likewise of a boundary node of a patch.
+/// The same number of a boundary node of a patch.
 std::int32_t boundary_id_of(VertexId n_vertices, const EdgeMesh& edges, const FacePatch& p, std::int32_t boundary_node);
 
 /// Patches joined by the ids of their nodes: places and corners, and where they come from.

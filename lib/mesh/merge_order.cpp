@@ -61,7 +61,7 @@ class PatchNodes {
     const std::size_t id = id_[n], n_vertices = in_.vertex_xyz.size();
     return id < n_vertices ? in_.vertex_xyz[id] : in_.edges.node_xyz[id - n_vertices];
   }
-  /// Of boundary nodes with one id the first, for each node.
+  /// Tells for each node which of the boundary nodes with its id comes first.
   std::vector<NodeId> firsts() const {
     std::vector<NodeId> order(id_.size()), first(id_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -80,7 +80,7 @@ class PatchNodes {
   std::vector<std::int32_t> id_;
 };
 
-/// Of the edges whose lower node is in [begin, end).
+/// Counts the edges whose lower node is in [begin, end).
 InnerEdges count_window(const FacePatch& p, NodeId begin, NodeId end) {
   const auto for_each_side = [&](const auto& visit) {
     for (const Triangle& t : p.triangles)

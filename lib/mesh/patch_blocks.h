@@ -30,9 +30,9 @@ class PatchBlocks {
   static constexpr std::int32_t kTriangles = 64;  ///< of a block; the last has the rest
 
   PatchBlocks() = default;
-  /// Linear.
+  /// The cost is linear.
   PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p);
-  /// Of some blocks alone.
+  /// Some blocks alone, without their triangles.
   explicit PatchBlocks(std::vector<Box3> boxes);
 
   std::int32_t size() const { return levels_.empty() ? 0 : static_cast<std::int32_t>(levels_[0].size()); }
@@ -42,7 +42,7 @@ class PatchBlocks {
     const auto begin = static_cast<std::size_t>(block) * kTriangles;
     return std::span(order_).subspan(begin, std::min<std::size_t>(kTriangles, order_.size() - begin));
   }
-  /// Of all; empty where there are no triangles.
+  /// The box of all; empty where there are no triangles.
   Box3 box() const { return levels_.empty() ? Box3() : levels_.back()[0]; }
   struct Meeting {
     std::int32_t block;

@@ -24,7 +24,7 @@ std::string host_name() {
   return name;
 }
 
-/// Bytes.
+/// What a cell takes, bytes.
 struct HostMemory {
   double of_rank = 0;  ///< least share of a rank in the memory of its host
   double of_host = 0;  ///< least memory of a host

@@ -49,7 +49,7 @@ struct Findings {
   std::vector<Check> checks;
 
   bool passes() const;
-  /// Of the check of this name; 0 where it was not made.
+  /// The count of the check of this name; 0 where it was not made.
   std::int64_t count(const std::string& check) const;
 };
 

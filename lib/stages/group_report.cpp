@@ -133,7 +133,7 @@ std::string row(const std::string& name, const Json& entities, const std::string
   return fmt::format("  \"{}\"{}: {} {}{}{}\n", name, more, ids.size(), kind, ids.empty() ? "" : ": ", ranges(ids));
 }
 
-/// Of faces, edges or vertices.
+/// Lists groups of faces, edges or vertices.
 std::string group_row(const Json& g) {
   const char* const kind = g.contains("edges") ? "edges" : g.contains("vertices") ? "vertices" : "faces";
   const std::string role = g.contains("role") ? ", " + g["role"].get<std::string>() : "",

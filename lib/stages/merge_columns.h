@@ -18,7 +18,7 @@ struct PatchInFile {
   FaceId face() const { return file->face(patch); }
 };
 
-/// By face. Throws Error(kMismatch) for a face that is in two files.
+/// The patches of all files, by face. Throws Error(kMismatch) for a face that is in two files.
 std::vector<PatchInFile> patches_of(const std::vector<std::unique_ptr<PatchesFile>>& files);
 
 PatchSource source_of(const std::vector<PatchInFile>& patches);

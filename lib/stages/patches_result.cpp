@@ -81,7 +81,7 @@ ArtifactHeader complete(ArtifactHeader header, const ArtifactHeader& geometry) {
   return header;
 }
 
-/// Of all faces that have triangles.
+/// The patches of all faces that have triangles.
 std::vector<PatchCounts> counts_of(const MeshResult& r) {
   std::vector<PatchCounts> counts;
   for (const FacePatch& p : r.patches)

@@ -88,7 +88,7 @@ Json octree_options(const ProlongStageOptions& o) {
   return json;
 }
 
-/// Likewise those of a finished field.
+/// Replaces those of a finished field in the same way.
 Json octree_options(const std::string& options_json) {
   Json json = Json::parse(options_json);
   for (const char* key : {"scale", "transform", "target_triangles"}) json.erase(key);

@@ -341,7 +341,7 @@ HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in)
   return mark;
 }
 
-/// Of --sizes-on-nodes.
+/// The lengths of --sizes-on-nodes.
 std::string nodes_file(const RemeshStageOptions& o) { return o.sizes_on_nodes.substr(0, o.sizes_on_nodes.rfind(':')); }
 
 /// --made-for and the sizes on nodes: files without a hash of their own.

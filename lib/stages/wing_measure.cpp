@@ -106,7 +106,7 @@ class WingMesh {
     cut(skin_, s, normal, [&](double own, double, double) { cells += own; });
     return 0.5 * cells;
   }
-  /// Likewise across the base, and how wide it is.
+  /// Does the same across the base, and tells how wide it is.
   std::pair<double, double> base_cells(const WingRecord::Station& s, Vec3 normal) const {
     double cells = 0, width = 0;
     cut(base_, s, normal, [&](double own, double extent, double) {

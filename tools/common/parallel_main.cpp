@@ -49,7 +49,7 @@ bool is_defect_or_kill(ExitCode code) {
          signal == SIGKILL;
 }
 
-/// Likewise, of ranks that ended themselves: a late face, or no memory.
+/// Tells the same of ranks that ended themselves: a late face, or no memory.
 bool is_defect_or_memory(int code) {
   return code == static_cast<int>(ExitCode::kInternal) || code == static_cast<int>(ExitCode::kMemory);
 }

@@ -69,7 +69,7 @@ class AirPieces {
 
   /// On an edge: both ends and three places between.
   std::vector<Vec3> points_of(EdgeId e) const;
-  /// Of all edges of faces.
+  /// The same for all edges of faces.
   std::vector<Vec3> edge_points(std::span<const FaceId> faces) const;
 
  private:

@@ -148,7 +148,7 @@ class JoinSearch {
           found_.push_back({use.edge, faces_(use.face + 1), 0});
   }
 
-  /// Of faces that hang together without a free edge.
+  /// The contradictions among faces that hang together without a free edge.
   std::vector<std::size_t> contradictions(const std::vector<std::size_t>& order) {
     DisjointSets sides(2 * std::int64_t{faces_.Extent()});
     std::vector<std::size_t> result;

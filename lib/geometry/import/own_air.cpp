@@ -62,7 +62,7 @@ struct Axis {
 
 Vec3 vec(const gp_Dir& d) { return {d.X(), d.Y(), d.Z()}; }
 
-/// Of a face of revolution.
+/// The axis of a face of revolution.
 std::optional<Axis> axis_of(const TopoDS_Face& face) {
   const BRepAdaptor_Surface surface(face, false);
   const auto of = [](const gp_Ax1& a) { return Axis{occt::vec(a.Location()), vec(a.Direction())}; };

@@ -261,7 +261,7 @@ ImportFinding sewn_finding(FindingKind kind, const Sewn& before, const Sewn& aft
   return {kind, "", {}, tolerance, true, numbers};
 }
 
-/// Likewise; tolerances beyond reason are set back.
+/// Takes over what was sewn; tolerances beyond reason are set back.
 void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::vector<ImportFinding>& findings) {
   take_over(model, sewn);
   const double tolerance = std::max(sewn.tolerance, sewn.group_tolerance);

@@ -11,7 +11,7 @@ enum class TextEncoding { kUtf8, kShiftJis, kWindows1252 };
 /// Encoding of a whole file from its bytes beyond ASCII: UTF-8 where all of it is valid UTF-8 (ASCII is); else
 /// Shift-JIS where all of it can be that and a character of two such bytes, or two characters in a row, begin with a
 /// byte that Western European text has no letter for; else Windows-1252, of which Latin-1 is the part that has letters.
-/// Linear.
+/// The cost is linear.
 TextEncoding detect_encoding(std::string_view bytes);
 
 /// detect_encoding() of a file; UTF-8 when it cannot be read.

@@ -31,7 +31,7 @@ struct Facets {
 /// empty elsewhere; some faces are a task. Faces that it cannot do are left out. Cost: some microseconds per facet.
 Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                    const Executor& executor = SerialExecutor());
-/// Likewise, adds them to those of other faces.
+/// Makes them in the same way, and adds them to those of other faces.
 void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                 const Executor& executor, Facets& facets);
 

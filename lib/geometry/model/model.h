@@ -64,7 +64,7 @@ struct ModelTables {
   std::int32_t n_coedges() const { return static_cast<std::int32_t>(coedge_edge.size()); }
   IdRange loops(FaceId f) const { return {face_loop_offsets[f], face_loop_offsets[f + 1]}; }
   IdRange loop_coedges(LoopId l) const { return {loop_coedge_offsets[l], loop_coedge_offsets[l + 1]}; }
-  /// Of all its loops.
+  /// The coedges of all its loops.
   IdRange coedges(FaceId f) const {
     return {loop_coedge_offsets[face_loop_offsets[f]], loop_coedge_offsets[face_loop_offsets[f + 1]]};
   }

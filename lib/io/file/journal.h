@@ -123,7 +123,7 @@ class Journal {
 /// For a signal handler: the process is about to end by this signal at this face (0-based). Makes the file if there is
 /// none yet. False where no Journal is open or the file cannot be written. Async-signal-safe.
 bool note_crash(FaceId face, int signal) noexcept;
-/// Likewise: the process was asked to end; what is under way is not to blame.
+/// The process was asked to end: what is under way is not to blame.
 void note_end() noexcept;
 
 /// Processes that crashed, or were ended without having a say, by the journal of this output. Local.

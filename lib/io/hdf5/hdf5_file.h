@@ -183,7 +183,7 @@ class Hdf5Reader {
   /// Opens an artifact of any schema: the file is complete, ours, and its parts fit the stored content hash (checksums
   /// of values are verified when they are read).
   explicit Hdf5Reader(const std::string& path);
-  /// Likewise, and it is of this schema and of a version not newer than `newest_version`.
+  /// Opens it in the same way, and requires this schema and a version not newer than `newest_version`.
   Hdf5Reader(const std::string& path, const std::string& schema, int newest_version = 1);
   ~Hdf5Reader();
   Hdf5Reader(const Hdf5Reader&) = delete;
@@ -203,7 +203,7 @@ class Hdf5Reader {
     read_raw(name, values.data());
     return values;
   }
-  /// Likewise, and exactly `n_rows` rows.
+  /// Reads in the same way, and requires exactly `n_rows` rows.
   template <class T>
   std::vector<T> read_rows(const std::string& name, std::size_t n_rows, std::size_t columns = Element<T>::count) const {
     require_rows(name, n_rows);

@@ -130,7 +130,7 @@ void write_vtk(Hdf5Writer& w, ColumnWriter& c, const SurfaceMesh& head, const Me
   for (const FaceNumbers& n : numbers) w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", *n.names);
 }
 
-/// Of what is in memory.
+/// Makes columns of what is in memory.
 template <class T>
 Column<T> column_of(const std::vector<T>& rows) {
   return {rows.size(), [&rows](const typename Column<T>::Take& take) { take(rows); }};

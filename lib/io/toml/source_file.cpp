@@ -412,7 +412,7 @@ std::string name_to_delete(const SourceTable& table) {
   return name;
 }
 
-/// Of all types.
+/// The keys of all types.
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys{"name", "type", "delete", "length", "radius", "doubling", "aspect", "direction"};
   for (const SourceType& type : source_types())

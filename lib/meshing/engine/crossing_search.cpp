@@ -214,7 +214,7 @@ struct CrossingSearch::Search {
     return found;
   }
 
-  /// Of this rank.
+  /// The corners of a triangle of this rank.
   Corners corners(const Facet& facet) const {
     const std::int32_t s = section_of(facet);
     const auto stored = own(s);
@@ -228,7 +228,7 @@ struct CrossingSearch::Search {
     }
     return corners;
   }
-  /// Of triangles of one face, whoever has them.
+  /// The corners of triangles of one face, whoever has them.
   std::vector<Corners> corners(const std::vector<Facet>& facets) const {
     std::vector<Corners> all(facets.size());
     std::map<std::int32_t, std::vector<std::size_t>> elsewhere;  // by rank

@@ -81,7 +81,7 @@ class CrossingSearch {
   /// to some thousand, with a wider radius each time. What follows is of rank 0.
   std::vector<RefinementPoint> places_to_refine(const BoundaryNumbering& numbering,
                                                 const std::vector<FacePlace>& places);
-  /// By the last run.
+  /// How many the last run found.
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
   /// [n_faces] those of two triangles of the face.
   std::vector<std::int64_t> n_pairs_within() const;

@@ -77,7 +77,7 @@ std::vector<RefinementPoint> HoleRounds::mesh_regions() {
   }
 }
 
-/// By layers first, then to the whole face.
+/// The hole grows by layers first, then to the whole face.
 void HoleRounds::grow(const HoleRim& rim, std::size_t step) {
   if (step < std::size(kGrowth))
     holes_.grow(rim.face, rim.triangles, kGrowth[step]);
@@ -129,7 +129,7 @@ std::string HoleRounds::made_from(const std::vector<HoleRim>& rims) const {
   return digest;
 }
 
-/// By the sizes over the marked triangles.
+/// Counts by the sizes over the marked triangles.
 double HoleRounds::expected_triangles(const HoleRim& rim) const {
   constexpr std::size_t kPerPiece = 8192;
   const SurfaceMesh& m = old_.mesh;

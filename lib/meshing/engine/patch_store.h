@@ -77,7 +77,7 @@ class PatchStore {
   bool is_own(const PatchPlace& place) const { return place.rank == executor_.rank(); }
   /// Precondition: it is kept here.
   std::shared_ptr<const StoredPatch> get(FaceId face, const PatchPlace& place) const;
-  /// Likewise, and it is not kept any more: section `number` of the patch that is there;
+  /// Takes what is not kept any more: section `number` of the patch that is there;
   /// `begins`: of all its sections.
   SectionRows take(FaceId face, const FacePlace& place, std::size_t number, std::span<const SectionBegin> begins);
   /// Drops all others. `live`: of other ranks, too.

@@ -96,13 +96,13 @@ struct RefinementPolicy {
   }
 };
 
-/// Of the faces of a model.
+/// The policy for the faces of a model.
 inline constexpr RefinementPolicy kFacePolicy{.max_rounds = 6,
                                               .max_crossing_rounds = 8,
                                               .max_promising_rounds = 14,
                                               .promising_floor = RefinementPolicy::kPromisingFloor,
                                               .max_crossing_places = 2000};
-/// Of the holes of a mesh: one that cannot be filled grows, sizes do not help.
+/// The policy for the holes of a mesh: one that cannot be filled grows, sizes do not help.
 inline constexpr RefinementPolicy kHolePolicy{.max_rounds = 0,
                                               .max_crossing_rounds = 4,
                                               .max_promising_rounds = 4,

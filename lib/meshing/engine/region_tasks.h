@@ -20,7 +20,7 @@ struct RegionSteps {
   /// Local, on any rank: the region as a whole; and on rank 0, what that returned.
   std::function<Bytes(std::int32_t region)> make_whole;
   std::function<void(std::int32_t region, Bytes&& result)> take_whole;
-  /// Likewise, from its tiles. Where the latter returns false the region is made as a whole.
+  /// Makes it from its tiles. Where the latter returns false the region is made as a whole.
   std::function<Bytes(std::int32_t region, TiledRegions& tiled)> make_seams;
   std::function<bool(std::int32_t region, Bytes&& result)> take_seams;
   /// Collective, when all seams were taken: on rank 0, regions that are to be made as a whole all the same.

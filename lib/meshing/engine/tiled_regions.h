@@ -106,7 +106,7 @@ class TiledRegions {
   /// Local, by tasks that `answer` belongs to: the triangles about the cuts between the sections of a region. Several
   /// threads may do this for different regions; once for each.
   SeamMesh seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary, const Executor& executor);
-  /// Likewise after it: the mesh of the whole region; its sections are gone then.
+  /// Takes after it the mesh of the whole region; its sections are gone then.
   FaceMesh join(std::int32_t region, const FaceBoundary& boundary, SeamMesh seams, const Executor& executor);
   /// Local: of a section, for a rank that asks for it.
   Bytes answer(const Bytes& request);

@@ -19,9 +19,9 @@ struct BoundaryPlace {
   bool is_rough = false;    ///< on no edge, but on the sides of triangles that stay
 };
 
-/// Of the node with this number of `numbering`.
+/// The place of the node with this number of `numbering`.
 BoundaryPlace place_on_edge(std::int32_t id, const BoundaryNumbering& numbering);
-/// Of all nodes of a face's boundary.
+/// The places of all nodes of a face's boundary.
 std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const BoundaryNumbering& numbering);
 
 /// Boundary of a tile, its interior on the left. Nodes: boundary node i of the face as i, cut node j as

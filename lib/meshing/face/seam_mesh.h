@@ -85,7 +85,7 @@ class TileGroups {
 };
 
 /// Takes the band off the mesh of a tile, and off that of a group, which is section n_tiles + group. Local, pure.
-/// Linear.
+/// The cost is linear.
 SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh);
 SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, SeamMesh mesh);
 

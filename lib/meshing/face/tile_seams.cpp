@@ -279,7 +279,7 @@ class SeamEnhancer {
     for (const FaceMesh& c : counts) counted_.n_folds += c.n_folds;
   }
 
-  /// Of the whole band, as it is now.
+  /// Measures the whole band, as it is now.
   void count_folds() {
     std::erase_if(band_, [&](std::int32_t t) { return corners(t)[0] == kNone; });
     const SeamPiece all(surface_, boundary_, loops_, field_, mesh_, band_,

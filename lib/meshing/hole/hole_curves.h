@@ -15,7 +15,7 @@ struct SegmentRun {
   std::int32_t first = 0, last = 0;
 };
 
-/// By edge and place on it.
+/// The runs come by edge and place on it.
 std::vector<SegmentRun> marked_runs(const HoleMesh& mesh, const HoleMarks& marks);
 
 /// Nodes of a run; the first and the last are the nodes that stay, to the bit. `min_segments` of the whole edge are

@@ -55,7 +55,7 @@ using NodeExchange = std::function<std::vector<TouchedNode>(const std::vector<To
 /// pure.
 HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
 
-/// Likewise on several ranks, each with its share: together they mark what one would. Of the triangles only those of
+/// Marks on several ranks, each with its share: together they mark what one would. Of the triangles only those of
 /// the share are marked, of `wanted` only the values on their nodes and on all edges are used; segments are marked on
 /// every rank. `options.redo` numbers the whole mesh's triangles. Calls `exchange` layers + 1 times.
 HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted,

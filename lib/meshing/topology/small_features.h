@@ -34,7 +34,7 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
 /// the kept edge's own points.
 EdgeMesh mirror_nodes(const Curve& kept, const EdgeMesh& nodes, const Curve& closed, bool is_opposed,
                       const MergeLimit& limit);
-/// Likewise for nodes inside the kept edge; the points are those of the other curve.
+/// Finds nodes inside the kept edge in the same way; the points are those of the other curve.
 EdgeMesh mirror_nodes(const Curve& kept, std::span<const double> inner_t, const Curve& closed, bool is_opposed);
 
 }  // namespace st
