@@ -2,12 +2,14 @@
 """Content hashes of every stage on the corpus, and of three remeshings: what a change that should change nothing must
 leave as it was.
 
-usage: scripts/corpus_hashes.py BIN_DIR [--models GLOB] [--np N]                  prints one line per artifact: model,
+usage: scripts/corpus_hashes.py BIN_DIR [--models GLOB] [--np N] [--tile N]     prints one line per artifact: model,
 artifact, hash
-       scripts/corpus_hashes.py BIN_DIR --compare FILE [--models GLOB] [--np N]    compares with what was printed
-       before; exit 5 on a difference
+       scripts/corpus_hashes.py BIN_DIR --compare FILE ...                       compares with what was printed before,
+       by these tools or other ones, with other ranks, by another compiler; exit 5 on a difference
 
-BIN_DIR holds the tools. The corpus is ST_CORPUS (default ../shared/corpus beside the repository). A stage that fails is
+With GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4 the C library takes the processor for an older one. --tile: that
+of st-mesh, whose meshes are other ones then. BIN_DIR holds the tools. The corpus is ST_CORPUS (default
+../shared/corpus beside the repository). A stage that fails is
 a line with its exit code.
 """
 import argparse
@@ -25,13 +27,13 @@ REMESHED = {"aero_onera_m6_sharpte.brep", "mech_as1_oc_214.stp", "mech_occt_bott
 OK, INCOMPLETE, DIFFERENT = 0, 5, 5
 
 
-def chain(bin_dir, model, folder, ranks):
+def chain(bin_dir, model, folder, ranks, tile):
     """(artifact, hash or exit code) of each stage, up to the first that fails."""
     path = lambda name: str(folder / f"{name}.hdf")  # noqa: E731
     stages = [("geometry", "st-import", [str(model)]),
               ("raster", "st-raster", [path("geometry"), *ranks]),
               ("sizing", "st-prolong", [path("raster")]),
-              ("patches", "st-mesh", [path("geometry"), path("sizing"), *ranks]),
+              ("patches", "st-mesh", [path("geometry"), path("sizing"), *ranks, *tile]),
               ("mesh", "st-merge", [path("patches"), "--allow-incomplete"])]
     if model.name in REMESHED:
         old = [path("mesh"), path("geometry")]
@@ -56,9 +58,11 @@ def main():
     parser.add_argument("bin_dir", metavar="BIN_DIR")
     parser.add_argument("--models", default="*", metavar="GLOB")
     parser.add_argument("--np", type=int, default=1)
+    parser.add_argument("--tile", metavar="N")
     parser.add_argument("--compare", metavar="FILE")
     arguments = parser.parse_args()
     ranks = ["--np", str(arguments.np)] if arguments.np > 1 else []
+    tile = ["--tile", arguments.tile] if arguments.tile else []
     before = {}
     if arguments.compare:
         lines = [line.split("\t") for line in Path(arguments.compare).read_text().splitlines()]
@@ -67,7 +71,7 @@ def main():
     for model in sorted(m for m in CORPUS.iterdir() if m.suffix in SUFFIXES
                         and fnmatch.fnmatch(m.name, arguments.models)):
         with tempfile.TemporaryDirectory() as folder:
-            for artifact, value in chain(arguments.bin_dir, model, Path(folder), ranks):
+            for artifact, value in chain(arguments.bin_dir, model, Path(folder), ranks, tile):
                 if not arguments.compare:
                     print(model.name, artifact, value, sep="\t", flush=True)
                     continue
