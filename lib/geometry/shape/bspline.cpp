@@ -151,8 +151,18 @@ CurvePoint BsplineCurve::evaluate(double t) const {
 
 BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational,
                                Bounds bounds)
-    : BsplineSurface(std::make_shared<Data>(Data{std::move(u), std::move(v), std::move(poles)}), n_v, is_rational,
+    : BsplineSurface(std::make_shared<const Data>(std::move(u), std::move(v), std::move(poles)), n_v, is_rational,
                      bounds) {}
+
+BsplineSurface::Data::Data(KnotSpans u, KnotSpans v, std::vector<Pole> poles)
+    : u(std::move(u)),
+      v(std::move(v)),
+      poles(std::move(poles)),
+      patch(static_cast<std::size_t>(this->u.n_spans()) * this->v.n_spans()) {}
+
+BsplineSurface::Data::~Data() {
+  for (const auto& p : patch) delete[] p.load(std::memory_order_relaxed);
+}
 
 std::unique_ptr<Surface> BsplineSurface::copy() const {
   return std::unique_ptr<Surface>(new BsplineSurface(data_, n_v_, is_rational_, {u_min_, u_max_, v_min_, v_max_}));
@@ -178,7 +188,6 @@ BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool i
   v_period_ = v_.period();
   u_breaks_ = u_.c0_knots();
   v_breaks_ = v_.c0_knots();
-  patch_index_.assign(static_cast<std::size_t>(u_.n_spans()) * v_.n_spans(), -1);
 }
 
 BsplineSurface::Place BsplineSurface::locate(Vec2 uv) const {
@@ -190,15 +199,14 @@ BsplineSurface::Place BsplineSurface::locate(Vec2 uv) const {
   return place;
 }
 
-const double* BsplineSurface::patch(int iu, int iv) const {
+const double* BsplineSurface::add_patch(int iu, int iv) const {
   const std::size_t size = static_cast<std::size_t>(u_.degree() + 1) * (v_.degree() + 1) * stride_;
-  std::int32_t& index = patch_index_[static_cast<std::size_t>(iu) * v_.n_spans() + iv];
-  if (index < 0) {
-    index = static_cast<std::int32_t>(patches_.size() / size);
-    patches_.resize((index + 1) * size + 1, 0.0);
-    is_rational_ ? convert<4>(iu, iv, &patches_[index * size]) : convert<3>(iu, iv, &patches_[index * size]);
-  }
-  return &patches_[index * size];
+  auto own = std::make_unique<double[]>(size + 1);
+  is_rational_ ? convert<4>(iu, iv, own.get()) : convert<3>(iu, iv, own.get());
+  const double* known = nullptr;
+  auto& patch = data_->patch[static_cast<std::size_t>(iu) * v_.n_spans() + iv];
+  if (patch.compare_exchange_strong(known, own.get(), std::memory_order_acq_rel)) return own.release();
+  return known;  // another thread was first; it found the same
 }
 
 template <int stride>

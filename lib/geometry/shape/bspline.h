@@ -3,6 +3,7 @@
 // 80-300 ns).
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -104,7 +105,7 @@ class BsplineSurface : public Surface {
   };
   /// `poles` [n_u][n_v], v fastest.
   BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational, Bounds bounds);
-  /// Without the spans that are converted.
+  /// Shares the spans that are converted, on any thread.
   std::unique_ptr<Surface> copy() const override;
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
@@ -120,7 +121,12 @@ class BsplineSurface : public Surface {
     const double* coefficients;
   };
   Place locate(Vec2 uv) const;
-  const double* patch(int iu, int iv) const;
+  const double* patch(int iu, int iv) const {
+    const double* const known =
+        data_->patch[static_cast<std::size_t>(iu) * v_.n_spans() + iv].load(std::memory_order_acquire);
+    return known ? known : add_patch(iu, iv);
+  }
+  const double* add_patch(int iu, int iv) const;
   template <int stride>
   void convert(int iu, int iv, double* out) const;
 
@@ -128,6 +134,12 @@ class BsplineSurface : public Surface {
   struct Data {
     KnotSpans u, v;
     std::vector<Pole> poles;
+    /// [n_spans_u][n_spans_v] of [degree_u+1][degree_v+1][stride], and one more; null until met.
+    mutable std::vector<std::atomic<const double*>> patch;
+
+    Data(KnotSpans u, KnotSpans v, std::vector<Pole> poles);
+    Data(const Data&) = delete;
+    ~Data();
   };
   BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, Bounds bounds);
 
@@ -138,8 +150,6 @@ class BsplineSurface : public Surface {
   bool is_rational_;
   int stride_;  // doubles per coefficient
   PatchKernels kernels_;
-  mutable std::vector<std::int32_t> patch_index_;  // [n_spans_u][n_spans_v], -1 until met
-  mutable std::vector<double> patches_;            // [patch][degree_u+1][degree_v+1][stride], and one more
   mutable int last_u_ = 0, last_v_ = 0;
 };
 

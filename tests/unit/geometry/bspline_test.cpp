@@ -6,6 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "base/threads.h"
+
 namespace st {
 namespace {
 
@@ -191,6 +193,31 @@ TEST(BsplineSurface, copies_live_on_their_own) {
   EXPECT_EQ(copy->u_min(), 0.1);
   EXPECT_EQ(copy->v_max(), 0.8);
   EXPECT_EQ(copy->type(), SurfaceType::kBspline);
+}
+
+TEST(BsplineSurface, copies_meet_the_same_spans_on_threads) {
+  constexpr int kSpans = 200;
+  std::vector<double> along;
+  std::vector<Pole> poles;
+  for (int i = 1; i < kSpans; ++i) along.push_back(i);
+  for (int i = 0; i < kSpans + 2; ++i)
+    for (int j = 0; j < 2; ++j) poles.push_back({{1.0 * i, 1.0 * j, std::sin(0.3 * i + j), 1}});
+  const auto make = [&] {
+    return BsplineSurface(KnotSpans(2, clamped_knots(2, along, kSpans), 0), KnotSpans(1, {0, 0, 1, 1}, 0), poles, 2,
+                          false, {0, 1.0 * kSpans, 0, 1});
+  };
+  const BsplineSurface alone = make(), shared = make();
+  std::vector<Vec3> expected;
+  for (int i = 0; i < kSpans; ++i) expected.push_back(alone.point({i + 0.4, 0.3}));
+  constexpr std::size_t kCopies = 8;
+  std::vector<int> n_other(kCopies);
+  set_thread_count(4);
+  parallel_for(kCopies, 1, [&](std::size_t k, std::size_t) {
+    const std::unique_ptr<Surface> copy = shared.copy();
+    for (int i = 0; i < kSpans; ++i) n_other[k] += !(copy->point({i + 0.4, 0.3}) == expected[i]);
+  });
+  set_thread_count(1);
+  EXPECT_EQ(n_other, std::vector<int>(kCopies, 0));
 }
 
 }  // namespace
