@@ -76,9 +76,6 @@ class ConeSpread {
     std::int32_t n;  // samples of the site with it; 0: it lies there and is not taken yet
   };
   static constexpr std::size_t kAhead = 4;  // events
-  struct Entry {
-    std::int32_t sample, next;
-  };
   /// What an offer needs comes first.
   struct alignas(64) Site {
     static constexpr std::int32_t kOwn = 8;
@@ -213,7 +210,7 @@ class ConeSpread {
       if (from_center + reach >= -half) sides |= 1 << (2 * k);
       if (from_center - reach <= half) sides |= 2 << (2 * k);
     }
-    return s.cell.is_near(cone, s.cell.length_at_center(cone)) ? sides : sides & (kAlways | s.sides_won(sample));
+    return kernels_.is_near(s.cell.numbers(), cone.numbers()) ? sides : sides & (kAlways | s.sides_won(sample));
   }
 
   static std::int32_t side_of(const CellStep& step) {
@@ -270,21 +267,15 @@ class ConeSpread {
   bool offer(std::int32_t site, std::int32_t sample, float& least) {
     Site& s = sites_[site];
     if (is_any(s.refused == sample) || has(s, sample)) return false;
-    const Cone& cone = cones_[sample];
-    const Lengths own = s.cell.lengths(cone);
-    const bool is_near = s.cell.is_near(cone, at_center(own));
-    const float share = is_near ? kClearlyNearby : kClearly;
-    if (!is_below(own, share, s.best) && !(is_near && wins_nearby(s, sample))) {
+    Lengths own;
+    bool is_near = false;
+    const bool is_below =
+        kernels_.offer(s.cell.numbers(), cones_[sample].numbers(), numbers(s.best), numbers(own), is_near);
+    if (!is_below && !(is_near && wins_nearby(s, sample))) {
       s.refused[s.n_refused++ % 4] = sample;
       return false;
     }
-    Float4 smallest = four(largest_);
-    for (int g = 0; g < kGroups; ++g) {
-      smallest = min_of(smallest, own[g]);
-      s.winner[g] = own[g] < s.best[g] ? Int4{} + sample : s.winner[g];
-      s.best[g] = min_of(s.best[g], own[g]);
-    }
-    least = least_of(smallest);
+    least = std::min(largest_, kernels_.take(numbers(own), sample, numbers(s.best), numbers(s.winner)));
     add_sample(s, sample);
     return true;
   }
@@ -303,16 +294,14 @@ class ConeSpread {
   /// Whether the sample wins where the site is close to it.
   bool wins_nearby(const Site& s, std::int32_t sample) const {
     const std::int32_t first = s.winner_towards(cones_[sample]);  // most are beaten by it
-    return s.cell.wins_nearby(cones_[sample], largest_, [&](const auto& is_beaten_by) {
-      if (first != kNone && first != sample && is_beaten_by(cones_[first])) return;
-      any_sample(s,
-                 [&](std::int32_t other) { return other != sample && other != first && is_beaten_by(cones_[other]); });
-    });
+    return kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), largest_,
+                                {cones_.front().numbers(), first == sample ? kNone : first, sample, &s.own[0][0],
+                                 std::min(s.n, Site::kOwn), entries_.data(), s.more});
   }
 
   bool is_still_best(const Site& s, std::int32_t sample) const {
     if (s.is_winner(sample)) return true;
-    return s.cell.is_near(cones_[sample], s.cell.length_at_center(cones_[sample])) && wins_nearby(s, sample);
+    return kernels_.is_near(s.cell.numbers(), cones_[sample].numbers()) && wins_nearby(s, sample);
   }
 
   /// Those of the site that win at a probe, or clearly where the site is close to them.
@@ -323,7 +312,7 @@ class ConeSpread {
     any_sample(s, [&](std::int32_t sample) {
       if (s.is_winner(sample))
         kept_.push_back(sample);
-      else if (s.cell.is_near(cones_[sample], s.cell.length_at_center(cones_[sample])))
+      else if (kernels_.is_near(s.cell.numbers(), cones_[sample].numbers()))
         near_.push_back(sample);
       return false;
     });
@@ -331,10 +320,14 @@ class ConeSpread {
       return cones_[a].length != cones_[b].length ? cones_[a].length < cones_[b].length : a < b;
     });
     for (const std::int32_t sample : near_) {
-      const auto visit_kept = [&](const auto& is_beaten_by) {
-        std::any_of(kept_.begin(), kept_.end(), [&](std::int32_t k) { return is_beaten_by(cones_[k]); });
-      };
-      if (s.cell.wins_nearby(cones_[sample], largest_, visit_kept)) kept_.push_back(sample);
+      const KnownCones known{cones_.front().numbers(),
+                             kNone,
+                             kNone,
+                             kept_.data(),
+                             static_cast<std::int32_t>(kept_.size()),
+                             nullptr,
+                             kNone};
+      if (kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), largest_, known)) kept_.push_back(sample);
     }
     return kept_;
   }
@@ -342,13 +335,14 @@ class ConeSpread {
   const Neighbours& neighbours_;
   const OctreeView& octree_;
   const Blanking* const blanking_;
+  const ConeKernels& kernels_ = cone_kernels();
   const std::span<const LengthSample> samples_;
   const float largest_;
   float smallest_ = std::numeric_limits<float>::infinity();
   std::vector<Cone> cones_;
   std::vector<Site> sites_;  // [n_sites]
   std::vector<Beside> beside_;
-  std::vector<Entry> entries_;  // of sites with many samples
+  std::vector<SampleLink> entries_;  // of sites with many samples
   std::vector<std::vector<Event>> buckets_;
   std::vector<std::int32_t> kept_, near_;
   std::size_t now_ = 0;

@@ -43,6 +43,8 @@ struct Cone {
   /// `lo`: the lower corner of the octree's root.
   Cone(const LengthSample& sample, float slope, Vec3 lo);
 
+  /// All thirteen.
+  const float* numbers() const { return reinterpret_cast<const float*>(this); }
   /// From the closest point of the rectangle to `to`, which counts from the lower corner of the root.
   Vec3 way_to(Vec3 to) const {
     Vec3 way = to - Vec3{x[0], x[1], x[2]};

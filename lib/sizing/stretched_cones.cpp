@@ -103,7 +103,7 @@ class StretchSpread {
     std::array<Int4, kGroups> winner;
     winner.fill(Int4{} + kNone);
     for (const std::int32_t c : cones_of(site)) {
-      const Lengths lengths = cell.lengths(table_.cone[c]);
+      const Lengths lengths = cell.lengths(kernels_, table_.cone[c]);
       for (int g = 0; g < kGroups; ++g) {
         winner[g] = lengths[g] < least[g] ? Int4{} + c : winner[g];
         least[g] = min_of(lengths[g], least[g]);
@@ -121,7 +121,7 @@ class StretchSpread {
   }
 
   Lengths lengths_along(const Site& s, const Cone& cone, const ConeStretch& stretch) const {
-    Lengths lengths = s.cell.lengths(cone);
+    Lengths lengths = s.cell.lengths(kernels_, cone);
     if (!(stretch.along > cone.length)) return lengths;
     if (s.turns == kNone) {
       const float longer = stretch.length_in(s.unit, cone.length) - cone.length;
@@ -218,6 +218,7 @@ class StretchSpread {
   const Neighbours& neighbours_;
   const OctreeView& octree_;
   const Blanking* const blanking_;
+  const ConeKernels& kernels_ = cone_kernels();
   const std::span<const LengthSample> samples_;
   ConeTable& table_;
   std::vector<Cone> cones_;           // [n_samples]

@@ -1,0 +1,262 @@
+// The kernels' code, compiled once per kind of processor by the file that includes it, with ST_EIGHT_WIDE where vectors
+// hold eight floats. Include nothing here that has code of its own.
+#pragma once
+
+#include "sizing/cone_kernels.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors stay inside this file
+
+namespace st {
+namespace {
+
+#if defined(ST_EIGHT_WIDE)
+typedef float F8 __attribute__((vector_size(32)));
+typedef std::int32_t I8 __attribute__((vector_size(32)));
+typedef float F8Anywhere __attribute__((vector_size(32), aligned(4), may_alias));
+typedef std::int32_t I8Anywhere __attribute__((vector_size(32), aligned(4), may_alias));
+
+inline F8 all(float v) { return v - F8{}; }
+inline F8 load(const float* p) { return *reinterpret_cast<const F8Anywhere*>(p); }
+inline I8 load(const std::int32_t* p) { return *reinterpret_cast<const I8Anywhere*>(p); }
+inline void store(float* p, const F8& v) { *reinterpret_cast<F8Anywhere*>(p) = v; }
+inline void store(std::int32_t* p, const I8& v) { *reinterpret_cast<I8Anywhere*>(p) = v; }
+inline F8 least(const F8& a, const F8& b) { return a < b ? a : b; }
+inline F8 most(const F8& a, const F8& b) { return a > b ? a : b; }
+inline F8 root(const F8& v) {
+  F8 r{};
+  for (int i = 0; i < 8; ++i) r[i] = __builtin_sqrtf(v[i]);
+  return r;
+}
+inline I8 where(const I8& mask, std::int32_t a, const I8& b) { return mask ? a - I8{} : b; }
+inline bool is_any(const I8& mask) {
+  typedef std::int64_t I64x4 __attribute__((vector_size(32)));
+  const I64x4 v = reinterpret_cast<I64x4>(mask);
+  return ((v[0] | v[1]) | (v[2] | v[3])) != 0;
+}
+inline float least_of(const F8& v) {
+  float l = v[0];
+  for (int i = 1; i < 8; ++i) l = v[i] < l ? v[i] : l;
+  return l;
+}
+#else
+typedef float F4 __attribute__((vector_size(16)));
+typedef std::int32_t I4 __attribute__((vector_size(16)));
+typedef float F4Anywhere __attribute__((vector_size(16), aligned(4), may_alias));
+typedef std::int32_t I4Anywhere __attribute__((vector_size(16), aligned(4), may_alias));
+struct F8 {
+  F4 a, b;
+};
+struct I8 {
+  I4 a, b;
+};
+
+inline F8 operator+(const F8& x, const F8& y) { return {x.a + y.a, x.b + y.b}; }
+inline F8 operator-(const F8& x, const F8& y) { return {x.a - y.a, x.b - y.b}; }
+inline F8 operator*(const F8& x, const F8& y) { return {x.a * y.a, x.b * y.b}; }
+inline F8 operator*(float s, const F8& x) { return {s * x.a, s * x.b}; }
+inline F8 operator+(float s, const F8& x) { return {s + x.a, s + x.b}; }
+inline F8 operator-(const F8& x, float s) { return {x.a - s, x.b - s}; }
+inline F8 operator-(const F8& x) { return {-x.a, -x.b}; }
+inline I8 operator<(const F8& x, const F8& y) { return {x.a < y.a, x.b < y.b}; }
+inline I8 operator<(const F8& x, float s) { return {x.a < s, x.b < s}; }
+inline I8 operator>=(const F8& x, const F8& y) { return {x.a >= y.a, x.b >= y.b}; }
+inline I8 operator&(const I8& x, const I8& y) { return {x.a & y.a, x.b & y.b}; }
+inline I8 operator|(const I8& x, const I8& y) { return {x.a | y.a, x.b | y.b}; }
+inline F8 all(float v) { return {v - F4{}, v - F4{}}; }
+inline F8 load(const float* p) {
+  return {*reinterpret_cast<const F4Anywhere*>(p), *reinterpret_cast<const F4Anywhere*>(p + 4)};
+}
+inline I8 load(const std::int32_t* p) {
+  return {*reinterpret_cast<const I4Anywhere*>(p), *reinterpret_cast<const I4Anywhere*>(p + 4)};
+}
+inline void store(float* p, const F8& v) {
+  *reinterpret_cast<F4Anywhere*>(p) = v.a;
+  *reinterpret_cast<F4Anywhere*>(p + 4) = v.b;
+}
+inline void store(std::int32_t* p, const I8& v) {
+  *reinterpret_cast<I4Anywhere*>(p) = v.a;
+  *reinterpret_cast<I4Anywhere*>(p + 4) = v.b;
+}
+inline F4 least(const F4& x, const F4& y) { return x < y ? x : y; }
+inline F4 most(const F4& x, const F4& y) { return x > y ? x : y; }
+inline F8 least(const F8& x, const F8& y) { return {least(x.a, y.a), least(x.b, y.b)}; }
+inline F8 most(const F8& x, const F8& y) { return {most(x.a, y.a), most(x.b, y.b)}; }
+inline F4 root(const F4& v) {
+  F4 r{};
+  for (int i = 0; i < 4; ++i) r[i] = __builtin_sqrtf(v[i]);
+  return r;
+}
+inline F8 root(const F8& v) { return {root(v.a), root(v.b)}; }
+inline I8 where(const I8& mask, std::int32_t x, const I8& y) {
+  return {mask.a ? x - I4{} : y.a, mask.b ? x - I4{} : y.b};
+}
+inline bool is_any(const I8& mask) {
+  typedef std::int64_t I64x2 __attribute__((vector_size(16)));
+  const I4 any = mask.a | mask.b;
+  const I64x2 v = reinterpret_cast<I64x2>(any);
+  return (v[0] | v[1]) != 0;
+}
+inline float least_of(const F8& v) {
+  const F4 four = least(v.a, v.b);
+  float l = four[0];
+  for (int i = 1; i < 4; ++i) l = four[i] < l ? four[i] : l;
+  return l;
+}
+#endif
+
+constexpr float kProbe[3][kProbes] = {{-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0, 0, 0, 0, 0},
+                                      {-1, -1, 1, 1, -1, -1, 1, 1, 0, 0, -1, 1, 0, 0, 0, 0},
+                                      {-1, -1, -1, -1, 1, 1, 1, 1, 0, 0, 0, 0, -1, 1, 0, 0}};
+
+/// The thirteen numbers of a cone by name.
+struct ConeView {
+  const float* x;  // [3]
+  float length, slope;
+  const float* side[2];  // [3] each
+  const float* half;     // [2]
+
+  explicit ConeView(const float* cone)
+      : x(cone), length(cone[3]), slope(cone[4]), side{cone + 5, cone + 8}, half(cone + 11) {}
+
+  /// Distances of places that lie so far from the middle of its rectangle.
+  F8 distance(F8 dx, F8 dy, F8 dz) const {
+    for (int e = 0; e < 2 && half[e] > 0; ++e) {
+      const F8 ux = all(side[e][0]), uy = all(side[e][1]), uz = all(side[e][2]), end = all(half[e]),
+               along = most(least(dx * ux + dy * uy + dz * uz, end), -end);
+      dx = dx - along * ux;
+      dy = dy - along * uy;
+      dz = dz - along * uz;
+    }
+    return root(dx * dx + dy * dy + dz * dz);
+  }
+  F8 length_at(F8 distance) const { return length + slope * distance; }
+};
+
+inline float clamp(float v, float lo, float hi) { return v < lo ? lo : hi < v ? hi : v; }
+
+/// Eight places, from the lower corner of the root.
+struct EightPlaces {
+  F8 x, y, z;
+
+  F8 distance(const ConeView& cone) const { return cone.distance(x - cone.x[0], y - cone.x[1], z - cone.x[2]); }
+  F8 length(const ConeView& cone) const { return cone.length_at(distance(cone)); }
+};
+
+struct CellView {
+  const float* c;  // [3]
+  float half;
+
+  explicit CellView(const float* cell) : c(cell), half(cell[3]) {}
+
+  /// `at_center`: the length of the cone there.
+  bool is_near(const ConeView& cone, float at_center) const {
+    constexpr float kNearby = 3.75F;  // half edges from the centre: one edge from the closest point
+    return at_center <= cone.length + cone.slope * kNearby * half;
+  }
+
+  void lengths(const ConeView& cone, F8 (&to)[2]) const {
+    const F8 x = all(c[0] - cone.x[0]), y = all(c[1] - cone.x[1]), z = all(c[2] - cone.x[2]);
+    for (int g = 0; g < 2; ++g)
+      to[g] = cone.length_at(cone.distance(x + half * load(kProbe[0] + 8 * g), y + half * load(kProbe[1] + 8 * g),
+                                           z + half * load(kProbe[2] + 8 * g)));
+  }
+
+  /// Where one looks along the way from the place closest to a cone's middle towards the centre.
+  EightPlaces towards_center(const ConeView& cone) const {
+    constexpr float kTowards[8] = {0, 0.25F, 0.5F, 0.75F, 0, 0.25F, 0.5F, 0.75F};
+    const F8 share = load(kTowards);
+    const auto along = [&](int k) {
+      const float from = clamp(cone.x[k], c[k] - half, c[k] + half);
+      return from + share * all(c[k] - from);
+    };
+    return {along(0), along(1), along(2)};
+  }
+
+  /// The places of the cell closest to eight of a cone's rectangle: around it, its middle, and the place closest to the
+  /// centre of the cell.
+  EightPlaces closest_to_rectangle(const ConeView& cone) const {
+    constexpr float kInside = 0.8F;  // of the sides: further out its neighbours count
+    const float a = kInside * cone.half[0], b = kInside * cone.half[1];
+    float towards[2];
+    for (int e = 0; e < 2; ++e) {
+      float along = 0;
+      for (int k = 0; k < 3; ++k) along += (c[k] - cone.x[k]) * cone.side[e][k];
+      towards[e] = clamp(along, -kInside * cone.half[e], kInside * cone.half[e]);
+    }
+    const float u[8] = {0, a, -a, towards[0], a, a, -a, -a}, v[8] = {0, 0, 0, towards[1], b, -b, b, -b};
+    const F8 along_u = load(u), along_v = load(v);
+    const auto closest = [&](int k) {
+      return most(all(c[k] - half),
+                  least(all(c[k] + half), cone.x[k] + along_u * all(cone.side[0][k]) + along_v * all(cone.side[1][k])));
+    };
+    return {closest(0), closest(1), closest(2)};
+  }
+};
+
+bool is_near_cell(const float* cell, const float* cone) {
+  const CellView in(cell);
+  const ConeView of(cone);
+  float way[3];
+  for (int k = 0; k < 3; ++k) way[k] = in.c[k] - of.x[k];
+  for (int e = 0; e < 2 && of.half[e] > 0; ++e) {
+    const float* unit = of.side[e];
+    const float along = clamp(way[0] * unit[0] + way[1] * unit[1] + way[2] * unit[2], -of.half[e], of.half[e]);
+    for (int k = 0; k < 3; ++k) way[k] -= along * unit[k];
+  }
+  const float distance = __builtin_sqrtf(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+  return in.is_near(of, of.length + of.slope * distance);
+}
+
+void cone_lengths(const float* cell, const float* cone, float* lengths) {
+  F8 at[2];
+  CellView(cell).lengths(ConeView(cone), at);
+  store(lengths, at[0]);
+  store(lengths + 8, at[1]);
+}
+
+bool offer_cone(const float* cell, const float* cone, const float* best, float* lengths, bool& is_near) {
+  const CellView in(cell);
+  const ConeView of(cone);
+  F8 at[2];
+  in.lengths(of, at);
+  store(lengths, at[0]);
+  store(lengths + 8, at[1]);
+  is_near = in.is_near(of, lengths[kProbes - 1]);
+  const F8 share = all(is_near ? kClearlyNearby : kClearly);
+  return is_any((at[0] < share * load(best)) | (at[1] < share * load(best + 8)));
+}
+
+float take_lengths(const float* lengths, std::int32_t sample, float* best, std::int32_t* winner) {
+  for (int g = 0; g < kProbes; g += 8) {
+    const F8 own = load(lengths + g), other = load(best + g);
+    store(winner + g, where(own < other, sample, load(winner + g)));
+    store(best + g, least(own, other));
+  }
+  return least_of(least(load(lengths), load(lengths + 8)));
+}
+
+bool wins_nearby(const float* cell, const float* cone, float largest, const KnownCones& known) {
+  constexpr float kWide = 0.25F;  // of half the edge: wider rectangles are looked at in more places
+  const CellView in(cell);
+  const ConeView of(cone);
+  const EightPlaces places = of.half[0] > kWide * in.half ? in.closest_to_rectangle(of) : in.towards_center(of);
+  const F8 distance = places.distance(of), limit = (1 / kClearlyNearby) * of.length_at(distance);
+  I8 wins = (distance < 2 * in.half) & (limit < largest);
+  if (!is_any(wins)) return false;
+  const auto ask = [&](std::int32_t sample) {
+    wins = wins & (places.length(ConeView(known.cone + kConeNumbers * static_cast<std::int64_t>(sample))) >= limit);
+    return is_any(wins);
+  };
+  if (known.first >= 0 && !ask(known.first)) return false;
+  const auto is_asked = [&](std::int32_t sample) { return sample != known.first && sample != known.without; };
+  for (std::int32_t i = 0; i < known.n_own; ++i)
+    if (is_asked(known.own[i]) && !ask(known.own[i])) return false;
+  for (std::int32_t k = known.link; k >= 0; k = known.links[k].next)
+    if (is_asked(known.links[k].sample) && !ask(known.links[k].sample)) return false;
+  return true;
+}
+
+constexpr ConeKernels kKernels{is_near_cell, cone_lengths, offer_cone, take_lengths, wins_nearby};
+
+}  // namespace
+}  // namespace st

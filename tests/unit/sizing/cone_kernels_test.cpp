@@ -1,0 +1,144 @@
+#include "sizing/cone_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <iostream>
+#include <random>
+#include <vector>
+
+#include "sizing/cone_cell.h"
+
+namespace st {
+namespace {
+
+/// Cones and a cell at random: points, lines and rectangles, beside the cell and far from it.
+struct RandomCones {
+  std::vector<Cone> cone;
+  ConeCell cell;
+
+  explicit RandomCones(unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    cell.half = 0.1F + 0.05F * unit(random);
+    for (float& c : cell.c) c = 1 + unit(random);
+    for (int i = 0; i < 40; ++i) {
+      LengthSample s;
+      const double reach = i % 2 == 0 ? 0.3 : 2;
+      s.xyz =
+          Vec3{cell.c[0] + reach * unit(random), cell.c[1] + reach * unit(random), cell.c[2] + reach * unit(random)};
+      s.length = 0.05F + 0.02F * unit(random);
+      const Vec3 along{unit(random), unit(random), unit(random)}, across{unit(random), unit(random), unit(random)};
+      if (i % 3 != 0) s.reach = reach_of(0.1 * along, i % 3 == 1 ? Vec3{} : 0.06 * across);
+      cone.emplace_back(s, 0.2F, Vec3{});
+    }
+  }
+  KnownCones known(const std::vector<std::int32_t>& own) const {
+    return {cone.front().numbers(), kNone, kNone, own.data(), static_cast<std::int32_t>(own.size()), nullptr, kNone};
+  }
+};
+
+TEST(ConeKernels, tell_the_lengths_of_a_cone_at_the_probes) {
+  const RandomCones all(1);
+  const ConeCell& cell = all.cell;
+  for (const Cone& cone : all.cone) {
+    const Lengths lengths = cell.lengths(cone_kernels(), cone);
+    double least = 1e9;
+    for (int k = 0; k < 8; ++k) {  // the corners
+      const Vec3 x = Vec3{cell.c[0], cell.c[1], cell.c[2]} +
+                     static_cast<double>(cell.half) * Vec3{k & 1 ? 1. : -1, k & 2 ? 1. : -1, k & 4 ? 1. : -1};
+      EXPECT_NEAR(lengths[k / 4][k % 4], cone.length_at(x), 1e-6);
+      least = std::min(least, cone.length_at(x));
+    }
+    EXPECT_NEAR(lengths[kGroups - 1][3], cone.length_at({cell.c[0], cell.c[1], cell.c[2]}), 1e-6);
+    Lengths best;
+    best.fill(four(10));
+    std::array<Int4, kGroups> winner{};
+    EXPECT_LE(cone_kernels().take(numbers(lengths), 7, numbers(best), numbers(winner)), least + 1e-6);
+    EXPECT_EQ(winner[0][0], 7);
+    Lengths own;
+    bool is_near = false;
+    EXPECT_FALSE(cone_kernels().offer(cell.numbers(), cone.numbers(), numbers(best), numbers(own), is_near));
+    EXPECT_EQ(is_near, cone_kernels().is_near(cell.numbers(), cone.numbers()));
+    best[2][1] = 10;
+    EXPECT_TRUE(cone_kernels().offer(cell.numbers(), cone.numbers(), numbers(best), numbers(own), is_near));
+  }
+}
+
+TEST(ConeKernels, ask_every_cone_that_is_known) {
+  RandomCones all(2);
+  Cone& won = all.cone[0];
+  std::copy_n(all.cell.c, 3, won.x);  // in the middle of the cell
+  won.length = 0.05F;
+  for (std::size_t i = 1; i < all.cone.size(); ++i) all.cone[i].length = 1;
+  const ConeKernels& kernels = cone_kernels();
+  const auto wins = [&](const KnownCones& known) {
+    return kernels.wins_nearby(all.cell.numbers(), won.numbers(), 10, known);
+  };
+  EXPECT_TRUE(wins(all.known({1, 2, 3})));
+  all.cone[3] = won;  // as short: no gain
+  EXPECT_FALSE(wins(all.known({1, 2, 3})));
+  const std::vector<std::int32_t> two{1, 2};
+  KnownCones known = all.known(two);
+  const SampleLink links[] = {{4, kNone}, {3, 0}};
+  known.links = links;
+  EXPECT_TRUE(wins(known));
+  known.link = 1;
+  EXPECT_FALSE(wins(known));
+  known.without = 3;
+  EXPECT_TRUE(wins(known));
+  known.first = 3;
+  EXPECT_FALSE(wins(known));
+  EXPECT_FALSE(kernels.wins_nearby(all.cell.numbers(), won.numbers(), 0.04F, all.known({})));
+}
+
+TEST(ConeKernels, give_the_same_bits_on_every_processor) {
+#if defined(__x86_64__)
+  if (!__builtin_cpu_supports("avx2")) {
+    std::cout << "SKIPPED: ConeKernels.give_the_same_bits_on_every_processor: this processor has no AVX2" << std::endl;
+    GTEST_SKIP();
+  }
+  const ConeKernels &anywhere = detail::cone_kernels_anywhere(), &avx2 = detail::cone_kernels_avx2();
+  int n_won = 0;
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const RandomCones all(seed);
+    Lengths best[2];
+    std::array<Int4, kGroups> winner[2];
+    for (int k = 0; k < 2; ++k) {
+      best[k].fill(four(0.2F));
+      winner[k].fill(Int4{} + kNone);
+    }
+    std::vector<std::int32_t> own;
+    for (std::size_t i = 0; i < all.cone.size(); ++i) {
+      Lengths lengths[2];
+      bool is_near[2], is_below[2];
+      float least[2];
+      for (int k = 0; k < 2; ++k) {
+        const ConeKernels& kernels = k == 0 ? anywhere : avx2;
+        is_below[k] =
+            kernels.offer(all.cell.numbers(), all.cone[i].numbers(), numbers(best[k]), numbers(lengths[k]), is_near[k]);
+        least[k] =
+            kernels.take(numbers(lengths[k]), static_cast<std::int32_t>(i), numbers(best[k]), numbers(winner[k]));
+      }
+      EXPECT_EQ(is_below[0], is_below[1]);
+      EXPECT_EQ(is_near[0], is_near[1]);
+      EXPECT_EQ(least[0], least[1]);
+      EXPECT_EQ(std::memcmp(&lengths[0], &lengths[1], sizeof(Lengths)), 0);
+      EXPECT_EQ(std::memcmp(&best[0], &best[1], sizeof(Lengths)), 0);
+      EXPECT_EQ(std::memcmp(&winner[0], &winner[1], sizeof winner[0]), 0);
+      const bool wins = anywhere.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.3F, all.known(own));
+      EXPECT_EQ(wins, avx2.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.3F, all.known(own)));
+      n_won += wins;
+      own.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  EXPECT_GT(n_won, 50);
+#else
+  std::cout << "SKIPPED: ConeKernels.give_the_same_bits_on_every_processor: one kind of processor only" << std::endl;
+  GTEST_SKIP();
+#endif
+}
+
+}  // namespace
+}  // namespace st
