@@ -1,12 +1,10 @@
 // What was asked for on lifting surfaces, as artifacts keep it for judging meshes.
 #pragma once
 
-#include <span>
 #include <vector>
 
+#include "base/ids.h"
 #include "base/similarity.h"
-#include "features/lifting_surface.h"
-#include "sizing/wing_sizes.h"
 
 namespace st {
 
@@ -27,10 +25,6 @@ struct WingRecord {
                           ///< symmetry cuts them in two; 0: sharp, or rules say it
   bool has_noses = true;
 };
-
-/// Measured stations; of a surface without noses all. `is_left_out`, `strips`: as raster_wing() takes them.
-WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out,
-                       std::span<const Strip> strips = {});
 
 /// The same wing elsewhere.
 WingRecord moved(const Similarity& frame, WingRecord wing);

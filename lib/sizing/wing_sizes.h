@@ -12,6 +12,7 @@
 #include "features/strip.h"
 #include "sizing/line_stretch.h"
 #include "sizing/octree.h"
+#include "sizing/wing_record.h"
 
 namespace st {
 
@@ -61,6 +62,10 @@ std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface
 /// Where `least` makes lengths along edges and noses of a lifting surface larger than `edge_size`, the station where
 /// it does so most; nullopt: nowhere. Local. Throws Error(kUsage).
 std::optional<RaisedLength> most_raised(const LiftingSurface& wing, const WingSizes& sizes);
+
+/// Measured stations; of a surface without noses all. `is_left_out`, `strips`: as raster_wing() takes them.
+WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::span<const std::uint8_t> is_left_out,
+                       std::span<const Strip> strips = {});
 
 /// A local chord as the sampling of faces uses it.
 struct ChordLine {

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "sizing/wing_sizes.h"
+
 namespace st {
 namespace {
 

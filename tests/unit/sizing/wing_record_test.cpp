@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "sizing/wing_sizes.h"
 #include "support/shapes.h"
 
 namespace st {
