@@ -159,9 +159,10 @@ class Blanker {
 
   /// Boxes of the triangles in cut cells, one after the other: most are passed over by them.
   void box_triangles() {
-    constexpr float kBig = std::numeric_limits<float>::max();
-    const auto below = [](double v) { return std::nextafter(static_cast<float>(v), -kBig); };
-    const auto above = [](double v) { return std::nextafter(static_cast<float>(v), kBig); };
+    constexpr float kWider = std::numeric_limits<float>::epsilon(), kLeast = std::numeric_limits<float>::min();
+    const auto wider = [](float v) { return kWider * std::abs(v) + kLeast; };
+    const auto below = [&](double v) { return static_cast<float>(v) - wider(static_cast<float>(v)); };
+    const auto above = [&](double v) { return static_cast<float>(v) + wider(static_cast<float>(v)); };
     boxes_.resize(cut_.triangle.size());
     parallel_for(boxes_.size(), kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -280,11 +281,10 @@ class Blanker {
     const Cube cell = cube(cut_.leaf[i]);
     clip(i, cell, pieces);
     const std::array<int, kSamples> group = connect_samples(cell, cut_.leaf[i]);
+    constexpr int kVotes = 3;  // of a group's samples: no triangle lies between them
     std::array<int, kSamples> vote{}, count{};
-    for (int s = 0; s < kSamples; ++s) {
-      vote[group[s]] += sign_at(cell.sample(s), pieces);
-      ++count[group[s]];
-    }
+    for (int s = 0; s < kSamples; ++s)
+      if (++count[group[s]] <= kVotes) vote[group[s]] += sign_at(cell.sample(s), pieces);
     std::array<int, 2> largest{kNone, kNone};  // groups of flow
     for (int g = 0; g < kSamples; ++g) {
       if (count[g] == 0 || vote[g] <= 0) continue;

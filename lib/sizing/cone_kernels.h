@@ -34,6 +34,8 @@ struct KnownCones {
 struct ConeKernels {
   /// Whether a cone is near a cell: from afar lengths change evenly over it.
   bool (*is_near)(const float* cell, const float* cone);
+  /// The sides of a cell by which straight ways from a cone leave it: bit 2 * axis for the lower one, then the upper.
+  std::int32_t (*sides_ahead)(const float* cell, const float* cone, bool& is_near);
   /// Of a cone at the probes of a cell.
   void (*lengths)(const float* cell, const float* cone, float* lengths);
   /// Likewise; whether they are clearly below `best` at any probe, by the share

@@ -176,15 +176,16 @@ struct CellView {
   /// centre of the cell.
   EightPlaces closest_to_rectangle(const ConeView& cone) const {
     constexpr float kInside = 0.8F;  // of the sides: further out its neighbours count
-    const float a = kInside * cone.half[0], b = kInside * cone.half[1];
     float towards[2];
     for (int e = 0; e < 2; ++e) {
       float along = 0;
       for (int k = 0; k < 3; ++k) along += (c[k] - cone.x[k]) * cone.side[e][k];
       towards[e] = clamp(along, -kInside * cone.half[e], kInside * cone.half[e]);
     }
-    const float u[8] = {0, a, -a, towards[0], a, a, -a, -a}, v[8] = {0, 0, 0, towards[1], b, -b, b, -b};
-    const F8 along_u = load(u), along_v = load(v);
+    constexpr float kU[8] = {0, 1, -1, 0, 1, 1, -1, -1}, kV[8] = {0, 0, 0, 0, 1, -1, 1, -1},
+                    kTowards[8] = {0, 0, 0, 1, 0, 0, 0, 0};
+    const F8 share = load(kTowards), along_u = kInside * cone.half[0] * load(kU) + towards[0] * share,
+             along_v = kInside * cone.half[1] * load(kV) + towards[1] * share;
     const auto closest = [&](int k) {
       return most(all(c[k] - half),
                   least(all(c[k] + half), cone.x[k] + along_u * all(cone.side[0][k]) + along_v * all(cone.side[1][k])));
@@ -205,6 +206,21 @@ bool is_near_cell(const float* cell, const float* cone) {
   }
   const float distance = __builtin_sqrtf(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
   return in.is_near(of, of.length + of.slope * distance);
+}
+
+std::int32_t sides_ahead(const float* cell, const float* cone, bool& is_near) {
+  constexpr float kOnSide = 1 + 1e-5F;  // of half the edge: a sample on the side may be rounded to the other
+  const CellView in(cell);
+  const ConeView of(cone);
+  is_near = is_near_cell(cell, cone);
+  const float half = kOnSide * in.half;
+  std::int32_t sides = 0;
+  for (int k = 0; k < 3; ++k) {
+    const float reach = __builtin_fabsf(of.side[0][k]) * of.half[0] + __builtin_fabsf(of.side[1][k]) * of.half[1],
+                from_center = of.x[k] - in.c[k];
+    sides |= (from_center + reach >= -half) << (2 * k) | (from_center - reach <= half) << (2 * k + 1);
+  }
+  return sides;
 }
 
 void cone_lengths(const float* cell, const float* cone, float* lengths) {
@@ -256,7 +272,7 @@ bool wins_nearby(const float* cell, const float* cone, float largest, const Know
   return true;
 }
 
-constexpr ConeKernels kKernels{is_near_cell, cone_lengths, offer_cone, take_lengths, wins_nearby};
+constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone, take_lengths, wins_nearby};
 
 }  // namespace
 }  // namespace st

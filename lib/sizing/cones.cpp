@@ -71,9 +71,15 @@ class ConeSpread {
   }
 
  private:
+  /// Of a site and a sample, in this order.
   struct Event {
-    std::int32_t site, sample;
+    std::uint64_t key;
     std::int32_t n;  // samples of the site with it; 0: it lies there and is not taken yet
+
+    Event(std::int32_t site, std::int32_t sample, std::int32_t n)
+        : key(static_cast<std::uint64_t>(site) << 32 | static_cast<std::uint32_t>(sample)), n(n) {}
+    std::int32_t site() const { return static_cast<std::int32_t>(key >> 32); }
+    std::int32_t sample() const { return static_cast<std::int32_t>(key); }
   };
   static constexpr std::size_t kAhead = 4;  // events
   /// What an offer needs comes first.
@@ -164,34 +170,34 @@ class ConeSpread {
 
   /// Site by site: so those that are looked at lie beside each other in memory.
   void pass_on_in_order(std::vector<Event> events) {
-    std::sort(events.begin(), events.end(),
-              [](const Event& a, const Event& b) { return a.site != b.site ? a.site < b.site : a.sample < b.sample; });
+    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.key < b.key; });
     for (std::size_t i = 0; i < events.size(); ++i) {
       if (i + 2 * kAhead < events.size()) fetch(events[i + 2 * kAhead]);
-      if (i + kAhead < events.size()) fetch_beside(events[i + kAhead].site);
+      if (i + kAhead < events.size()) fetch_beside(events[i + kAhead].site());
       pass_on(events[i]);
     }
   }
 
   /// Asks the memory for what an event will need. Inlined: else it is taken for a function without effect.
   [[gnu::always_inline]] void fetch(const Event& e) const {
-    sites_[e.site].fetch();
-    __builtin_prefetch(&cones_[e.sample]);
+    sites_[e.site()].fetch();
+    __builtin_prefetch(&cones_[e.sample()]);
   }
   [[gnu::always_inline]] void fetch_beside(std::int32_t site) const {
     const auto [first, last] = sites_[site].beside;
     for (std::int32_t k = first; k < last; ++k) sites_[beside_[k].site].fetch();
   }
 
-  void pass_on(const Event e) {
+  void pass_on(const Event& e) {
+    const std::int32_t site = e.site(), sample = e.sample();
     float least = 0;
-    if (e.n == 0 && !offer(e.site, e.sample, least)) return;
-    if (e.n != 0 && sites_[e.site].n != e.n && !is_still_best(sites_[e.site], e.sample)) return;
-    const auto [first, last] = beside(e.site);
-    const std::int32_t ahead = sides_ahead(sites_[e.site], e.sample);
+    if (e.n == 0 && !offer(site, sample, least)) return;
+    if (e.n != 0 && sites_[site].n != e.n && !is_still_best(sites_[site], sample)) return;
+    const auto [first, last] = beside(site);
+    const std::int32_t ahead = sides_ahead(sites_[site], sample);
     for (std::int32_t k = first; k < last; ++k) {
       const auto [other, towards] = beside_[k];
-      if ((towards & ahead) != 0 && offer(other, e.sample, least)) push({other, e.sample, sites_[other].n}, least);
+      if ((towards & ahead) != 0 && offer(other, sample, least)) push({other, sample, sites_[other].n}, least);
     }
   }
 
@@ -200,23 +206,9 @@ class ConeSpread {
   /// The sides of a cell by which straight ways from a sample leave the place where it wins: bit 2 * axis for the lower
   /// one, then the upper. From afar it wins at a probe of these sides.
   std::int32_t sides_ahead(const Site& s, std::int32_t sample) const {
-    const Cone& cone = cones_[sample];
-    constexpr float kOnSide = 1 + 1e-5F;  // of half the edge: a sample on the side may be rounded to the other
-    const float half = kOnSide * s.cell.half;
-    std::int32_t sides = kAlways;
-    for (int k = 0; k < 3; ++k) {
-      const float reach = std::abs(cone.side[0][k]) * cone.half[0] + std::abs(cone.side[1][k]) * cone.half[1],
-                  from_center = cone.x[k] - s.cell.c[k];
-      if (from_center + reach >= -half) sides |= 1 << (2 * k);
-      if (from_center - reach <= half) sides |= 2 << (2 * k);
-    }
-    return kernels_.is_near(s.cell.numbers(), cone.numbers()) ? sides : sides & (kAlways | s.sides_won(sample));
-  }
-
-  static std::int32_t side_of(const CellStep& step) {
-    const int d[3] = {step.x, step.y, step.z};
-    const int k = std::abs(d[0]) > 1 ? 0 : std::abs(d[1]) > 1 ? 1 : 2;
-    return (d[k] < 0 ? 1 : 2) << (2 * k);
+    bool is_near = false;
+    const std::int32_t sides = kAlways | kernels_.sides_ahead(s.cell.numbers(), cones_[sample].numbers(), is_near);
+    return is_near ? sides : sides & (kAlways | s.sides_won(sample));
   }
 
   /// Where the sites begin and end in `beside_` that lie across the faces of this one: a corner that a sample wins
@@ -226,8 +218,8 @@ class ConeSpread {
     if (last > first) return {first, last};
     first = static_cast<std::int32_t>(beside_.size());
     if (!blanking_ || blanking_->site_links[site] == kNone)
-      neighbours_.for_each_across_face(site, [&](std::int32_t other, const CellStep& step) {
-        beside_.push_back({other, side_of(step)});
+      neighbours_.for_each_across_side(site, [&](std::int32_t other, int side) {
+        beside_.push_back({other, 1 << side});
       });
     else
       for_each_link(blanking_, neighbours_, site, [&](std::int32_t other, const CellStep& step) {

@@ -112,6 +112,8 @@ ClippedTriangle clip_triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 center, double half) 
   for (int side = 0; side < 6 && polygon.n > 0; ++side) {
     const int axis = side / 2;
     const double sign = side % 2 ? -1 : 1;
+    const auto is_inside = [&](const Vec3& v) { return sign * component(v, axis) <= half; };
+    if (std::all_of(polygon.corner, polygon.corner + polygon.n, is_inside)) continue;
     ClippedTriangle next;
     for (int k = 0; k < polygon.n; ++k) {
       const Vec3 p = polygon.corner[k], q = polygon.corner[(k + 1) % polygon.n];

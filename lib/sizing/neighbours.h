@@ -83,12 +83,23 @@ class Neighbours {
   void for_each_across_face(std::int32_t leaf, F&& f) const {
     if (octree_.node_children.empty()) return;
     const Place place(*this, leaf);
-    for (const int d : {12, 10, 4, 14, 16, 22}) visit_direction(place, d, f);
+    for (const int d : kAcross) visit_direction(place, d, f);
+  }
+
+  /// Likewise, calls f(leaf, side): 2 * axis of the lower side, and one more of the upper.
+  template <class F>
+  void for_each_across_side(std::int32_t leaf, F&& f) const {
+    if (octree_.node_children.empty()) return;
+    const Place place(*this, leaf);
+    constexpr int kSide[6] = {0, 2, 4, 1, 3, 5};
+    for (int k = 0; k < 6; ++k)
+      visit_direction(place, kAcross[k], [&](std::int32_t other, const CellStep&) { f(other, kSide[k]); });
   }
 
  private:
   static constexpr std::int32_t kOutside = std::numeric_limits<std::int32_t>::min();
   static constexpr int kOwn = 13;  // the direction of the cell itself
+  static constexpr int kAcross[6] = {12, 10, 4, 14, 16, 22};
   /// Of a leaf among the cells of its parent.
   struct Place {
     const std::int32_t* around;  // its parent

@@ -24,8 +24,8 @@ class SiteVisitor {
   SiteVisitor(const OctreeView& octree, const Neighbours& neighbours, const Blanking& blanking, const F& f)
       : octree_(octree), neighbours_(neighbours), blanking_(blanking), f_(f) {}
 
-  void visit(const LengthSample& s) const {
-    const std::int32_t leaf = octree_.find_leaf(morton::encode(octree_.grid_point(s.xyz)));
+  /// `leaf`: where the sample lies.
+  void visit(const LengthSample& s, std::int32_t leaf) const {
     visit_parts(s, leaf);
     if (blanking_.colour[leaf] != CellColour::kBlanked) return;
     // the surface may bulge a little into what is blanked: lengths do not pass from there
@@ -101,7 +101,7 @@ void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSampl
     const auto own = [&](std::int32_t site) { f(site, static_cast<std::int32_t>(i)); };
     const auto visit = [&](const LengthSample& s, std::int32_t leaf) {
       if (blanking)
-        SiteVisitor(octree, neighbours, *blanking, own).visit(s);
+        SiteVisitor(octree, neighbours, *blanking, own).visit(s, leaf);
       else
         own(leaf);
     };
