@@ -88,7 +88,7 @@ void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking
       is_waiting[leaf] = 0;
       const float length = cells.length[leaf];
       const std::int32_t cause = cells.cause[leaf];
-      for_each_link(blanking, neighbours, leaf, [&](std::int32_t other, const CellStep& step) {
+      const auto pass = [&](std::int32_t other, const CellStep& step) {
         const std::size_t o = static_cast<std::size_t>(other);
         const float rise = is_uniform ? weight(step) : weight(step) * slopes.between(leaf, other);
         const float limit = length + rise;
@@ -98,7 +98,11 @@ void pass_lengths(double root_edge, const Neighbours& neighbours, const Blanking
         cells.cause[o] = cause;
         is_waiting[o] = 1;
         buckets.push(limit, other);
-      });
+      };
+      if (options.across_faces)
+        neighbours.for_each_across_face(leaf, pass);
+      else
+        for_each_link(blanking, neighbours, leaf, pass);
     }
     std::vector<std::int32_t>().swap(buckets[b]);
   }
@@ -223,7 +227,7 @@ ProlongedLengths prolong(const Neighbours& neighbours, std::span<const float> st
   ST_ASSERT(stored_length.size() == octree.leaf_keys.size() + (blanking ? blanking->split_leaf.size() : 0));
   ST_ASSERT(stored_cause.size() == stored_length.size());
   ST_ASSERT(options.cell_slope.empty() || options.cell_slope.size() == octree.leaf_keys.size());
-  ST_ASSERT(options.slope > 0 && options.max_length > 0);
+  ST_ASSERT(options.slope > 0 && options.max_length > 0 && !(options.across_faces && blanking));
   CellLengths lengths = bounded_lengths(stored_length, stored_cause, static_cast<float>(options.max_length));
   pass_lengths(octree.edge, neighbours, blanking, options, lengths);
   ProlongedLengths result;

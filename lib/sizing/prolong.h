@@ -23,6 +23,8 @@ struct ProlongOptions {
   std::span<const float> cell_slope = {};  ///< [n_leaves] slope in each cell, > 0; between two cells the mean holds.
                                            ///< Empty: `slope` everywhere
   bool wants_gradients = true;             ///< false: lengths are constant in each cell
+  bool across_faces = false;               ///< lengths pass across faces alone, at a quarter of the cost: up to
+                                           ///< sqrt(3) as far; not with blanking
 };
 
 /// Appends what the second parts of split leaves start from: what their leaf stores.

@@ -146,7 +146,7 @@ class FaceRaster {
 
   double allowed_length(double curvature, Vec3 x) const {
     double length = curvature * limits_.max_length > limits_.alpha ? limits_.alpha / curvature : limits_.max_length;
-    if (chord_) length = std::min(length, chord_->at(x));
+    if (chord_ && chord_->least() < length) length = std::min(length, chord_->at(x));
     if (curvature * length * length > 8 * limits_.chord)
       length = std::sqrt(8 * limits_.chord / curvature);  // sagitta of a flat arc
     return std::max(length, limits_.min_length);

@@ -249,8 +249,10 @@ ChordLimit::ChordLimit(std::span<const ChordLine> lines, std::int32_t wing, int 
     : chord_cells_(chord_cells) {
   std::copy_if(lines.begin(), lines.end(), std::back_inserter(lines_),
                [&](const ChordLine& line) { return line.wing == wing; });
-  for (const ChordLine& line : lines_)
+  for (const ChordLine& line : lines_) {
     balls_.push_back({0.5 * (line.nose + line.trailing), 0.5 * distance(line.nose, line.trailing)});
+    least_ = std::min(least_, line.chord / chord_cells_);
+  }
 }
 
 ChordLimit::Answer ChordLimit::answer(Vec3 x) const {

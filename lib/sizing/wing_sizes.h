@@ -89,6 +89,8 @@ class ChordLimit {
   /// Of the nearest line, the first of equally near ones. Linear in lines, most of which are passed over.
   Answer answer(Vec3 x) const;
   double at(Vec3 x) const { return answer(x).length; }
+  /// The smallest of all places, model unit.
+  double least() const { return least_; }
 
  private:
   struct Ball {
@@ -98,6 +100,7 @@ class ChordLimit {
   std::vector<ChordLine> lines_;
   std::vector<Ball> balls_;  // around the lines
   int chord_cells_;
+  double least_ = std::numeric_limits<double>::infinity();
   mutable std::size_t last_ = 0;  // the line that was nearest last
 };
 

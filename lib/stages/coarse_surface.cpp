@@ -19,12 +19,12 @@ namespace {
 constexpr double kSlope = 0.2;
 constexpr double kCoarser = 3;  // than the raster's lengths: a ninth of the triangles
 
-/// Lengths that grow through everything, constant in each cell, on every rank: exact enough here.
+/// Lengths that grow through everything, across faces of cells and constant in each, on every rank: exact enough here.
 std::vector<CellLength> prolong_openly(const RasterArtifact& raster, const Executor& executor) {
   std::vector<CellLength> cells;
   if (executor.is_root())
     cells = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length, raster.octree.stored_cause,
-                    {kSlope, raster.numbers.far_length, {}, false})
+                    {kSlope, raster.numbers.far_length, {}, false, true})
                 .cells;
   share(executor, cells);
   return cells;
@@ -40,7 +40,7 @@ void warn_of_holes(std::vector<FaceFailure> failures) {
 }  // namespace
 
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
-                                 double seconds, const Executor& executor) {
+                                 const std::vector<Strip>& strips, double seconds, const Executor& executor) {
   if (!is_closed(model.tables(), report_edge_uses(model.tables()))) return {};
   const std::vector<CellLength> cells = prolong_openly(raster, executor);
   OctreeFieldData data;
@@ -55,7 +55,7 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   options.when_late = WhenLate::kThrow;
   options.parts_bodies = false;
   options.tells_damage = false;  // nobody sees it: st-mesh tells of the mesh
-  const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor);
+  const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor, &strips);
   MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};
   warn_of_holes(result.failures);

@@ -3,6 +3,7 @@
 
 #include "base/executor.h"
 #include "features/face_roles.h"
+#include "features/strip.h"
 #include "geometry/model/model.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/blanking.h"
@@ -11,8 +12,9 @@ namespace st {
 
 /// Collective. Meshes the model at a multiple of the raster's own sizes; complete on rank 0, the same at every number
 /// of ranks. Empty when the model is not closed. A face that cannot be meshed, or not in `seconds`, leaves a hole, and
-/// a warning. `raster`: shape on every rank, lengths and samples on rank 0.
+/// a warning. `raster`: shape on every rank, lengths and samples on rank 0. `strips`: those of the model, by
+/// find_strips().
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
-                                 double seconds, const Executor& executor);
+                                 const std::vector<Strip>& strips, double seconds, const Executor& executor);
 
 }  // namespace st

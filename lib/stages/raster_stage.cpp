@@ -794,7 +794,8 @@ class RasterRun {
     artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
     progress_.step("surface", 0.7);
-    if (!o_.no_surface) artifact_.surface = make_coarse_surface(model_, roles_, artifact_, o_.time_limit, trace_);
+    if (!o_.no_surface)
+      artifact_.surface = make_coarse_surface(model_, roles_, artifact_, strips_, o_.time_limit, trace_);
     times_.end("surface");
     trace_.begin_phase("write");
     times_.gather(comm_);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/predicates.h"
 
@@ -67,27 +66,26 @@ std::vector<std::pair<std::int32_t, std::int32_t>> crossing_sides(std::span<cons
     hi = {std::max({hi.x, s.a.x, s.b.x}), std::max({hi.y, s.a.y, s.b.y})};
   }
   const bool by_u = along_u * (hi.y - lo.y) < along_v * (hi.x - lo.x);
-  const auto along = [&](Vec2 p) { return by_u ? p.x : p.y; };
-  const auto across = [&](Vec2 p) { return by_u ? p.y : p.x; };
-  std::vector<std::int32_t> order(sides.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto start = [&](std::int32_t i) { return std::min(along(sides[i].a), along(sides[i].b)); };
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t i, std::int32_t j) { return std::pair(start(i), i) < std::pair(start(j), j); });
-  std::vector<std::int32_t> open;
-  std::vector<std::pair<std::int32_t, std::int32_t>> result;
-  for (const std::int32_t i : order) {
+  struct Extent {
+    double start, end, low, high;  // along the axis, and across it
+    std::int32_t side;
+  };
+  std::vector<Extent> order, open;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
     const LoopSide& s = sides[i];
-    const auto [low, high] = std::minmax({across(s.a), across(s.b)});
-    std::erase_if(open, [&](std::int32_t k) { return std::max(along(sides[k].a), along(sides[k].b)) < start(i); });
-    for (const std::int32_t k : open) {
-      const LoopSide& r = sides[k];
-      if (std::max(across(r.a), across(r.b)) < low || std::min(across(r.a), across(r.b)) > high ||
-          !cross_properly(s, r))
-        continue;
-      result.emplace_back(std::min(i, k), std::max(i, k));
-    }
-    open.push_back(i);
+    const auto [start, end] = by_u ? std::minmax(s.a.x, s.b.x) : std::minmax(s.a.y, s.b.y);
+    const auto [low, high] = by_u ? std::minmax(s.a.y, s.b.y) : std::minmax(s.a.x, s.b.x);
+    order.push_back({start, end, low, high, static_cast<std::int32_t>(i)});
+  }
+  std::sort(order.begin(), order.end(),
+            [](const Extent& a, const Extent& b) { return a.start != b.start ? a.start < b.start : a.side < b.side; });
+  std::vector<std::pair<std::int32_t, std::int32_t>> result;
+  for (const Extent& s : order) {
+    std::erase_if(open, [&](const Extent& r) { return r.end < s.start; });
+    for (const Extent& r : open)
+      if (r.high >= s.low && r.low <= s.high && cross_properly(sides[s.side], sides[r.side]))
+        result.emplace_back(std::min(s.side, r.side), std::max(s.side, r.side));
+    open.push_back(s);
   }
   std::sort(result.begin(), result.end());
   return result;

@@ -61,9 +61,10 @@ SurfaceMesh merge_result(const ModelTables& t, const MeshResult& result) {
 
 }  // namespace
 
-MeshTopology merge_small_features(const Model& model, const SizeField& field, double below, const Executor& executor) {
+MeshTopology merge_small_features(const Model& model, const SizeField& field, double below, const Executor& executor,
+                                  const std::vector<Strip>* strips) {
   MergedFeatures merged;
-  if (executor.is_root()) merged = find_merged_features(model, field, below);
+  if (executor.is_root()) merged = find_merged_features(model, field, below, strips);
   share(executor, merged);
   return MeshTopology(model.tables(), std::move(merged));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/executor.h"
+#include "features/strip.h"
 #include "geometry/model/model.h"
 #include "meshing/engine/hole_marker.h"
 #include "meshing/engine/mesh_plan.h"
@@ -11,7 +12,8 @@ namespace st {
 
 /// Collective. The topology with edges and strips merged that are far smaller than the sizes, see
 /// find_merged_features(). Rank 0 decides.
-MeshTopology merge_small_features(const Model& model, const SizeField& field, double below, const Executor& executor);
+MeshTopology merge_small_features(const Model& model, const SizeField& field, double below, const Executor& executor,
+                                  const std::vector<Strip>* strips = nullptr);
 
 /// Collective. The edges and faces of the plan.
 MeshResult mesh_regions(const Model& model, const MeshTopology& topology, const SizeField& field, MeshPlan plan,

@@ -225,9 +225,8 @@ class StripMerger {
 };
 
 /// Strips narrower than their face's limit somewhere, and than the size on the mean; by face.
-std::vector<Strip> narrow_strips(const Model& model, const SizeField& field,
+std::vector<Strip> narrow_strips(std::vector<Strip> strips, const SizeField& field,
                                  const std::vector<MergeLimit>& face_limit) {
-  std::vector<Strip> strips = find_strips(model);
   int hint = 0;
   std::erase_if(strips, [&](const Strip& strip) {
     bool is_narrow = false;
@@ -318,14 +317,15 @@ double MergeLimit::at(double size) const {
   return std::max(limit, std::min(exact, kLargestMerge * size));
 }
 
-MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below) {
+MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below,
+                                    const std::vector<Strip>* known_strips) {
   MergedFeatures merged;
   if (!(below > 0)) return merged;
   const ModelTables& t = model.tables();
   const std::vector<MergeLimit> face_limit = face_limits(t, below);
   merged.edge = EdgeMerger(model, field, face_limit, below).run();
   StripMerger merger(t, merged.edge);
-  std::vector<Strip> strips = narrow_strips(model, field, face_limit);
+  std::vector<Strip> strips = narrow_strips(known_strips ? *known_strips : find_strips(model), field, face_limit);
   const std::vector<Ring> rings = narrow_rings(model, field);
   for (const Ring& ring : rings) strips.push_back(ring.strip);
   std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.face < b.face; });

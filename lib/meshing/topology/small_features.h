@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "features/strip.h"
 #include "geometry/model/model.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/topology/curve_discretiser.h"
@@ -26,8 +27,9 @@ struct MergeLimit {
 /// limit; an edge between faces of different limits has the smaller. `below` 0: nothing is merged. An edge is not drawn
 /// together when a loop would be left with fewer than two edges, or several would move a vertex further than that.
 /// Rings, faces between two closed edges, are closed where they are narrower all around than the CAD is exact.
-/// Deterministic, local.
-MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below);
+/// `strips`: those of the model, by find_strips(); null: they are found. Deterministic, local.
+MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below,
+                                    const std::vector<Strip>* strips = nullptr);
 
 /// Nodes on the other long edge of a strip for those on the kept one (`nodes`, of this curve alone): as many, at the
 /// same shares of the length, in the other edge's own direction. Where the strip is narrower than the limit they are

@@ -52,6 +52,20 @@ TEST(Prolong, is_the_largest_field_that_respects_the_slope) {
   EXPECT_GT(n_limited, c.view().n_leaves() / 10);
 }
 
+TEST(Prolong, across_faces_is_larger_by_the_detours_alone) {
+  const Case c = make_case(2000);
+  const ProlongedLengths across = prolong(Neighbours(c.view()), c.raster.stored_length, c.raster.stored_cause,
+                                          {kFrontSlope, kFrontMaxLength, {}, true, true});
+  int n_larger = 0;
+  for (std::size_t i = 0; i < across.cells.size(); ++i) {
+    const double own = across.cells[i].length, straight = c.cells.cells[i].length;
+    ASSERT_GE(own, straight);
+    ASSERT_LE(own, std::sqrt(3.0) * straight * (1 + 1e-6));
+    n_larger += own > straight;
+  }
+  EXPECT_GT(n_larger, 0);
+}
+
 TEST(Prolong, keeps_the_cause_of_the_length_it_passes_on) {
   std::vector<RasterBox> boxes{{{0.25, 0.5, 0.5}, 0.002F, 0.002F, pack_cause(CauseKind::kEdge, 11)},
                                {{0.75, 0.5, 0.5}, 0.004F, 0.004F, pack_cause(CauseKind::kFace, 5)}};

@@ -152,6 +152,7 @@ TEST(ChordLimit, passes_over_none_that_is_nearest) {
   std::vector<ChordLine> lines;
   for (int i = 0; i < 60; ++i) lines.push_back({vec(), vec(), 1.0 + i, 0});
   const ChordLimit limit(lines, 0, 1);
+  EXPECT_EQ(limit.least(), 1);
   for (int i = 0; i < 2000; ++i) {
     const Vec3 x = 2 * vec();
     const auto nearest = std::min_element(lines.begin(), lines.end(), [&](const ChordLine& a, const ChordLine& b) {
