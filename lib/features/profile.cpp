@@ -21,7 +21,7 @@ constexpr double kSharpNose = 0.03, kFlatNose = 0.85;  // thickness at the first
                                                        // 1
 constexpr double kThickEnd = 0.6;                      // thickness at the last place, at most
 constexpr double kFirstThickest = 0.1, kLastThickest = 0.8;
-constexpr std::size_t kFacetsPerBlock = 64;
+constexpr std::size_t kFacetsPerBlock = 8;
 constexpr double kThinFor = 5;      // largest over smallest distance from the edge at which a thin part is thin
 constexpr double kThinStep = 1.05;  // between two distances that are tried
 constexpr double kBehind = 0.02;    // of the chord: nothing lies further behind the edge
@@ -57,9 +57,11 @@ std::optional<double> width_at(const Segments& segments, Vec3 from, double way) 
 
 /// Rounding counts as near.
 bool is_near(const Box3& box, Vec3 x, double reach) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9, kClearly2 = 1.21, kAboveRounding2 = 1e-14;
+  const double own2 = distance2(x, box);
+  if (own2 > kClearly2 * reach * reach && own2 > kAboveRounding2 * norm2(box.hi - box.lo)) return false;  // most are
   const double most = reach + kRounding * (box.diagonal() + distance(box.center(), x));
-  return distance2(x, box) <= most * most;
+  return own2 <= most * most;
 }
 
 }  // namespace

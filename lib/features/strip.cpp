@@ -1,6 +1,7 @@
 #include "features/strip.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -52,13 +53,16 @@ bool long_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, St
 
 /// So many intervals that each turns little.
 int count_stations(const Curve& curve) {
-  double turning = 0;
-  Vec3 last = curve.evaluate(curve.t_min()).d1;
-  for (int i = 1; i <= kTurningSamples; ++i) {
-    const Vec3 d1 = curve.evaluate(curve.t_min() + (curve.t_max() - curve.t_min()) * i / kTurningSamples).d1;
-    turning += angle_between(last, d1);
-    last = d1;
+  std::array<Vec3, kTurningSamples + 1> d1;
+  for (int i = 0; i <= kTurningSamples; ++i)
+    d1[i] = curve.evaluate(curve.t_min() + (curve.t_max() - curve.t_min()) * i / kTurningSamples).d1;
+  double turning = 0, at_most = 0;  // at most: tangents in place of angles
+  for (int i = 0; i < kTurningSamples; ++i) {
+    const double along = dot(d1[i], d1[i + 1]);
+    at_most += along > 0 ? norm(cross(d1[i], d1[i + 1])) / along : kMaxStations * kStationTurning;
   }
+  if (at_most < 0.99 * kMinStations * kStationTurning) return kMinStations;
+  for (int i = 0; i < kTurningSamples; ++i) turning += angle_between(d1[i], d1[i + 1]);
   return std::clamp(static_cast<int>(std::ceil(turning / kStationTurning)), kMinStations, kMaxStations);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "base/log.h"
@@ -247,30 +248,49 @@ WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::
 
 ChordLimit::ChordLimit(std::span<const ChordLine> lines, std::int32_t wing, int chord_cells)
     : chord_cells_(chord_cells) {
-  std::copy_if(lines.begin(), lines.end(), std::back_inserter(lines_),
-               [&](const ChordLine& line) { return line.wing == wing; });
-  for (const ChordLine& line : lines_) {
-    balls_.push_back({0.5 * (line.nose + line.trailing), 0.5 * distance(line.nose, line.trailing)});
+  Box3 box;
+  for (const ChordLine& line : lines) {
+    if (line.wing != wing) continue;
+    lines_.push_back(
+        {0.5 * (line.nose + line.trailing), 0.5 * distance(line.nose, line.trailing), 0, lines_.size(), line});
+    box.add(lines_.back().center);
     least_ = std::min(least_, line.chord / chord_cells_);
+    largest_radius_ = std::max(largest_radius_, lines_.back().radius);
   }
+  if (lines_.empty()) return;
+  const Vec3 side = box.hi - box.lo, unit = side.x >= side.y && side.x >= side.z ? Vec3{1, 0, 0}
+                                            : side.y >= side.z                   ? Vec3{0, 1, 0}
+                                                                                 : Vec3{0, 0, 1};
+  axis_ = unit;
+  for (Line& line : lines_) line.place = dot(line.center, axis_);
+  std::stable_sort(lines_.begin(), lines_.end(), [](const Line& a, const Line& b) { return a.place < b.place; });
 }
 
 ChordLimit::Answer ChordLimit::answer(Vec3 x) const {
   constexpr double kAbove = 1 + 1e-12;  // rounding shall leave no line out
   if (lines_.empty()) return {};
-  const auto distance_to = [&](std::size_t i) { return segment_distance(x, lines_[i].nose, lines_[i].trailing); };
-  std::size_t best = last_;  // of the last place, which is near mostly
-  double nearest = distance_to(best);
-  for (std::size_t i = 0; i < lines_.size(); ++i) {
-    const double reach = kAbove * (nearest + balls_[i].radius);
-    if (norm2(x - balls_[i].center) > reach * reach) continue;
-    const double d = distance_to(i);
-    if (d > nearest || (d == nearest && i >= best)) continue;
-    nearest = d;
-    best = i;
+  const double place = dot(x, axis_);
+  const Line* best = &lines_[last_];  // of the last place, which is near mostly
+  double nearest = segment_distance(x, best->line.nose, best->line.trailing);
+  const auto ask = [&](const Line& line) {  // false: those further on along the axis are further away
+    const double reach = kAbove * (nearest + line.radius);
+    if (norm2(x - line.center) > reach * reach)
+      return std::abs(line.place - place) <= kAbove * (nearest + largest_radius_);
+    const double d = segment_distance(x, line.line.nose, line.line.trailing);
+    if (d < nearest || (d == nearest && line.rank < best->rank)) {
+      nearest = d;
+      best = &line;
+    }
+    return true;
+  };
+  const auto from = std::lower_bound(lines_.begin(), lines_.end(), place,
+                                     [](const Line& line, double at) { return line.place < at; });
+  for (auto line = from; line != lines_.end() && ask(*line); ++line) {
   }
-  last_ = best;
-  return {lines_[best].chord / chord_cells_, normalized(lines_[best].trailing - lines_[best].nose)};
+  for (auto line = from; line != lines_.begin() && ask(*std::prev(line)); --line) {
+  }
+  last_ = static_cast<std::size_t>(best - lines_.data());
+  return {best->line.chord / chord_cells_, normalized(best->line.trailing - best->line.nose)};
 }
 
 }  // namespace st

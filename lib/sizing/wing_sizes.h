@@ -86,19 +86,23 @@ class ChordLimit {
     double length = std::numeric_limits<double>::infinity();  ///< model unit
     Vec3 direction;                                           ///< unit, along the chord; zero without lines
   };
-  /// Of the nearest line, the first of equally near ones. Linear in lines, most of which are passed over.
+  /// Of the nearest line, the first of equally near ones.
   Answer answer(Vec3 x) const;
   double at(Vec3 x) const { return answer(x).length; }
   /// The smallest of all places, model unit.
   double least() const { return least_; }
 
  private:
-  struct Ball {
+  /// With the ball around it.
+  struct Line {
     Vec3 center;
-    double radius;
+    double radius, place;  // place: of the centre, along the axis
+    std::size_t rank;      // as they were given
+    ChordLine line;
   };
-  std::vector<ChordLine> lines_;
-  std::vector<Ball> balls_;  // around the lines
+  std::vector<Line> lines_;  // in the order of their places
+  Vec3 axis_;                // unit, along which the lines follow each other most
+  double largest_radius_ = 0;
   int chord_cells_;
   double least_ = std::numeric_limits<double>::infinity();
   mutable std::size_t last_ = 0;  // the line that was nearest last

@@ -202,30 +202,34 @@ BsplineSurface::Place BsplineSurface::locate(Vec2 uv) const {
 const double* BsplineSurface::add_patch(int iu, int iv) const {
   const std::size_t size = static_cast<std::size_t>(u_.degree() + 1) * (v_.degree() + 1) * stride_;
   auto own = std::make_unique<double[]>(size + 1);
-  is_rational_ ? convert<4>(iu, iv, own.get()) : convert<3>(iu, iv, own.get());
+  convert(iu, iv, own.get());
   const double* known = nullptr;
   auto& patch = data_->patch[static_cast<std::size_t>(iu) * v_.n_spans() + iv];
   if (patch.compare_exchange_strong(known, own.get(), std::memory_order_acq_rel)) return own.release();
   return known;  // another thread was first; it found the same
 }
 
-template <int stride>
 void BsplineSurface::convert(int iu, int iv, double* out) const {
   const int nu = u_.degree() + 1, nv = v_.degree() + 1;
   const double *bu = u_.basis(iu), *bv = v_.basis(iv);
-  const int n = nv * stride;
-  double half[4 * kMaxOrder];
+  Pole half[kMaxOrder * kMaxOrder];
+  const auto add = [](double factor, const Pole& p, Pole& sum) {
+    for (int x = 0; x < 4; ++x) sum.x[x] += factor * p.x[x];
+  };
   for (int j = 0; j < nu; ++j) {
     const Pole* row = &poles_[static_cast<std::size_t>(u_.first_pole(iu) + j) * n_v_ + v_.first_pole(iv)];
     for (int c = 0; c < nv; ++c) {
-      double sum[stride] = {};
-      for (int l = 0; l < nv; ++l)
-        for (int x = 0; x < stride; ++x) sum[x] += bv[l * nv + c] * row[l].x[x];
-      std::copy_n(sum, stride, half + c * stride);
+      Pole sum{};
+      for (int l = 0; l < nv; ++l) add(bv[l * nv + c], row[l], sum);
+      half[j * nv + c] = sum;
     }
-    for (int b = 0; b < nu; ++b)
-      for (int k = 0; k < n; ++k) out[b * n + k] += bu[j * nu + b] * half[k];
   }
+  for (int b = 0; b < nu; ++b)
+    for (int c = 0; c < nv; ++c) {
+      Pole sum{};
+      for (int j = 0; j < nu; ++j) add(bu[j * nu + b], half[j * nv + c], sum);
+      std::copy_n(sum.x, stride_, out + (b * nv + c) * stride_);
+    }
 }
 
 Vec3 BsplineSurface::point(Vec2 uv) const {

@@ -127,7 +127,6 @@ class BsplineSurface : public Surface {
     return known ? known : add_patch(iu, iv);
   }
   const double* add_patch(int iu, int iv) const;
-  template <int stride>
   void convert(int iu, int iv, double* out) const;
 
   /// What copies have in common.
