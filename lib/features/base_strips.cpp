@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "base/box_tree.h"
 #include "base/disjoint_sets.h"
+#include "features/smooth_edges.h"
 
 namespace st {
 namespace {
@@ -47,18 +49,8 @@ class BaseStripFinder {
   }
 
   bool is_smooth(EdgeId e) const {
-    const auto curve = model_.curve(e);
-    std::vector<Vec3> normals;
-    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k) {
-      const FaceId f = edge_faces_[k];
-      for (const CoedgeId c : t_.coedges(f)) {
-        if (t_.coedge_edge[c] != e) continue;
-        const Vec3 n =
-            surface_normal(*model_.surface(f), model_.pcurve(f, c)->point(0.5 * (curve->t_min() + curve->t_max())));
-        normals.push_back(t_.face_is_reversed[f] ? -n : n);
-      }
-    }
-    return normals.size() == 2 && angle_between(normals[0], normals[1]) <= kSmooth;
+    return is_smooth_half_way(model_, e, std::span(edge_faces_).subspan(offsets_[e], offsets_[e + 1] - offsets_[e]),
+                              kSmooth);
   }
 
   std::vector<Strip> united() const {

@@ -11,11 +11,12 @@
 namespace st {
 
 inline constexpr int kPlacesPerEdge = 24;
-inline constexpr double kAlongAxis = 0.5;    ///< cosine between edge and axis at least, to cut square to the axis
-inline constexpr double kMeasured = 0.5;     ///< of the way along the edges of a surface, at least
-inline constexpr double kLeastSpan = 0.5;    ///< of a surface, over its median chord
-inline constexpr double kWidestBase = 0.06;  ///< of the chord
-inline constexpr double kOutlier = 1.4;      ///< chord over what is usual around
+inline constexpr double kAlongAxis = 0.5;     ///< cosine between edge and axis at least, to cut square to the axis
+inline constexpr double kMeasured = 0.5;      ///< of the way along the edges of a surface, at least
+inline constexpr double kLeastSpan = 0.5;     ///< of a surface, over its median chord
+inline constexpr double kWidestBase = 0.06;   ///< of the chord
+inline constexpr double kClearlyMore = 1.25;  ///< way with profiles square to the edge over that square to an axis
+inline constexpr double kOutlier = 1.4;       ///< chord over what is usual around
 
 /// A place on an edge, before anything is measured there.
 struct EdgePlace {

@@ -43,7 +43,8 @@ std::vector<EndRim> find_end_rims(const Model& model, const LiftingSurface& wing
   std::vector<int> n_own(static_cast<std::size_t>(t.n_edges()), 0);
   for (const FaceId f : wing.faces)
     for (const EdgeId e : t.edges_of(f)) ++n_own[e];
-  for (const ChordEdge& edge : wing.trailing) n_own[edge.edge] = 0;
+  for (const ChordEdge& edge : wing.trailing)
+    if (!edge.is_inside) n_own[edge.edge] = 0;
   for (const EdgeId e : wing.leading) n_own[e] = 0;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
     if (n_own[e] != 1 || t.edge_is_degenerate[e]) continue;

@@ -14,6 +14,7 @@
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
 #include "features/edge_places.h"
+#include "features/own_faces.h"
 #include "features/profile.h"
 #include "features/profile_facets.h"
 #include "features/thin_surface.h"
@@ -28,7 +29,6 @@ constexpr double kOffSurface = 0.75;           // of the reach: a nose on facets
 constexpr double kSeen = 0.9;                  // of the way with noses: less asks for exact facets
 constexpr double kLongBlade = 0.05;            // of the reference diagonal: extent of a blade's edges at least
 constexpr double kStraightBlade = 0.7;         // the same over their length
-constexpr double kClearlyMore = 1.25;          // way with profiles square to the edge over that square to an axis
 constexpr double kLeastNoseWay = 0.25;         // of the way along the trailing edge: way along the noses
 constexpr double kOnPlane = 1e-6;              // of the reference diagonal: from a plane of symmetry
 constexpr double kAlongChord = 0.9;            // cosine between a rim and the chord at least
@@ -68,35 +68,6 @@ struct SurfaceDraft {
   LiftingSurface surface;
   std::vector<const Vec3*> axis;  // by edge: to which its profiles are square; nullptr: to the edge
 };
-
-/// Of the faces that profiles cross those that no concave edge parts from the trailing edge, and of the stations those
-/// whose nose lies there: profiles cross fairings, too.
-void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, LiftingSurface& surface) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces, todo;
-  t.edge_faces(offsets, edge_faces);
-  std::vector<std::uint8_t> is_crossed(static_cast<std::size_t>(t.n_faces()), 0), is_own = is_crossed;
-  for (const FaceId f : surface.faces) is_crossed[f] = 1;
-  const auto take_faces_at = [&](EdgeId e) {
-    for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) {
-      const FaceId f = edge_faces[k];
-      if (!is_crossed[f] || is_own[f]) continue;
-      is_own[f] = 1;
-      todo.push_back(f);
-    }
-  };
-  for (const ChordEdge& edge : surface.trailing) take_faces_at(edge.edge);
-  while (!todo.empty()) {
-    const FaceId f = todo.back();
-    todo.pop_back();
-    for (const EdgeId e : t.edges_of(f))
-      if (!is_concave[e] && !t.edge_is_degenerate[e]) take_faces_at(e);
-  }
-  std::erase_if(surface.faces, [&](FaceId f) { return !is_own[f]; });
-  for (ChordEdge& edge : surface.trailing)
-    for (ChordStation& s : edge.stations)
-      if (s.is_measured && !is_own[s.nose_face]) s = {s.share, s.trailing};
-}
 
 /// Whether noses of most stations of `a` lie on the trailing edge of `b`.
 bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
@@ -497,12 +468,6 @@ bool has_round_noses(const Model& model, const LiftingSurface& surface) {
   return 2 * n_round > n;
 }
 
-/// Leading edges along the noses of a surface.
-void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSurface& surface) {
-  for (const WingEdge& w : edges)
-    if (w.kind == WingEdgeKind::kLeading && runs_along_nose(model, w, surface)) surface.leading.push_back(w.edge);
-}
-
 /// The facets and their mirror image; vertices on the plane of `mirror` belong to both.
 Facets with_image(const Model& model, Facets facets, FaceId mirror, double on_plane) {
   const MirrorPlane plane(model, mirror);
@@ -870,6 +835,11 @@ class SurfaceFinder {
 };
 
 }  // namespace
+
+void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSurface& surface) {
+  for (const WingEdge& w : edges)
+    if (w.kind == WingEdgeKind::kLeading && runs_along_nose(model, w, surface)) surface.leading.push_back(w.edge);
+}
 
 double ChordEdge::chord_at(double share) const {
   const auto next = std::lower_bound(stations.begin() + 1, stations.end() - 1, share,

@@ -17,6 +17,7 @@ struct ChordStation {
   bool is_measured = false;  ///< false: taken over from stations around, where the profile ends in something else
   Vec3 nose = {};            ///< on the CAD within the facets' deflection; of measured stations only
   FaceId nose_face = kNone;
+  FaceId tail_face = kNone;  ///< of a trailing edge inside faces: the one there
 };
 
 /// The chords along one CAD edge, a trailing edge or a declared leading one: stations in ascending order of `share`,
@@ -27,6 +28,7 @@ struct ChordEdge {
   bool is_half = false;   ///< a plane of symmetry cuts the base in two: the partner is the edge's own image
   double base_width = 0;  ///< median, model unit
   std::vector<ChordStation> stations;
+  bool is_inside = false;  ///< the trailing edge runs inside faces, where the stations are, and `edge` along the span
 
   /// Local chord at a share of the edge's length, linear between stations, model unit.
   double chord_at(double share) const;
@@ -46,7 +48,7 @@ enum class Noseless : unsigned char {
 /// A lifting surface: all trailing edges that hang together, pieces, kinks and both sides of a blunt one alike.
 struct LiftingSurface {
   bool is_blunt = false;
-  bool is_round = false;     ///< its trailing edge is a smooth edge in a round
+  bool is_round = false;     ///< its trailing edge is a smooth edge in a round, or runs inside faces
   bool has_noses = true;     ///< false: no station is measured; chords are as far as the part behind the edge is thin
   bool is_declared = false;  ///< some of its edges are, by the user
   std::vector<ChordEdge> trailing;          ///< ascending by edge
@@ -92,6 +94,9 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
                                                   const Executor& executor = SerialExecutor(),
                                                   std::vector<UnusedTrailing>* unused = nullptr,
                                                   Noseless noseless = Noseless::kOfAircraft);
+
+/// Appends the leading ones of `edges` that run along the noses of a surface. Local.
+void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSurface& surface);
 
 /// An edge at an end of a lifting surface.
 struct EndRim {

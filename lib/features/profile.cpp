@@ -177,18 +177,27 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
   return part;
 }
 
+ProfileCutter::End ProfileCutter::furthest_end(const std::vector<Segment>& part, Vec3 from) const {
+  End best{part.front().end[0], facets_.face[part.front().facet]};
+  for (const Segment& s : part)
+    for (const Vec3& x : s.end)
+      if (distance(x, from) > distance(best.x, from)) best = {x, facets_.face[s.facet]};
+  return best;
+}
+
 std::optional<Profile> ProfileCutter::cut(Vec3 trailing_edge, Vec3 normal, double reach) const {
   const std::vector<Segment> part = part_at(trailing_edge, normal, reach);
-  Profile profile{.normal = normal};
-  for (const Segment& s : part) {
-    profile.faces.push_back(facets_.face[s.facet]);
-    for (const Vec3& x : s.end) {
-      if (distance(x, trailing_edge) <= profile.chord) continue;
-      profile.chord = distance(x, trailing_edge);
-      profile.nose = x;
-      profile.nose_face = facets_.face[s.facet];
-    }
-  }
+  return part.empty() ? std::nullopt : profile_of(part, trailing_edge, normal);
+}
+
+std::optional<Profile> ProfileCutter::profile_of(const std::vector<Segment>& part, Vec3 trailing_edge,
+                                                 Vec3 normal) const {
+  const End end_at_nose = furthest_end(part, trailing_edge);
+  Profile profile{.normal = normal,
+                  .nose = end_at_nose.x,
+                  .nose_face = end_at_nose.face,
+                  .chord = distance(end_at_nose.x, trailing_edge)};
+  for (const Segment& s : part) profile.faces.push_back(facets_.face[s.facet]);
   if (!(profile.chord > 0)) return std::nullopt;
   const Vec3 forward = (profile.nose - trailing_edge) / profile.chord, across = cross(normal, forward);
   for (const Segment& s : part)
@@ -212,12 +221,46 @@ std::optional<Profile> ProfileCutter::cut(Vec3 trailing_edge, Vec3 normal, doubl
   return profile;
 }
 
-std::optional<Vec3> ProfileCutter::furthest(Vec3 from, Vec3 normal, double reach) const {
-  std::optional<Vec3> best;
-  for (const Segment& s : part_at(from, normal, reach))
-    for (const Vec3& x : s.end)
-      if (!best || distance(x, from) > distance(*best, from)) best = x;
-  return best;
+bool ProfileCutter::is_closed(const std::vector<Segment>& part) {
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (const Segment& s : part) sides.insert(sides.end(), std::begin(s.side), std::end(s.side));
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size(); i += 2)
+    if (sides[i] != sides[i + 1]) return false;
+  return true;
+}
+
+std::optional<RoundProfile> ProfileCutter::round_profile(Vec3 at, Vec3 normal, double reach) const {
+  constexpr double kNear = 0.03;  // of the chord, from either end
+  const std::vector<Segment> part = part_at(at, normal, reach);
+  if (part.empty() || !is_closed(part)) return std::nullopt;
+  std::array<End, 2> end;
+  end[0] = furthest_end(part, furthest_end(part, at).x);
+  end[1] = furthest_end(part, end[0].x);
+  const double chord = distance(end[0].x, end[1].x);
+  if (!(chord > 0)) return std::nullopt;
+  std::array<double, 2> width;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Vec3 forward = (end[1 - k].x - end[k].x) / chord;
+    const auto own = thickness_at(part, end[k].x, forward, cross(normal, forward), kNear * chord);
+    if (!own || !(*own > 0)) return std::nullopt;
+    width[k] = *own;
+  }
+  const std::size_t tail = width[1] < width[0] ? 1 : 0;
+  const std::optional<Profile> own = profile_of(part, end[tail].x, normal);
+  if (!own) return std::nullopt;
+  return RoundProfile{*own, end[tail].x, end[tail].face, width[tail] / width[1 - tail]};
+}
+
+std::optional<ThinPart> ProfileCutter::whole(Vec3 at, Vec3 normal, double reach) const {
+  const std::vector<Segment> part = part_at(at, normal, reach);
+  if (part.empty()) return std::nullopt;
+  const Vec3 a = furthest_end(part, furthest_end(part, at).x).x, b = furthest_end(part, a).x;
+  const double way = distance(a, b);
+  if (!(way > 0)) return std::nullopt;
+  const Vec3 forward = (b - a) / way;
+  const std::optional<double> width = thickness_at(part, a, forward, cross(normal, forward), 0.5 * way);
+  return width ? std::optional(ThinPart{way, *width}) : std::nullopt;
 }
 
 std::optional<ThinPart> ProfileCutter::thin_part(Vec3 edge, Vec3 normal, double reach, double thickest) const {

@@ -28,6 +28,14 @@ struct Profile {
 std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const Profile& profile, double reach,
                                std::optional<Vec2>& guess);
 
+/// A profile whose trailing edge is not given: it is the thinner end.
+struct RoundProfile {
+  Profile profile;
+  Vec3 tail;                 ///< the end of the cut furthest from the nose, model unit
+  FaceId tail_face = kNone;  ///< that it lies on
+  double bluntness = 0;      ///< how thick the profile is near the tail over that near the nose, at most 1
+};
+
 /// A thin part behind an edge whose nose is not seen: it ends in a body, or in no round or sharp nose.
 struct ThinPart {
   double chord = 0;   ///< as far as the cut has two sides that are near each other; model unit
@@ -53,12 +61,16 @@ class ProfileCutter {
   /// that are cut.
   std::optional<Profile> cut(Vec3 trailing_edge, Vec3 normal, double reach) const;
 
+  /// Likewise where the cut begins anywhere on the profile, at `at`. Same cost.
+  std::optional<RoundProfile> round_profile(Vec3 at, Vec3 normal, double reach) const;
+
+  /// The whole of the same cut: how far its ends are apart, and how thick it is half way; nullopt: it has no two sides
+  /// there.
+  std::optional<ThinPart> whole(Vec3 at, Vec3 normal, double reach) const;
+
   /// The part of the same cut that is thin; `thickest`: distance of its sides over that from the edge at most. nullopt:
   /// it is so for less than a factor of five in the distance from the edge. Same cost.
   std::optional<ThinPart> thin_part(Vec3 edge, Vec3 normal, double reach, double thickest = kThickestPart) const;
-
-  /// The point of the same cut that is furthest from where it begins; nullopt: nothing is cut.
-  std::optional<Vec3> furthest(Vec3 from, Vec3 normal, double reach) const;
 
   /// Notes the ends of the same cut.
   void note_ends(Vec3 edge, Vec3 normal, double reach) const { part_at(edge, normal, reach); }
@@ -72,6 +84,15 @@ class ProfileCutter {
     std::array<std::int32_t, 2> side[2];  ///< nodes of the mesh, ascending
     std::int32_t facet;
   };
+  /// A point of a cut, and the face on which it lies.
+  struct End {
+    Vec3 x;
+    FaceId face = kNone;
+  };
+  /// The first of equally far ones. Precondition: the cut is not empty.
+  End furthest_end(const std::vector<Segment>& part, Vec3 from) const;
+  static bool is_closed(const std::vector<Segment>& part);
+  std::optional<Profile> profile_of(const std::vector<Segment>& part, Vec3 trailing_edge, Vec3 normal) const;
   /// Nothing where the plane does not cross it.
   std::optional<Segment> segment_of(std::int32_t facet, Vec3 origin, Vec3 normal) const;
   std::optional<Segment> nearest_segment(Vec3 origin, Vec3 normal, double reach) const;

@@ -45,6 +45,17 @@ bool ProfileFacets::add_beyond(std::span<const CutEnd> ends, const Executor& exe
   return add(walls_beyond(ends), executor);
 }
 
+void ProfileFacets::add_cut(EdgeId e, Vec3 x, Vec3 normal, const Executor& executor) {
+  std::vector<std::uint8_t> next(is_known_.size(), 0);
+  take_walls_at(e, nullptr, next);
+  add(std::move(next), executor);
+  std::vector<CutEnd> ends;
+  do {
+    ends.clear();
+    ProfileCutter(facets_, &ends).note_ends(x, normal, limits_.reach);
+  } while (add_beyond(ends, executor));
+}
+
 /// What a cut meets in the image of the model, its own image meets in the model.
 std::vector<ProfileFacets::Cut> ProfileFacets::cuts_at(std::span<const WingEdge> edges) {
   std::vector<FaceId> mirrors;
@@ -94,6 +105,14 @@ bool ProfileFacets::add(std::vector<std::uint8_t> wanted, const Executor& execut
   if (std::ranges::count(wanted, 1) == 0) return false;
   add_facets(model_, wanted, limits_.facets, executor, facets_);
   return true;
+}
+
+ProfileFacets& FacetStore::near(double deflection, bool is_exact) {
+  const int step = static_cast<int>(std::lround(std::log2(deflection / roles_.reference_diagonal)));
+  const double own = std::ldexp(roles_.reference_diagonal, step);
+  return all_
+      .try_emplace({step, is_exact}, model_, roles_, ProfileLimits{{.deflection = own, .is_exact = is_exact}, 2 * own})
+      .first->second;
 }
 
 }  // namespace st

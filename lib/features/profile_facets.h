@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/executor.h"
@@ -41,7 +43,11 @@ class ProfileFacets {
   /// Those of the walls beyond the borders at which cuts end (of rank 0); false: there are none.
   bool add_beyond(std::span<const CutEnd> ends, const Executor& executor);
 
+  /// Those of the walls at an edge, and of all that a cut through `x` meets which begins there.
+  void add_cut(EdgeId e, Vec3 x, Vec3 normal, const Executor& executor);
+
   const Facets& facets() const { return facets_; }
+  double reach() const { return limits_.reach; }
 
  private:
   /// A plane through a place on an edge.
@@ -63,6 +69,21 @@ class ProfileFacets {
   std::vector<std::uint8_t> is_known_;  // [n_faces] their facets are there, or will be next
   std::vector<MirrorPlane> mirrors_;    // on which edges lie: a cut goes on in the image
   Facets facets_;
+};
+
+/// Facets that follow the surfaces exactly, by how closely, in steps: no face gets the same ones twice. Serial.
+class FacetStore {
+ public:
+  /// Both must outlive the object.
+  FacetStore(const Model& model, const FaceRoles& roles) : model_(model), roles_(roles) {}
+
+  /// Of the step nearest to `deflection`, model unit.
+  ProfileFacets& near(double deflection, bool is_exact);
+
+ private:
+  const Model& model_;
+  const FaceRoles& roles_;
+  std::map<std::pair<int, bool>, ProfileFacets> all_;  // by step and exactness
 };
 
 }  // namespace st

@@ -1,5 +1,6 @@
 #include "features/smooth_edges.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -47,6 +48,22 @@ std::vector<std::uint8_t> find_smooth_edges(const Model& model) {
   std::vector<std::uint8_t> is_smooth;
   for (EdgeId e = 0; e < t.n_edges(); ++e) is_smooth.push_back(!t.edge_is_degenerate[e] && edges[e].is_smooth());
   return is_smooth;
+}
+
+bool is_smooth_half_way(const Model& model, EdgeId e, std::span<const FaceId> faces, double most) {
+  const ModelTables& t = model.tables();
+  const double middle = 0.5 * (t.edge_range[2 * e] + t.edge_range[2 * e + 1]);
+  std::vector<Vec3> normals;
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const FaceId f = faces[k];
+    if (std::ranges::count(faces.first(k), f) > 0) continue;  // a seam
+    for (const CoedgeId c : t.coedges(f)) {
+      if (t.coedge_edge[c] != e) continue;
+      const Vec3 n = surface_normal(*model.surface(f), model.pcurve(f, c)->point(middle));
+      normals.push_back(t.face_is_reversed[f] ? -n : n);
+    }
+  }
+  return normals.size() == 2 && angle_between(normals[0], normals[1]) <= most;
 }
 
 }  // namespace st

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "geometry/model/model.h"
@@ -11,5 +12,8 @@ namespace st {
 /// [n_edges] 1: two coedges use the edge, of two faces or along a seam, and at nine places on it the normals on both
 /// sides differ by 3 degrees at most. Degenerate edges are not smooth. Local. Cost: 18 evaluations per edge.
 std::vector<std::uint8_t> find_smooth_edges(const Model& model);
+
+/// Whether two uses of an edge by `faces` have normals within `most` of each other half way along it, radians. Local.
+bool is_smooth_half_way(const Model& model, EdgeId e, std::span<const FaceId> faces, double most);
 
 }  // namespace st

@@ -24,7 +24,7 @@ constexpr double kLeastLength = 0.05;  // of the reference diagonal: of a seam
 constexpr double kGap = 0.03;          // of a plane loop's box: to other free edges, where faces were not sewn
 constexpr double kCoarse = 5;          // of the deflection: of facets that show that a cut is round
 constexpr double kClear = 20;          // deflections: a shorter cut is not seen on coarse facets
-constexpr double kRound = 1.6;         // sides apart over the way from an end: those of a circle, for most of the way
+constexpr double kFull = 0.6;          // thickness half way between the ends of a cut over that way: a circle has 1
 
 Vec3 place_on(const Curve& curve, int i) {
   return curve.point(curve.t_min() + (curve.t_max() - curve.t_min()) * (i + 0.5) / kPlaces);
@@ -158,10 +158,7 @@ class BladeTester {
     if (is_round(*pair.coarse, p.x, normal, kCoarse * deflection)) return false;
     if (!pair.exact) pair.exact = facets_of(faces, {.deflection = deflection, .is_exact = true});
     const ProfileCutter cutter(*pair.exact);
-    const std::optional<Vec3> end = cutter.furthest(p.x, normal, 2 * deflection);
-    if (!end) return false;
-    const std::optional<Vec3> other = cutter.furthest(*end, normal, 2 * deflection);
-    return other && (cutter.cut(*end, normal, 2 * deflection) || cutter.cut(*other, normal, 2 * deflection));
+    return cutter.round_profile(p.x, normal, 2 * deflection).has_value();
   }
 
  private:
@@ -175,14 +172,10 @@ class BladeTester {
     return make_facets(model_, is_wanted, limits);
   }
 
-  /// As a pipe: its sides are far apart from both ends on. Only where coarse facets show it clearly.
+  /// As a pipe is. Only where coarse facets show it clearly.
   static bool is_round(const Facets& facets, Vec3 x, Vec3 normal, double deflection) {
-    const ProfileCutter cutter(facets);
-    const double reach = 2 * deflection;
-    const std::optional<Vec3> end = cutter.furthest(x, normal, reach);
-    const std::optional<Vec3> other = end ? cutter.furthest(*end, normal, reach) : std::nullopt;
-    return other && distance(*end, *other) > kClear * deflection && !cutter.thin_part(*end, normal, reach, kRound) &&
-           !cutter.thin_part(*other, normal, reach, kRound);
+    const std::optional<ThinPart> whole = ProfileCutter(facets).whole(x, normal, 2 * deflection);
+    return whole && whole->chord > kClear * deflection && whole->middle > kFull * whole->chord;
   }
 
   const Model& model_;

@@ -1,6 +1,7 @@
 #include "sizing/wing_record.h"
 
 namespace st {
+
 WingRecord moved(const Similarity& frame, WingRecord wing) {
   for (WingRecord::Station& s : wing.stations) {
     s.nose = frame(s.nose);

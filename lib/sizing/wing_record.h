@@ -17,7 +17,7 @@ struct WingRecord {
     double asked = 0;     ///< length at both, model unit; 0: rules say what they get
   };
   std::vector<Station> stations;     ///< edge by edge, along each
-  std::vector<EdgeId> edges;         ///< trailing ones; of a nose alone the leading one
+  std::vector<EdgeId> edges;         ///< trailing ones, or along such inside faces; of a nose alone the leading one
   std::vector<FaceId> faces, bases;  ///< ascending; bases are no part of `faces`
   double span = 0;                   ///< model unit
   double covered = 1;                ///< share of the edges' length with noses

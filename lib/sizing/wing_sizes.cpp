@@ -53,19 +53,10 @@ class WingRaster {
     });
   }
 
-  void add_noses(const ChordEdge& trailing) {
-    std::vector<const ChordStation*> run;
-    int n_missed = 0;
-    for (const ChordStation& s : trailing.stations) {
-      if (!s.is_measured) {
-        if (++n_missed > kGap) end_run(run);
-        continue;
-      }
-      n_missed = 0;
-      run.push_back(&s);
-    }
-    end_run(run);
-  }
+  void add_noses(const ChordEdge& trailing) { add_inside(trailing, &ChordStation::nose, &ChordStation::nose_face); }
+
+  /// Along a trailing edge inside faces.
+  void add_tails(const ChordEdge& trailing) { add_inside(trailing, &ChordStation::trailing, &ChordStation::tail_face); }
 
   /// All over the base, by the chords of one of its long edges; `strip` is measured from the other one, perhaps.
   void add_base(const Strip& strip, const ChordEdge& trailing) {
@@ -136,13 +127,27 @@ class WingRaster {
     return {x, std::max(share * asked, std::min(asked, floor_of(chord))), {}, asked};
   }
 
-  /// Along the noses of stations in a row.
-  void end_run(std::vector<const ChordStation*>& run) {
+  void add_inside(const ChordEdge& trailing, Vec3 ChordStation::*place, FaceId ChordStation::*face) {
+    std::vector<const ChordStation*> run;
+    int n_missed = 0;
+    for (const ChordStation& s : trailing.stations) {
+      if (!s.is_measured) {
+        if (++n_missed > kGap) end_run(run, place, face);
+        continue;
+      }
+      n_missed = 0;
+      run.push_back(&s);
+    }
+    end_run(run, place, face);
+  }
+
+  /// Along the noses or tails of stations in a row.
+  void end_run(std::vector<const ChordStation*>& run, Vec3 ChordStation::*place, FaceId ChordStation::*face) {
     for (std::size_t i = 0; i + 1 < run.size(); ++i) {
       const ChordStation &a = *run[i], &b = *run[i + 1];
-      walk(distance(a.nose, b.nose), pack_cause(CauseKind::kFace, a.nose_face), [&](double share) {
-        return reduced(kNose, a.nose + share * (b.nose - a.nose), a.chord + share * (b.chord - a.chord));
-      });
+      const Vec3 from = a.*place, way = b.*place - from;
+      walk(norm(way), pack_cause(CauseKind::kFace, a.*face),
+           [&](double share) { return reduced(kNose, from + share * way, a.chord + share * (b.chord - a.chord)); });
     }
     run.clear();
   }
@@ -163,8 +168,8 @@ void sort_once(std::vector<FaceId>& faces) {
 
 double length_along(const LiftingSurface& wing, const WingSizes& sizes, const ChordEdge& edge, double chord) {
   const LocalLengths lengths(wing, sizes);
-  return std::max(
-      {lengths.asked(chord), lengths.floor(chord), sizes.given.of(pack_cause(CauseKind::kEdge, edge.edge))});
+  const double given = edge.is_inside ? 0 : sizes.given.of(pack_cause(CauseKind::kEdge, edge.edge));
+  return std::max({lengths.asked(chord), lengths.floor(chord), given});
 }
 
 double length_across(double n_cells, double width, double along) {
@@ -184,7 +189,10 @@ std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface
   for (const ChordEdge& leading : wing.declared_leading)
     if (!is_ruled(leading.edge)) raster.add_edge(leading);
   for (const ChordEdge& trailing : wing.trailing) {
-    if (!is_ruled(trailing.edge)) raster.add_edge(trailing);
+    if (trailing.is_inside)
+      raster.add_tails(trailing);
+    else if (!is_ruled(trailing.edge))
+      raster.add_edge(trailing);
     const auto strip =
         std::find_if(strips.begin(), strips.end(), [&](const Strip& s) { return s.face == trailing.base; });
     const bool has_base = trailing.base != kNone && strip != strips.end();
@@ -237,7 +245,7 @@ WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::
     for (const ChordStation& s : edge.stations) {
       if (wing.has_noses && !s.is_measured) continue;
       WingRecord::Station own{s.nose, s.trailing, s.chord};
-      if (!is_left_out[edge.edge]) own.asked = length_along(wing, sizes, edge, s.chord);
+      if (edge.is_inside || !is_left_out[edge.edge]) own.asked = length_along(wing, sizes, edge, s.chord);
       record.stations.push_back(own);
     }
   }

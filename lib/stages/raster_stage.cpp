@@ -21,6 +21,7 @@
 #include "base/required_unit.h"
 #include "base/share.h"
 #include "features/base_strips.h"
+#include "features/round_tails.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
 #include "features/unlisted_wings.h"
@@ -692,6 +693,13 @@ void report_wings(const RasterStageOptions& o, const Wings& wings) {
   if (n > kMostGroups) log_report(fmt::format("  and {} more lifting surfaces", n - kMostGroups));
 }
 
+/// [n_edges] 1: a rule says that it is no trailing edge.
+std::vector<std::uint8_t> edges_without_wing(const ModelTables& t, std::span<const DeclaredEdge> declared) {
+  std::vector<std::uint8_t> is_excluded(static_cast<std::size_t>(t.n_edges()), 0);
+  for (const DeclaredEdge& d : declared) is_excluded[d.edge] = d.meaning == EdgeMeaning::kNoTrailing;
+  return is_excluded;
+}
+
 /// What the user asks for.
 struct AskedLimits {
   const SamplingLimits& wall;
@@ -823,11 +831,15 @@ class RasterRun {
 
   void set_limits() {
     wings_.edges = find_wing_edges(model_, roles_, bases_, trace_);
+    std::vector<DeclaredEdge> declared;
+    if (comm_.is_root()) {
+      declared = declared_edges(rules_, model_.tables(), bases_, wings_.edges);
+      declare_edges(model_, roles_, bases_, declared, wings_.edges);
+    }
+    std::vector<LiftingSurface>& wings = wings_.aircraft.wings;
+    wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft);
     if (comm_.is_root())
-      declare_edges(model_, roles_, bases_, declared_edges(rules_, model_.tables(), bases_, wings_.edges),
-                    wings_.edges);
-    wings_.aircraft.wings =
-        find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft);
+      add_round_tails(model_, roles_, wings_.edges, edges_without_wing(model_.tables(), declared), wings);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
     require_places(o_, limits_);

@@ -53,15 +53,16 @@ nlohmann::json stations_json(const LiftingSurface& wing) {
 nlohmann::json wings_json(std::span<const LiftingSurface> wings) {
   nlohmann::json list = nlohmann::json::array();
   for (const LiftingSurface& wing : wings) {
-    std::vector<std::int32_t> edges, leading, bases;
+    std::vector<std::int32_t> edges, inside, leading, bases;
     for (const ChordEdge& edge : wing.trailing) {
-      edges.push_back(edge.edge + 1);
+      (edge.is_inside ? inside : edges).push_back(edge.edge + 1);
       if (edge.base != kNone) bases.push_back(edge.base + 1);
     }
     std::sort(bases.begin(), bases.end());
     bases.erase(std::unique(bases.begin(), bases.end()), bases.end());
     for (const EdgeId e : wing.leading) leading.push_back(e + 1);
     list.push_back({{"trailing_edges", edges},
+                    {"inside_along", inside},
                     {"leading_edges", leading},
                     {"bases", bases},
                     {"faces", from_one(wing.faces)},
@@ -121,10 +122,11 @@ nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
 
 std::string wing_line(const LiftingSurface& wing, const std::string& edge_size) {
   const std::vector<ChordEdge>& edges = wing.edges();
+  const char* kind = wing.trailing.empty() ? "leading edges" : "trailing edges";
   return fmt::format(
-      "  lifting surface{}: {} {} edges from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; {} along {}",
-      wing.is_declared ? " by a rule" : "", edges.size(), wing.trailing.empty() ? "leading" : "trailing",
-      edges.front().edge + 1,
+      "  lifting surface{}: {} {} from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; {} along {}",
+      wing.is_declared ? " by a rule" : "", edges.size(),
+      edges.front().is_inside ? "trailing edges inside faces, beside edges" : kind, edges.front().edge + 1,
       wing.is_round   ? "round"
       : wing.is_blunt ? "blunt"
                       : "sharp",

@@ -36,6 +36,16 @@ SPANS = {
     "wing_with_fairing": [4],  # from the fuselage of radius 1 to y = 5
     "blade_of_four": [1.01],
     "blade_of_two": [1.01],
+    "blade_of_one": [1.01],  # one closed face, its seam on the upper side, at the tail, and at the nose
+    "blade_of_one_at_tail": [1.01],
+    "blade_of_one_at_nose": [1.01],
+    "blade_of_halves": [1.01],
+    "blade_of_splines": [1.01],  # two that meet smoothly at tail and nose
+    "round_hydrofoil": [4.12],  # 4 along the span, swept by 0.25 to either side
+    "round_propeller": [0.82, 0.82, 0.82],
+    "round_rudder": [1.96],
+    "round_strut": [2],
+    "round_ring": [9.42],
     "vanes": [1, 1, 1],
     "rocket_fins": 4 * [0.4],
     "flying_wing": [8.75],
@@ -45,7 +55,8 @@ SPANS = {
 }
 # Noses are not seen along the whole span: behind a nacelle. That is said.
 PARTLY = {"aircraft"}
-PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal")
+PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal",
+         "oval_bar")
 
 
 class WingShapes(ToolTest):
@@ -81,7 +92,7 @@ class WingShapes(ToolTest):
     def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
         self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")
         (self.folder / "geometry.hdf").unlink()
-        self.assertRegex(self.raster("blade_of_one", "rans").err, "warning: .* at edge [0-9]+ looks like a blade")
+        self.assertRegex(self.raster("oval_blade", "rans").err, "warning: .* at edge [0-9]+ looks like a blade")
 
 
 for model_name, model_spans in SPANS.items():

@@ -380,6 +380,21 @@ TopoDS_Shape wing(double closing, double thickness = 0.12) {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
+/// Length 30 (z) of one closed spline of length 10 (x), alike above and below, that begins above its middle. `narrow`:
+/// how much thinner it is at one end than at the other; 0: an oval.
+TopoDS_Shape closed_bar(double narrow) {
+  constexpr int kPoints = 40;
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, kPoints);
+  for (int i = 0; i < kPoints; ++i) {
+    const double angle = 2 * M_PI * (i + 0.25 * kPoints) / kPoints, x = std::cos(angle);
+    points->SetValue(i + 1, gp_Pnt(5 * x, (1 - narrow * x) * std::sin(angle), 0));
+  }
+  GeomAPI_Interpolate fit(points, true, 1e-9);
+  fit.Perform();
+  const TopoDS_Wire wire = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(fit.Curve()).Edge()).Wire();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire, true).Face(), gp_Vec(0, 0, 30)).Shape();
+}
+
 /// Of chord 60, 50, 10 and 6 at z = 0, 6, 12 and 30, its trailing edge along x = 10.
 TopoDS_Shape tapering_wing() {
   BRepOffsetAPI_ThruSections loft(true, true);
@@ -582,6 +597,8 @@ const std::map<std::string, Factory>& factories() {
       {"blunt_wing", [] { return wing(0.1015); }},
       {"thin_wing", [] { return wing(0.1036, 0.035); }},
       {"tapering_wing", tapering_wing},
+      {"closed_wing", [] { return closed_bar(0.6); }},
+      {"oval_bar", [] { return closed_bar(0); }},
       {"double_wedge", double_wedge},
       {"wedge_fin", wedge_fin},
       {"lens", lens},

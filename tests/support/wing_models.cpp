@@ -423,15 +423,100 @@ TopoDS_Shape turbine_blade(const Foil& foil) {
   return loft(foil, frames, false);
 }
 
-/// One closed curve around each section, its seam on the upper side.
-TopoDS_Shape round_blade() {
+constexpr int kAround = 40;  // points of a round section: 0 at the tail, a quarter on the upper side, half at the nose
+
+/// One smooth closed curve, round at the tail as well, cut at these of its points, the first one on.
+TopoDS_Wire round_outline(const Section& s, const std::vector<int>& cuts) {
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, kAround);
+  for (int k = 0; k < kAround; ++k) {
+    const double angle = 2 * M_PI * (k + cuts.front()) / kAround, x = 0.5 * (1 + std::cos(angle));
+    const bool is_tail = (k + cuts.front()) % kAround == 0;
+    points->SetValue(k + 1, is_tail ? s.frame(1 + 0.5 * s.foil.base, 0) : at(s, x, std::sin(angle) >= 0 ? 1 : -1));
+  }
+  GeomAPI_Interpolate fit(points, true, 1e-9);
+  fit.Perform();
+  const Handle(Geom_BSplineCurve) curve = fit.Curve();
+  BRepBuilderAPI_MakeWire wire;
+  for (std::size_t i = 0; i < cuts.size(); ++i) {
+    const auto parameter = [&](std::size_t k) {
+      return k == cuts.size() ? curve->LastParameter() : curve->Knot(cuts[k] - cuts.front() + 1);
+    };
+    wire.Add(BRepBuilderAPI_MakeEdge(curve, parameter(i), parameter(i + 1)).Edge());
+  }
+  return wire.Wire();
+}
+
+TopoDS_Shape round_loft(const Foil& foil, const std::vector<Frame>& frames, const std::vector<int>& cuts) {
+  BRepOffsetAPI_ThruSections thru(true, false, 1e-6);
+  thru.CheckCompatibility(false);
+  for (const Frame& frame : frames) thru.AddWire(round_outline({foil, frame}, cuts));
+  thru.Build();
+  return thru.Shape();
+}
+
+/// Length 1, chord 0.5, turned by 40 degrees, round at both ends.
+TopoDS_Shape round_blade(const std::vector<int>& cuts) {
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 4; ++i) frames.push_back(straight(gp_Pnt(0, 0, i / 4.0), 0.5, 90, 10 * i));
+  return round_loft(kTurbine, frames, cuts);
+}
+
+/// Span 4, chord 1 to 0.5, its tail round and inside the face.
+TopoDS_Shape round_hydrofoil() {
+  return round_loft({.thickness = 0.12, .base = 0.01},
+                    {straight(gp_Pnt(0, -2, 0), 0.5), straight(gp_Pnt(0, -1, 0), 0.75), straight(gp_Pnt(0, 0, 0), 1),
+                     straight(gp_Pnt(0, 1, 0), 0.75), straight(gp_Pnt(0, 2, 0), 0.5)},
+                    {10});
+}
+
+/// Height 2, chord 1: one curve, extruded.
+TopoDS_Shape round_strut() {
+  const Section root{{.thickness = 0.2, .base = 0.02}, straight(gp_Pnt(0, 0, 0), 1, 90)};
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(round_outline(root, {10})).Face(), gp_Vec(0, 0, 2)).Shape();
+}
+
+/// The same turned about the x axis, its tail inside the face.
+TopoDS_Shape round_ring() {
+  const Section section{{.thickness = 0.12, .base = 0.01}, straight(gp_Pnt(0, 0, 1.5), 1)};
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(round_outline(section, {10})).Face(), gp::OX()).Shape();
+}
+
+/// Three blades with round tails inside their faces, from a hub of radius 0.2 to 1.
+TopoDS_Shape round_propeller() {
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 5; ++i) {
+    const double share = i / 5.0;
+    const double chord = 0.25 + 0.1 * std::sin(M_PI * share);
+    frames.push_back(straight(gp_Pnt(-0.5 * chord, 0, 0.1 + 0.9 * share), chord, 90, 65 - 45 * share));
+  }
+  const TopoDS_Shape blade = round_loft({.thickness = 0.1, .base = 0.01, .camber = 0.03}, frames, {10});
+  TopoDS_Shape all = fuselage({{-0.5, 0}, {-0.3, 0.15}, {0, 0.2}, {0.3, 0.2}, {0.6, 0.12}, {0.8, 0}});
+  for (int i = 0; i < 3; ++i) all = fuse(all, turned(blade, gp::DX(), 2 * M_PI * i / 3));
+  return all;
+}
+
+/// The base of a rudder without corners: its long edges are rounded.
+TopoDS_Shape round_rudder() {
+  const TopoDS_Shape blade = loft({.thickness = 0.18, .base = 0.02, .tail = Tail::kBlunt},
+                                  {straight(gp_Pnt(0, 0, 0), 1, 90), straight(gp_Pnt(0, 0, 2), 1, 90)});
+  BRepFilletAPI_MakeFillet fillet(blade);
+  for (TopExp_Explorer e(blade, TopAbs_EDGE); e.More(); e.Next()) {
+    const BRepAdaptor_Curve curve(TopoDS::Edge(e.Current()));
+    const gp_Pnt a = curve.Value(curve.FirstParameter()), b = curve.Value(curve.LastParameter());
+    if (std::abs(a.Z() - b.Z()) > 1) fillet.Add(0.006, TopoDS::Edge(e.Current()));
+  }
+  return fillet.Shape();
+}
+
+/// Alike at both ends, so that it may be a blade for flow from either side.
+TopoDS_Shape oval_blade() {
   BRepOffsetAPI_ThruSections thru(true, false, 1e-6);
   for (int i = 0; i <= 4; ++i) {
-    const Section s{kTurbine, straight(gp_Pnt(0, 0, i / 4.0), 0.5, 90, 10 * i)};
-    Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 40);
-    for (int k = 0; k < 40; ++k) {
-      const double angle = 2 * M_PI * (k + 10) / 40, x = 0.5 * (1 + std::cos(angle));
-      points->SetValue(k + 1, at(s, x, std::sin(angle) >= 0 ? 1 : -1));
+    const Frame frame = straight(gp_Pnt(0, 0, i / 4.0), 0.5, 90, 10 * i);
+    Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, kAround);
+    for (int k = 0; k < kAround; ++k) {
+      const double angle = 2 * M_PI * (k + 10) / kAround;
+      points->SetValue(k + 1, frame(0.5 + 0.5 * std::cos(angle), 0.05 * std::sin(angle)));
     }
     GeomAPI_Interpolate fit(points, true, 1e-9);
     fit.Perform();
@@ -561,6 +646,17 @@ TopoDS_Shape tapered_rib() {
   return fuse_all({thru.Shape(), box(-5, -30, -5, 80, 60, 5), box(-5, -30, -5, 5, 60, 70)});
 }
 
+/// A bar whose section is a flat oval, alike at both ends, of one spline.
+TopoDS_Shape oval_bar() {
+  Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, 24);
+  for (int k = 0; k < 24; ++k)
+    points->SetValue(k + 1, gp_Pnt(20 * std::cos(M_PI * k / 12), 5 * std::sin(M_PI * k / 12), 0));
+  GeomAPI_Interpolate fit(points, true, 1e-9);
+  fit.Perform();
+  const TopoDS_Wire wire = BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(fit.Curve()).Edge()).Wire();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire).Face(), gp_Vec(0, 0, 120)).Shape();
+}
+
 /// A ring with a sharp lip.
 TopoDS_Shape seal() {
   const TopoDS_Face face = polygon({{0, 0, 40}, {12, 0, 40}, {12, 0, 46}, {8, 0, 46}});
@@ -568,9 +664,50 @@ TopoDS_Shape seal() {
 }
 
 using Maker = std::function<TopoDS_Shape()>;
-const std::map<std::string, Maker>& models() {
+using Makers = std::map<std::string, Maker>;
+
+/// Round at both ends.
+const Makers& round_models() {
+  static const Makers all{{"blade_of_one", [] { return round_blade({10}); }},
+                          {"blade_of_one_at_tail", [] { return round_blade({0}); }},
+                          {"blade_of_one_at_nose", [] { return round_blade({20}); }},
+                          {"blade_of_halves",
+                           [] {
+                             return round_blade({10, 30});
+                           }},
+                          {"blade_of_splines",
+                           [] {
+                             return round_blade({0, 20});
+                           }},
+                          {"oval_blade", oval_blade},
+                          {"round_hydrofoil", round_hydrofoil},
+                          {"round_propeller", round_propeller},
+                          {"round_strut", round_strut},
+                          {"round_ring", round_ring},
+                          {"round_rudder", round_rudder}};
+  return all;
+}
+
+const Makers& parts() {
+  static const Makers all{{"part_bracket", wedge_bracket},
+                          {"part_plate", chamfered_plate},
+                          {"part_chisel", chisel},
+                          {"part_louvre", louvre},
+                          {"part_heat_sink", heat_sink},
+                          {"part_thread", thread},
+                          {"part_gear", gear},
+                          {"part_spoon", spoon},
+                          {"part_lens", lens},
+                          {"part_cover", cover_plate},
+                          {"part_rib", tapered_rib},
+                          {"part_oval_bar", oval_bar},
+                          {"part_seal", seal}};
+  return all;
+}
+
+const Makers& wings() {
   static const Foil lips{.thickness = 0.1, .base = 0.005, .camber = 0.02, .tail = Tail::kBlunt};
-  static const std::map<std::string, Maker> all{
+  static const Makers all{
       {"blunt_1", [] { return base_in_pieces(1); }},
       {"blunt_3", [] { return base_in_pieces(3); }},
       {"blunt_40", [] { return base_in_pieces(40); }},
@@ -597,7 +734,6 @@ const std::map<std::string, Maker>& models() {
          return turbine_blade(with_cuts(kTurbine, {0.05, -0.05}));
        }},
       {"blade_of_two", [] { return turbine_blade(with_cuts(kTurbine, {0})); }},
-      {"blade_of_one", [] { return round_blade(); }},
       {"delta_with_edge",
        [] {
          return loft({.thickness = 0.06, .cuts = {0}},
@@ -608,22 +744,15 @@ const std::map<std::string, Maker>& models() {
       {"sail", sail},
       {"flying_wing", flying_wing},
       {"canard_and_delta", canard_and_delta},
-      {"delta",
-       [] {
+      {"delta", [] {
          return loft({.thickness = 0.06}, {straight(gp_Pnt(0, 0, 0), 4), straight(gp_Pnt(3.8, 2, 0), 0.2)});
-       }},
-      {"part_bracket", wedge_bracket},
-      {"part_plate", chamfered_plate},
-      {"part_chisel", chisel},
-      {"part_louvre", louvre},
-      {"part_heat_sink", heat_sink},
-      {"part_thread", thread},
-      {"part_gear", gear},
-      {"part_spoon", spoon},
-      {"part_lens", lens},
-      {"part_cover", cover_plate},
-      {"part_rib", tapered_rib},
-      {"part_seal", seal}};
+       }}};
+  return all;
+}
+
+Makers models() {
+  Makers all = wings();
+  for (const Makers* more : {&round_models(), &parts()}) all.insert(more->begin(), more->end());
   return all;
 }
 

@@ -89,5 +89,20 @@ TEST(ProfileFacets, go_on_where_another_cut_ends) {
   EXPECT_FALSE(facets.add_beyond(ends, SerialExecutor()));
 }
 
+TEST(ProfileFacets, are_kept_by_how_closely_they_follow) {
+  const Case c("closed_wing");
+  FacetStore store(c.model, c.roles);
+  ProfileFacets& facets = store.near(0.02, true);
+  EXPECT_NEAR(facets.reach() / 0.04, 1, 0.42) << "the nearest step";
+  EXPECT_EQ(&store.near(0.021, true), &facets);
+  EXPECT_NE(&store.near(0.021, false), &facets);
+  EXPECT_NE(&store.near(0.2, true), &facets);
+  facets.add_cut(0, {0, 1, 15}, {0, 0, 1}, SerialExecutor());
+  const std::size_t n = facets.facets().triangle.size();
+  EXPECT_GT(n, 0u);
+  facets.add_cut(0, {0, 1, 15}, {0, 0, 1}, SerialExecutor());
+  EXPECT_EQ(facets.facets().triangle.size(), n) << "no face has its facets twice";
+}
+
 }  // namespace
 }  // namespace st

@@ -62,5 +62,33 @@ TEST(Profile, ends_where_the_next_face_has_no_facets) {
   }
 }
 
+TEST(Profile, of_a_closed_wing_has_its_tail_at_the_thinner_end) {
+  const Model model = test::make_model("closed_wing");
+  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(model.tables().n_faces()), 1);
+  const Facets facets = make_facets(model, wanted, {.deflection = 0.01});
+  const ProfileCutter cutter(facets);
+  const auto round = cutter.round_profile({0, 1, 15}, {0, 0, 1}, 0.05);
+  ASSERT_TRUE(round);
+  EXPECT_NEAR(round->tail.x, 5, 0.02);
+  EXPECT_NEAR(round->profile.nose.x, -5, 0.02);
+  EXPECT_NEAR(round->bluntness, 0.25, 0.05) << "0.4 over 1.6";
+  const auto whole = cutter.whole({0, 1, 15}, {0, 0, 1}, 0.05);
+  ASSERT_TRUE(whole);
+  EXPECT_NEAR(whole->chord, 10, 0.05);
+  EXPECT_NEAR(whole->middle, 2, 0.05);
+  EXPECT_FALSE(cutter.round_profile({20, 0, 15}, {0, 0, 1}, 0.05)) << "off the wing";
+}
+
+TEST(Profile, that_is_open_has_no_tail_of_its_own) {
+  const Model model = test::make_model("wing_of_2");
+  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(model.tables().n_faces()), 1);
+  const Facets all = make_facets(model, wanted, {.deflection = 0.01});
+  const auto round = ProfileCutter(all).round_profile({10, 0, 15}, {0, 0, 1}, 0.05);
+  ASSERT_TRUE(round);
+  wanted[static_cast<std::size_t>(round->profile.faces[0])] = 0;
+  const Facets some = make_facets(model, wanted, {.deflection = 0.01});
+  EXPECT_FALSE(ProfileCutter(some).round_profile({10, 0, 15}, {0, 0, 1}, 0.05));
+}
+
 }  // namespace
 }  // namespace st

@@ -32,5 +32,21 @@ TEST(SmoothEdges, are_all_cuts_of_a_wing_but_not_its_rims_and_trailing_edge) {
   }
 }
 
+TEST(SmoothEdges, are_told_apart_half_way) {
+  const Model model = test::make_model("cylinder");
+  const ModelTables& t = model.tables();
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  int n_smooth = 0;
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    const auto begin = faces.begin() + offsets[e];
+    const bool is_smooth = is_smooth_half_way(model, e, {begin, faces.begin() + offsets[e + 1]}, radians(30));
+    EXPECT_EQ(is_smooth, *begin == *(begin + 1)) << "the seam alone";
+    n_smooth += is_smooth;
+  }
+  EXPECT_EQ(n_smooth, 1);
+}
+
 }  // namespace
 }  // namespace st

@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "features/round_tails.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -32,8 +33,9 @@ Sampled sample(const std::string& shape, const WingSizes& sizes, std::vector<Edg
     if (std::find(left_out.begin(), left_out.end(), static_cast<EdgeId>(w.kind)) != left_out.end())
       is_left_out[w.edge] = 1;
   Sampled s;
-  for (const LiftingSurface& wing : find_lifting_surfaces(model, roles, edges))
-    raster_wing(model, wing, sizes, find_strips(model), is_left_out, s.boxes);
+  std::vector<LiftingSurface> wings = find_lifting_surfaces(model, roles, edges);
+  add_round_tails(model, roles, edges, is_left_out, wings);
+  for (const LiftingSurface& wing : wings) raster_wing(model, wing, sizes, find_strips(model), is_left_out, s.boxes);
   return s;
 }
 
@@ -54,6 +56,22 @@ TEST(WingSizes, run_along_the_trailing_edge_and_the_nose_without_holes) {
   for (const RasterBox& b : s.boxes)
     EXPECT_NEAR(b.length, b.center.x < 5 ? 0.9 * 0.05 : 0.95 * 0.05, 1e-4)
         << "so that the first triangles beside nose and edge have what was asked for";
+}
+
+TEST(WingSizes, run_along_a_trailing_edge_inside_a_face) {
+  const Sampled s = sample("closed_wing", share_of_chord("0.5%chord"));
+  for (const double x : {-5.0, 5.0}) {
+    std::vector<double> z;
+    for (const RasterBox& b : s.boxes)
+      if (std::abs(b.center.x - x) < 0.03) z.push_back(b.center.z);
+    std::sort(z.begin(), z.end());
+    ASSERT_GT(z.size(), 500u);
+    EXPECT_LT(z.front(), 0.1);
+    EXPECT_GT(z.back(), 29.9);
+    for (std::size_t i = 1; i < z.size(); ++i) EXPECT_LE(z[i] - z[i - 1], 0.0505);
+  }
+  EXPECT_TRUE(s.with(CauseKind::kEdge).empty());
+  for (const RasterBox& b : s.boxes) EXPECT_NEAR(b.length, 0.9 * 0.05, 1e-4);
 }
 
 TEST(WingSizes, end_where_the_wing_runs_into_a_body) {

@@ -57,6 +57,15 @@ TEST(WingReport, says_where_no_nose_is_seen) {
   EXPECT_NE(wing_line(wing, "1").find("lifting surface by a rule: 1 leading edges from edge 5 on"), std::string::npos);
 }
 
+TEST(WingReport, says_where_a_trailing_edge_runs_inside_faces) {
+  LiftingSurface wing = noseless();
+  wing.trailing[0].is_inside = true;
+  EXPECT_NE(wing_line(wing, "1").find("1 trailing edges inside faces, beside edges from edge 5 on"), std::string::npos);
+  const nlohmann::json json = wings_json({&wing, 1})[0];
+  EXPECT_TRUE(json["trailing_edges"].empty());
+  EXPECT_EQ(json["inside_along"], nlohmann::json({5}));
+}
+
 TEST(WingReport, says_how_much_of_a_nose_is_seen) {
   LiftingSurface wing = noseless();
   wing.has_noses = true;

@@ -1,0 +1,163 @@
+#include "features/span_edges.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/eigen.h"
+#include "features/smooth_edges.h"
+
+namespace st {
+namespace {
+
+constexpr double kLeastLength = 0.02;     // of the reference diagonal: of an edge
+constexpr double kSmooth = radians(30);   // between the faces there
+constexpr double kStraight = 0.7;         // between the ends of an edge over its length, at least
+constexpr double kChordMost = 2;          // over the length of the edge
+constexpr double kSlab = 0.06;            // of the edge's length: samples are no further from the plane
+constexpr double kSlabOfRing = 0.03;      // likewise
+constexpr std::size_t kLeastSamples = 8;  // in the slab
+constexpr double kThick = 0.45;           // of the chord: samples lie in a flatter rectangle
+constexpr double kLooksAcross = 0.5;      // cosine between normals and the direction across the chord
+constexpr int kGrid = 24;                 // samples of a face along u and v
+constexpr std::size_t kMostFaces = 12;    // around an edge
+
+class SpanEdgeFinder {
+ public:
+  SpanEdgeFinder(const Model& model, const FaceRoles& roles, std::span<const LiftingSurface> wings)
+      : model_(model), t_(model.tables()), roles_(roles) {
+    t_.edge_faces(offsets_, edge_faces_);
+    is_turned_ = is_material_ahead(t_, roles);
+    is_taken_.assign(static_cast<std::size_t>(t_.n_faces()), 0);
+    for (const LiftingSurface& wing : wings)
+      for (const FaceId f : wing.faces) is_taken_[f] = 1;
+  }
+
+  std::vector<SpanEdge> run() {
+    std::vector<SpanEdge> found;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+      if (!is_candidate(e)) continue;
+      if (const double chord = thin_chord(e); chord > 0) found.push_back({e, chord});
+    }
+    return found;
+  }
+
+ private:
+  std::span<const FaceId> faces_at(EdgeId e) const {
+    return std::span(edge_faces_)
+        .subspan(static_cast<std::size_t>(offsets_[e]), static_cast<std::size_t>(offsets_[e + 1] - offsets_[e]));
+  }
+
+  bool is_free_form(FaceId f) const {
+    constexpr std::array kAnalytic = {SurfaceType::kPlane, SurfaceType::kCylinder, SurfaceType::kCone,
+                                      SurfaceType::kSphere, SurfaceType::kTorus};
+    return roles_.role[f] == FaceRole::kWall && !is_taken_[f] && std::ranges::count(kAnalytic, t_.face_type[f]) == 0;
+  }
+
+  bool is_candidate(EdgeId e) const {
+    if (t_.edge_is_degenerate[e] || t_.edge_length[e] < kLeastLength * roles_.reference_diagonal) return false;
+    const auto at = faces_at(e);
+    if (at.size() != 2 || !is_free_form(at[0]) || !is_free_form(at[1])) return false;
+    const VertexId a = t_.edge_vertices[2 * e], b = t_.edge_vertices[2 * e + 1];
+    if (a != b && distance(t_.vertex_xyz[a], t_.vertex_xyz[b]) < kStraight * t_.edge_length[e]) return false;
+    return at[0] == at[1] || is_smooth_half_way(model_, e, at, kSmooth);
+  }
+
+  /// Its faces, and those beyond their edges, without walls that turn away there.
+  std::vector<FaceId> faces_around(EdgeId e) const {
+    std::vector<FaceId> faces(faces_at(e).begin(), faces_at(e).end());
+    if (faces[0] == faces[1]) faces.pop_back();
+    for (std::size_t k = 0, n = faces.size(); k < n; ++k)
+      for (const EdgeId next : t_.edges_of(faces[k]))
+        for (const FaceId f : faces_at(next))
+          if (faces.size() < kMostFaces && std::ranges::count(faces, f) == 0 && is_free_form(f) &&
+              is_smooth_half_way(model_, next, faces_at(next), kSmooth))
+            faces.push_back(f);
+    return faces;
+  }
+
+  /// A place on a face, and the unit normal there, out of the body.
+  struct Sample {
+    Vec3 x, normal;
+  };
+
+  const std::vector<Sample>& samples_of(FaceId f) {
+    std::vector<Sample>& samples = samples_[f];
+    if (!samples.empty()) return samples;
+    const auto surface = model_.surface(f);
+    std::vector<Vec2> uv;
+    const Vec2 low{surface->u_min(), surface->v_min()}, way = Vec2{surface->u_max(), surface->v_max()} - low;
+    for (int i = 0; i < kGrid; ++i)
+      for (int k = 0; k < kGrid; ++k)
+        uv.push_back({low.x + way.x * (i + 0.5) / kGrid, low.y + way.y * (k + 0.5) / kGrid});
+    std::vector<SurfacePoint> points(uv.size());
+    surface->evaluate_batch(uv, points);
+    const double sign = (t_.face_is_reversed[f] != 0) != is_turned_ ? -1 : 1;
+    for (const SurfacePoint& p : points) samples.push_back({p.x, sign * normalized(cross(p.du, p.dv))});
+    return samples;
+  }
+
+  /// In the plane square to an edge half way, as seen from there; of a ring on this side of its middle.
+  std::vector<Sample> samples_near(EdgeId e) {
+    const auto curve = model_.curve(e);
+    const CurvePoint p = curve->evaluate(0.5 * (curve->t_min() + curve->t_max()));
+    const bool is_ring = t_.edge_vertices[2 * e] == t_.edge_vertices[2 * e + 1];
+    const Vec3 normal = normalized(p.d1), inward = 0.5 * (curve->point(curve->t_min()) - p.x);
+    const double length = t_.edge_length[e], slab = (is_ring ? kSlabOfRing : kSlab) * length;
+    std::vector<Sample> near;
+    for (const FaceId f : faces_around(e))
+      for (const Sample& s : samples_of(f)) {
+        const Vec3 way = s.x - p.x;
+        const double height = dot(way, normal);
+        if (std::abs(height) <= slab && norm(way) <= kChordMost * length &&
+            (!is_ring || dot(way, inward) < norm2(inward)))
+          near.push_back({way - height * normal, s.normal});
+      }
+    return near;
+  }
+
+  /// 0: not thin there, or too short for its chord, or there are no two sides that look away from each other.
+  double thin_chord(EdgeId e) {
+    const std::vector<Sample> near = samples_near(e);
+    if (near.size() < kLeastSamples) return 0;
+    Vec3 middle;
+    for (const Sample& s : near) middle += s.x / static_cast<double>(near.size());
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (const Sample& s : near) spread += to_eigen(s.x - middle) * to_eigen(s.x - middle).transpose();
+    const PrincipalAxes shape = principal_axes(spread);  // the first one is the plane's normal
+    Box3 box;
+    std::array<std::size_t, 2> n_sides = {0, 0};
+    std::array<double, 2> height = {0, 0};
+    for (const Sample& s : near) {
+      const Vec3 own{0, dot(s.x - middle, shape.axis[1]), dot(s.x - middle, shape.axis[2])};
+      box.add(own);
+      const double across = dot(s.normal, shape.axis[1]);
+      if (std::abs(across) < kLooksAcross) continue;
+      ++n_sides[across > 0];
+      height[across > 0] += own.y;
+    }
+    const Vec3 size = box.hi - box.lo;
+    if (size.y > kThick * size.z || n_sides[0] == 0 || n_sides[1] == 0) return 0;
+    const bool looks_away = height[1] / static_cast<double>(n_sides[1]) > height[0] / static_cast<double>(n_sides[0]);
+    return looks_away || !t_.volume ? size.z : 0;  // open surfaces may be turned either way
+  }
+
+  const Model& model_;
+  const ModelTables& t_;
+  const FaceRoles& roles_;
+  bool is_turned_ = false;             // normals point into the material
+  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
+  std::vector<FaceId> edge_faces_;
+  std::vector<std::uint8_t> is_taken_;             // [n_faces] of a lifting surface that is known
+  std::map<FaceId, std::vector<Sample>> samples_;  // over the face's (u,v) box
+};
+
+}  // namespace
+
+std::vector<SpanEdge> find_span_edges(const Model& model, const FaceRoles& roles,
+                                      std::span<const LiftingSurface> wings) {
+  return SpanEdgeFinder(model, roles, wings).run();
+}
+
+}  // namespace st

@@ -1,0 +1,27 @@
+// Edges that may run along the span of a thin body: candidates for wings whose trailing edge is no edge.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "features/face_roles.h"
+#include "features/lifting_surface.h"
+#include "geometry/model/model.h"
+
+namespace st {
+
+/// An edge, and about how long the chord is half way along it.
+struct SpanEdge {
+  EdgeId edge = kNone;
+  double chord = 0;  ///< model unit
+};
+
+/// Smooth edges between free-form walls, seams too, that belong to none of `wings`, are closed or about straight, at
+/// least 1/50 of the reference diagonal and half of the chord long, and where the faces around are thin: samples near
+/// the plane square to the edge half way lie in a flat rectangle. Ascending. Local. Cost: some hundred points on each
+/// free-form face with such an edge, and those around it.
+std::vector<SpanEdge> find_span_edges(const Model& model, const FaceRoles& roles,
+                                      std::span<const LiftingSurface> wings);
+
+}  // namespace st
