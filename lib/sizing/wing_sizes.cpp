@@ -62,9 +62,12 @@ class WingRaster {
   void add_base(const Strip& strip, const ChordEdge& trailing) {
     const double way = ArcTable(*model_.curve(trailing.edge)).length();
     const bool is_turned = strip.is_opposed && strip.edges[1] == trailing.edge;
+    const std::vector<VertexId>& vertices = model_.tables().edge_vertices;
+    const bool is_ring = vertices[2 * strip.edges[0]] == vertices[2 * strip.edges[0] + 1];
     walk(way, pack_cause(CauseKind::kFace, strip.face), [&](double share) {
-      const double chord = trailing.chord_at(share), edge = length_of(chord);
       const Strip::Station station = strip.at(is_turned ? 1 - share : share);
+      const double chord = is_ring ? chord_beside(trailing, station.middle()) : trailing.chord_at(share);
+      const double edge = length_of(chord);
       const double width = (trailing.is_half ? 2 : 1) * station.width();
       return Place{station.middle(), std::max(length_across(sizes_.base_cells, width, edge), floor_of(chord)),
                    0.5 * station.across};
@@ -93,6 +96,21 @@ class WingRaster {
 
   double floor_of(double chord) const { return LocalLengths(wing_, sizes_).floor(chord); }
   double length_of(double chord) const { return std::max(LocalLengths(wing_, sizes_).asked(chord), floor_of(chord)); }
+
+  /// Beside a place near the edge: both edges of a ring may begin anywhere.
+  static double chord_beside(const ChordEdge& trailing, Vec3 x) {
+    double chord = 0, nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 1; i < trailing.stations.size(); ++i) {
+      const ChordStation &a = trailing.stations[i - 1], &b = trailing.stations[i];
+      const Vec3 way = b.trailing - a.trailing;
+      const double share = norm2(way) > 0 ? std::clamp(dot(x - a.trailing, way) / norm2(way), 0.0, 1.0) : 0;
+      const double d = distance(x, a.trailing + share * way);
+      if (d >= nearest) continue;
+      nearest = d;
+      chord = a.chord + share * (b.chord - a.chord);
+    }
+    return chord;
+  }
 
   /// Boxes one length apart; `place_at` takes a share of the way.
   template <class PlaceAt>

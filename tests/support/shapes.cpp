@@ -110,6 +110,14 @@ TopoDS_Shape annulus() {
   return face.Shape();
 }
 
+/// Between radii 9 and 10; its inner circles begin a quarter of the way around.
+TopoDS_Shape turned_tube() {
+  BRepBuilderAPI_MakeFace face(gp_Pln(gp::XOY()), circle(10, false), true);
+  const gp_Circ inner(gp_Ax2(gp::Origin(), gp::DZ(), gp::DY()), 9);
+  face.Add(TopoDS::Wire(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(inner).Edge()).Wire().Reversed()));
+  return BRepPrimAPI_MakePrism(face.Face(), gp_Vec(0, 0, 5)).Shape();
+}
+
 TopoDS_Shape face_of(const Handle(Geom_Surface) & s) { return BRepBuilderAPI_MakeFace(s, 1e-7).Shape(); }
 
 TopoDS_Shape face_of(const Handle(Geom_Surface) & s, double u0, double u1, double v0, double v1) {
@@ -660,6 +668,7 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"disc", disc},
       {"annulus", annulus},
+      {"turned_tube", turned_tube},
       {"strip", [] { return rectangle(100, 0.2); }},
       {"sharp_triangle",
        [] {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "features/round_tails.h"
+#include "features/strip.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -72,6 +73,39 @@ TEST(WingSizes, run_along_a_trailing_edge_inside_a_face) {
   }
   EXPECT_TRUE(s.with(CauseKind::kEdge).empty());
   for (const RasterBox& b : s.boxes) EXPECT_NEAR(b.length, 0.9 * 0.05, 1e-4);
+}
+
+/// A station at each eighth of a circle about z, its chord growing from 10 at x = -radius to 20 at x = radius.
+ChordEdge around(const Model& model, EdgeId e, FaceId base) {
+  ChordEdge own{e, base, false, 1, {}};
+  const auto curve = model.curve(e);
+  for (int i = 0; i <= 8; ++i) {
+    const Vec3 x = curve->point(curve->t_min() + (curve->t_max() - curve->t_min()) * i / 8);
+    own.stations.push_back({.share = i / 8.0, .trailing = x, .chord = 15 + 5 * x.x / std::hypot(x.x, x.y)});
+  }
+  return own;
+}
+
+TEST(WingSizes, follow_the_chord_around_the_base_of_a_ring) {
+  const Model model = test::make_model("turned_tube");
+  std::vector<Strip> rings = find_rings(model);
+  std::erase_if(rings, [&](const Strip& s) { return model.tables().face_type[s.face] != SurfaceType::kPlane; });
+  ASSERT_EQ(rings.size(), 2u) << "both ends";
+  const std::vector<std::uint8_t> none(static_cast<std::size_t>(model.tables().n_edges()), 0);
+  for (const EdgeId e : rings[0].edges) {
+    LiftingSurface wing;
+    wing.trailing = {around(model, e, rings[0].face)};
+    std::vector<RasterBox> boxes;
+    raster_wing(model, wing, share_of_chord("1%chord"), rings, none, boxes);
+    int n = 0;
+    for (const RasterBox& b : boxes) {
+      if (cause_kind(b.cause) != CauseKind::kFace) continue;
+      ++n;
+      const double chord = 15 + 5 * b.center.x / std::hypot(b.center.x, b.center.y);
+      EXPECT_NEAR(b.length, 0.01 * chord, 0.01) << "edge " << e + 1;
+    }
+    EXPECT_GT(n, 100);
+  }
 }
 
 TEST(WingSizes, end_where_the_wing_runs_into_a_body) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "unit/stages/plank.h"
 
 namespace st {
@@ -50,6 +52,53 @@ TEST(WingMeasure, holds_on_the_share_of_the_span_where_no_place_is_too_coarse) {
   const std::vector<WingMiss> misses = find_misses(all);
   ASSERT_EQ(misses.size(), 1u) << "between the five stations, and above 1.5";
   EXPECT_NEAR(misses[0].place.y, wing.stations[5].nose.y, 1e-12);
+}
+
+/// Cells of 0.05 along the chord and `n_around` around a ring of radius 2 about x, 0.1 thick: face 0 outside, 1 inside.
+SurfaceMesh ring_mesh(int n_around) {
+  SurfaceMesh mesh;
+  for (int side = 0; side < 2; ++side) {
+    const auto first = static_cast<NodeId>(mesh.node_xyz.size());
+    for (int j = 0; j < n_around; ++j)
+      for (int i = 0; i <= kChordwise; ++i) {
+        const double angle = 2 * kPi * j / n_around, r = side == 0 ? 2.05 : 1.95;
+        mesh.node_xyz.push_back({0.05 * i, r * std::cos(angle), r * std::sin(angle)});
+      }
+    const auto node = [&](int i, int j) { return first + (j % n_around) * (kChordwise + 1) + i; };
+    for (int j = 0; j < n_around; ++j)
+      for (int i = 0; i < kChordwise; ++i)
+        for (const Triangle& t : {Triangle{{node(i, j), node(i + 1, j), node(i + 1, j + 1)}},
+                                  Triangle{{node(i, j), node(i + 1, j + 1), node(i, j + 1)}}}) {
+          mesh.triangles.push_back(t);
+          mesh.triangle_face.push_back(side);
+        }
+  }
+  return mesh;
+}
+
+TEST(WingMeasure, goes_around_a_ring) {
+  constexpr int kAround = 120;
+  for (const int n_stations : {kAround, kAround * 9 / 10}) {  // whole, and open by 36 degrees
+    WingRecord wing;
+    for (int j = 0; j < n_stations; ++j) {
+      const double angle = 2 * kPi * (j + 0.5) / kAround;
+      const Vec3 nose = {0, 2 * std::cos(angle), 2 * std::sin(angle)};
+      wing.stations.push_back({nose, nose + Vec3{1, 0, 0}, 1, 0.05});
+    }
+    wing.edges = {4};
+    wing.faces = {0, 1};
+    const std::vector<WingMeasure> all = measure_wings(ring_mesh(kAround), {&wing, 1});
+    EXPECT_EQ(all[0].stations.size(), 5u);
+    for (const WingStationMeasure& s : all[0].stations) {
+      EXPECT_NEAR(s.chord_cells, kChordwise, 1e-6) << "at " << s.share;
+      EXPECT_NEAR(s.nose.normal, 0.05, 1e-3) << "at " << s.share;
+      EXPECT_NEAR(s.nose.along, 0.5 * (0.1 + std::hypot(0.05, 0.1)), 0.01) << "at " << s.share;
+    }
+    EXPECT_EQ(all[0].held, 1);
+    wing.stations[0].asked = 0.03;  // around the end of the list
+    EXPECT_NEAR(measure_wings(ring_mesh(kAround), {&wing, 1})[0].held,
+                1 - (n_stations == kAround ? 1.0 : 0.5) / n_stations, 2e-3);
+  }
 }
 
 TEST(WingMeasure, says_where_more_was_asked_for) {
