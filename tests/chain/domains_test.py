@@ -76,20 +76,29 @@ class Domains(ToolTest):
                 self.expect(self.make(body, "box", 10, variant, suffix), farfield=farfield, symmetry=0,
                             interface=interface)
 
+    def wing(self, name):
+        path = self.folder / f"{name}.brep"
+        subprocess.run([WING_MODELS, name, path], check=True, capture_output=True)
+        return path
+
     def test_of_a_section_between_two_planes_have_two_symmetry_planes(self):
-        for kind in ("box", "c"):
-            with self.subTest(kind=kind):
-                wing = self.folder / "wing.brep"
-                subprocess.run([WING_MODELS, "two_elements", wing], check=True, capture_output=True)
-                domain = self.domain_of(self.make(wing, kind, 10, "slice"))
-                self.assertIsNotNone(domain)
-                self.assertEqual(domain["symmetry"], 2)
+        for name in ("two_elements", "kinked_wing", "twisted_wing"):
+            for kind in ("box", "c"):
+                with self.subTest(name=name, kind=kind):
+                    domain = self.domain_of(self.make(self.wing(name), kind, 10, "slice"))
+                    self.assertIsNotNone(domain)
+                    self.assertEqual(domain["symmetry"], 2)
+
+    def test_of_a_section_with_plane_faces_are_said_in_one_line(self):
+        path = self.make(self.wing("diamond_wing"), "box", 10, "slice")
+        run = must("st-import", path, "-o", self.folder / "g.hdf")
+        self.assertIn("section with plane faces between two planes, as a hole may be; --flow-domain yes",
+                      run.err + run.out)
+        self.assertEqual(self.domain_of(path, "--flow-domain", "yes")["symmetry"], 2)
 
     def test_that_are_doubtful_are_said_in_one_line(self):
-        wing = self.folder / "wing.brep"
-        subprocess.run([WING_MODELS, "flying_wing", wing], check=True, capture_output=True)
         for size in (0.9, 0.6):
-            run = must("st-import", self.make(wing, "box", size, "whole"), "-o", self.folder / "g.hdf")
+            run = must("st-import", self.make(self.wing("flying_wing"), "box", size, "whole"), "-o", self.folder / "g.hdf")
             self.assertIn("larger than a quarter of what is around it; --flow-domain yes", run.err + run.out)
 
     def test_machine_parts_are_none(self):

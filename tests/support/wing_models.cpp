@@ -318,6 +318,19 @@ TopoDS_Shape rudder() {
   return fillet.Shape();
 }
 
+/// Tapered, swept and twisted.
+TopoDS_Shape twisted_wing() {
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 6; ++i) {
+    const double share = i / 6.0;
+    frames.push_back(straight(gp_Pnt(1.5 * share, 4 * share, 0), 1.5 - 0.8 * share, 0, 12 * share));
+  }
+  return loft(kBlunt, frames, false);
+}
+
+/// A double wedge of planes.
+TopoDS_Shape diamond_wing() { return prism({{0, 0, 0}, {0.5, 0, 0.04}, {1, 0, 0}, {0.5, 0, -0.04}}, 4); }
+
 TopoDS_Shape two_elements() {
   const TopoDS_Shape main = loft(kBlunt, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 4, 0), 1)});
   const auto flap = [](double y) { return straight(gp_Pnt(0.98, y, -0.08), 0.35, 0, 20); };
@@ -722,6 +735,8 @@ const Makers& wings() {
       {"box_wing", box_wing},
       {"rudder", rudder},
       {"two_elements", two_elements},
+      {"twisted_wing", twisted_wing},
+      {"diamond_wing", diamond_wing},
       {"winglet", blended_winglet},
       {"nacelle", [] { return ring(lips, 0.8, 2); }},
       {"nacelle_c", [] { return ring(lips, 0.8, 2, 5 * M_PI / 3); }},

@@ -30,6 +30,8 @@ constexpr double kFlat = 1e-3;              // of a flat face, over the diagonal
 constexpr double kRound = 1e-3;             // of a sphere or circle, over its radius
 constexpr double kAcross = 0.02;            // cosine: normals of a wall that stands on a plane
 constexpr double kSharpTail = radians(60);  // of a section between two planes
+constexpr double kTaper = 0.35;             // likewise of its faces: 20 degrees by taper, twist and sweep
+constexpr double kAlongSpan = 0.7;          // cosine between its tail and the planes' normal: 45 degrees of sweep
 constexpr double kBaseCorner = radians(140);
 constexpr double kNarrowBase = 0.05;     // width of its base over the chord
 constexpr double kThinSection = 0.25;    // its thickness over the chord: wings have 6 to 24 per cent, holes mostly more
@@ -238,11 +240,13 @@ class AirFinder {
     if (!(share > 0) || share > kAskedBody) return false;
     if (is_asked_) return true;
     const bool is_between = stands_between_planes(split);
-    if ((share > 2 * kLargestBody || is_between) && !has_free_form(split.body)) return false;
+    if (share > 2 * kLargestBody && !has_free_form(split.body)) return false;
     if (is_between ? has_roundings_across(split) : has_roundings(split.outer)) return false;
     if (least_height(split.outer_and_planes(), outer, body) < -length(kSpread)) return false;
     const double clear = least_height(split.outer, body, body);
     if (clear <= 0) return false;
+    if (is_between && !has_free_form(split.body))
+      return is_section(split) && doubt("is a section with plane faces between two planes, as a hole may be");
     if (share > kLargestBody) return doubt("is larger than a quarter of what is around it");
     if (clear < kClear * body_size) return doubt("is nearer to what is around it than half its own size");
     if (is_between) return is_section(split) || doubt("stands between two planes as a hole does");
@@ -323,19 +327,21 @@ class AirFinder {
     return split.planes.size() == 2 && dot(split.planes[0]->normal, split.planes[1]->normal) < -1 + kSpread;
   }
 
-  /// A section of a wing between two planes: all faces across, one of them of free form, thin, and with a sharp edge or
-  /// a narrow base. A hole has none of these edges.
+  /// A section of a wing between two planes: all faces about across, thin on both planes, and with a sharp edge or a
+  /// narrow base. A hole has none of these edges.
   bool is_section(const Split& split) const {
     const Vec3 normal = split.planes[0]->normal;
-    std::vector<Vec3> points = pieces_.edge_points(split.body);
-    for (Vec3& x : points) x -= dot(x, normal) * normal;
     const double height = std::abs(dot(split.planes[1]->point - split.planes[0]->point, normal));
-    const double chord = size_of(points);
-    if (width_across(points, normal) > kThinSection * chord) return false;
+    double chord = 0;
+    for (const HullPlane* plane : split.planes) {
+      const std::vector<Vec3> points = points_on(*plane, split.body);
+      if (points.empty() || width_across(points, normal) > kThinSection * size_of(points)) return false;
+      chord = std::max(chord, size_of(points));
+    }
     bool has_tail = false;
     for (const FaceId f : split.body) {
       for (const FaceSample& s : sample_face(pieces_.face(f)))
-        if (std::abs(dot(s.normal, normal)) > kAcross) return false;
+        if (std::abs(dot(s.normal, normal)) > kTaper) return false;
       bool has_corners = t_.face_area[f] < kNarrowBase * chord * height;
       for (const EdgeId e : t_.edges_of(f)) {
         if (!is_along(e, normal)) continue;
@@ -346,6 +352,14 @@ class AirFinder {
       has_tail = has_tail || has_corners;
     }
     return has_tail;
+  }
+
+  /// Of the edges of faces that lie in a plane.
+  std::vector<Vec3> points_on(const HullPlane& plane, const std::vector<FaceId>& faces) const {
+    std::vector<Vec3> on;
+    for (const Vec3 x : pieces_.edge_points(faces))
+      if (std::abs(dot(x - plane.point, plane.normal)) <= length(kInPlane)) on.push_back(x);
+    return on;
   }
 
   /// Of points in a plane, square to the way between two that are far apart.
@@ -361,7 +375,7 @@ class AirFinder {
 
   bool is_along(EdgeId e, Vec3 direction) const {
     const std::vector<Vec3> x = pieces_.points_of(e);
-    return std::abs(dot(normalized(x.back() - x.front()), direction)) > 1 - kAcross;
+    return std::abs(dot(normalized(x.back() - x.front()), direction)) > kAlongSpan;
   }
 
   /// What a symmetry plane cuts was whole once; what is milled or drilled into a plane was not.
