@@ -183,7 +183,12 @@ class FaceRaster {
 
   static double probe_angle(const CurvatureProbe& a, const CurvatureProbe& b) {
     if (a.normal == Vec3{} || b.normal == Vec3{}) return 0;
-    return 2 * std::asin(std::min(1.0, 0.5 * distance(a.normal, b.normal)));
+    const double half = 0.5 * distance(a.normal, b.normal), square = half * half;
+    constexpr double kSmall2 = 1e-4;  // up to there the next term of the series is below rounding
+    if (square < kSmall2)
+      return 2 * half *
+             (1 + square * (1 / 6.0 + square * (3 / 40.0 + square * (15 / 336.0 + square * (105 / 3456.0)))));
+    return 2 * std::asin(std::min(1.0, half));
   }
 
   /// Neighbours along rows, columns and both diagonals.
