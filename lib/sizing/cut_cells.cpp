@@ -86,16 +86,16 @@ class TriangleWalk {
 CutCells find_cut_cells(const OctreeView& octree, const SurfaceView& surface) {
   TriangleWalk walk(octree, surface);
   for (TriangleId t = 0; t < static_cast<TriangleId>(surface.triangles.size()); ++t) walk.visit(t);
-  std::sort(walk.found.begin(), walk.found.end());
+  std::vector<std::int64_t> next(octree.leaf_keys.size(), 0);  // of each leaf its triangles, then where the next goes
+  for (const auto& [leaf, triangle] : walk.found) ++next[leaf];
   CutCells cells;
-  for (const auto& [leaf, triangle] : walk.found) {
-    if (cells.leaf.empty() || cells.leaf.back() != leaf) {
-      cells.leaf.push_back(leaf);
-      cells.offsets.push_back(cells.offsets.back());
-    }
-    cells.triangle.push_back(triangle);
-    ++cells.offsets.back();
+  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
+    if (next[leaf] == 0) continue;
+    cells.leaf.push_back(leaf);
+    cells.offsets.push_back(cells.offsets.back() + std::exchange(next[leaf], cells.offsets.back()));
   }
+  cells.triangle.resize(walk.found.size());
+  for (const auto& [leaf, triangle] : walk.found) cells.triangle[next[leaf]++] = triangle;  // triangles came ascending
   return cells;
 }
 

@@ -16,7 +16,7 @@ struct CellStep {
   std::uint8_t fine_level;  ///< level of the smaller cell
 
   /// Otherwise they touch at an edge or a corner.
-  bool is_across_face() const { return (x < -1 || x > 1) + (y < -1 || y > 1) + (z < -1 || z > 1) == 1; }
+  bool is_across_face() const { return length2 == 4 || length2 == 11; }
 };
 
 /// Where the neighbours of a cell are found, by its octant and direction ((x + 1) + 3 * (y + 1) + 9 * (z + 1)), and how

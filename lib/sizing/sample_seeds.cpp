@@ -96,7 +96,7 @@ void forget_samples(RasterOctree& octree) {
 void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
                        const std::function<void(std::int32_t, std::int32_t)>& f) {
   const OctreeView& octree = neighbours.octree();
-  const auto leaf_at = [&](Vec3 x) { return octree.find_leaf(morton::encode(octree.grid_point(x))); };
+  const auto key_of = [&](Vec3 x) { return morton::encode(octree.grid_point(x)); };
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto own = [&](std::int32_t site) { f(site, static_cast<std::int32_t>(i)); };
     const auto visit = [&](const LengthSample& s, std::int32_t leaf) {
@@ -105,14 +105,14 @@ void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSampl
       else
         own(leaf);
     };
-    const std::int32_t leaf = leaf_at(samples[i].xyz);
+    const std::int32_t leaf = octree.find_leaf(key_of(samples[i].xyz));
     visit(samples[i], leaf);
     if (samples[i].reach == SampleReach{}) continue;
     for (const Vec3 corner : corners_of(samples[i]))
-      if (const std::int32_t other = leaf_at(corner); other != leaf) {
+      if (const std::uint64_t key = key_of(corner); !octree.leaf_contains(leaf, key)) {
         LengthSample moved = samples[i];
         moved.xyz = corner;
-        visit(moved, other);
+        visit(moved, octree.find_leaf(key));
       }
   }
 }
