@@ -103,23 +103,16 @@ std::vector<TriangleId> by_group(const SurfaceMesh& mesh) {
   return order;
 }
 
-struct Box {
-  Vec3 low, high;
-  Vec3 middle() const { return 0.5 * (low + high); }
-};
-
-Box box_of(std::span<const Vec3> points) {
-  if (points.empty()) return {};
-  Box box{points[0], points[0]};
-  for (const Vec3& p : points) {
-    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y), std::min(box.low.z, p.z)};
-    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y), std::max(box.high.z, p.z)};
-  }
+/// The box of nothing is the origin.
+Box3 box_of(std::span<const Vec3> points) {
+  Box3 box;
+  for (const Vec3& p : points) box.add(p);
+  if (points.empty()) box.add(Vec3{});
   return box;
 }
 
 /// What the page has to know of the arrays: groups with their triangles, names of the values, middle and size.
-Json describe(const MeshArtifact& artifact, const Box& box, std::span<const TriangleValues> values) {
+Json describe(const MeshArtifact& artifact, const Box3& box, std::span<const TriangleValues> values) {
   const SurfaceMesh& mesh = artifact.mesh;
   std::vector<std::int64_t> counts(mesh.labels.group_name.size());
   for (const std::int32_t g : mesh.triangle_group) ++counts[g];
@@ -132,11 +125,11 @@ Json describe(const MeshArtifact& artifact, const Box& box, std::span<const Tria
     groups.push_back({{"name", mesh.labels.group_name[g]}, {"role", role}, {"first", first}, {"count", counts[g]}});
   }
   for (const TriangleValues& v : values) names.push_back(v.name);
-  const Vec3 middle = box.middle();
+  const Vec3 middle = box.center();
   return {{"groups", groups},
           {"values", names},
           {"centre", {middle.x, middle.y, middle.z}},
-          {"diagonal", distance(box.low, box.high)},
+          {"diagonal", box.diagonal()},
           {"outward", has_far_field ? -1 : 1},  // normals of a fluid domain point into the body
           {"unit", artifact.header.unit}};
 }
@@ -350,7 +343,7 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
   progress.step("edges of the CAD", 0.7);
   const LinePart lines = lines_to_show(c);
   progress.step("page", 0.8);
-  const Box box = box_of(mesh.node_xyz.empty() ? lines.ends : mesh.node_xyz);
+  const Box3 box = box_of(mesh.node_xyz.empty() ? lines.ends : mesh.node_xyz);
   Json meta = describe(c.mesh, box, values);
   meta["title"] = shown_as;
   meta["cad"] = cad_in_words(c);
@@ -364,14 +357,14 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
       {"META", script_text(json_text(meta))},
       {"CHECK", script_text(check_json)},
       {"INFO", script_text(run_info(c.is_meshed ? files.mesh : files.geometry).json)},
-      {"NODES", encoded_points(mesh.node_xyz, box.middle())},
+      {"NODES", encoded_points(mesh.node_xyz, box.center())},
       {"CORNERS", encoded_corners(mesh, order)},
       {"VALUES", encoded_values(values, order)},
       {"CAUSES", encoded(sizes.cause)},
       {"CELLS", encoded(sizes.cells.corner)},
       {"LEVELS", encoded(sizes.cells.level)},
       {"LENGTHS", encoded(sizes.cells.length)},
-      {"LINES", encoded_points(lines.ends, box.middle())}};
+      {"LINES", encoded_points(lines.ends, box.center())}};
   return fill(report_page(), places);
 }
 
