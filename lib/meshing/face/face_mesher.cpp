@@ -15,7 +15,6 @@ namespace {
 constexpr double kSnap = 1e-3;       // of the length: nearer nodes of one id are one (docs/design/kernel.md)
 constexpr double kSnapPlane = 0.05;  // likewise in the scaled plane, where the surface is singular and all steps are
                                      // short
-constexpr double kSmallStep = 2e-3;  // of the range of (u,v): far less than the steps between the nodes of a pole
 constexpr int kAreaProbe = 10;       // grid of the expected number of nodes
 constexpr double kMaxNodesOfFace = kMaxTriangles / 2.0;  // two triangles to a node
 constexpr double kRunaway = 30;                          // times the expected number of nodes
@@ -86,7 +85,7 @@ class FaceMesher {
       for (std::int32_t t : twins) {
         const MeshNode& o = work_.mesh.nodes[t];
         const Vec2 d = o.p - n.p;
-        if (norm(d.x * n.du + d.y * n.dv) < kSnap * b.h && (norm(d) < kSnapPlane * b.h || is_small_step(d))) found = t;
+        if (norm(d.x * n.du + d.y * n.dv) < kSnap * b.h && norm(d) < kSnapPlane * b.h) found = t;
         if (d.x == 0 && d.y == 0) found = t;
       }
       if (found == kNone) {
@@ -99,12 +98,6 @@ class FaceMesher {
     }
     for (const auto& [id, twins] : same)  // a degenerate edge of no extent is no pole
       if (twins.size() == 1) work_.mesh.nodes[twins[0]].is_pole = false;
-  }
-
-  bool is_small_step(Vec2 d) const {
-    const Vec2 scale = work_.plane.scale();
-    return std::abs(d.x) < kSmallStep * scale.x * (surface_.u_max() - surface_.u_min()) &&
-           std::abs(d.y) < kSmallStep * scale.y * (surface_.v_max() - surface_.v_min());
   }
 
   void add_segments() {
