@@ -17,6 +17,8 @@ ONCE = [
     ("a search for triangles that cross", r"\b(?:find_bounded|PairSearch)\b", "lib/mesh/triangle_tree.cpp"),
     ("cutting regions into tiles and joining them", r"(?:share_cuts|mesh_groups)\(\w*executor",
      "lib/meshing/engine/region_tasks.cpp"),
+    ("when refining stops", r"constexpr \S+ k(?:Loop|Crossing|Promising)Floor =|constexpr \S+ k(?:FewCrossings|"
+     r"MostRepeated|ClearlyFewer|PerFailure|MostForWalls) =", "lib/meshing/engine/refinement_policy.h"),
     ("what counts as the same", r"constexpr double k(?:AboutSameArea|SameArea|SamePlace|Harmless) =",
      "lib/geometry/model/sameness.h"),
 ]
@@ -54,6 +56,7 @@ PLANTS = [
     lint.Plant("lib/mesh/planted.cpp", "f = a.lo.*k > b->hi.*k || b.lo.*k > a.hi.*k;\n", "planted.cpp:1: what is near"),
     lint.Plant("lib/mesh/planted.cpp", "PairSearch found(most);\n", "planted.cpp:1: a search for triangles"),
     lint.Plant("lib/meshing/planted.cpp", "tiled.share_cuts(executor_);\n", "planted.cpp:1: cutting regions"),
+    lint.Plant("lib/mesh/planted.cpp", "constexpr double kLoopFloor = 0.1;\n", "planted.cpp:1: when refining stops"),
     lint.Plant("lib/mesh/planted.cpp", "constexpr double kSameArea = 1;\n", "planted.cpp:1: what counts as the same"),
     lint.Plant("lib/mesh/planted.cpp", "auto j = json::parse(summary.json);\n", "planted.cpp:1: a summary's JSON"),
     lint.Plant("lib/mesh/planted.cpp", "run_named_tasks(\n  {order, {}, {}});\n", "planted.cpp:1: tasks without"),
