@@ -17,7 +17,7 @@ ONCE = [
     ("a search for triangles that cross", r"\b(?:find_bounded|PairSearch)\b", "lib/mesh/triangle_tree.cpp"),
     ("cutting regions into tiles and joining them", r"(?:share_cuts|mesh_groups)\(\w*executor",
      "lib/meshing/engine/region_tasks.cpp"),
-    ("when refining stops", r"constexpr \S+ k(?:Loop|Crossing|Promising)Floor =|constexpr \S+ k(?:FewCrossings|"
+    ("when refining stops", r"constexpr \S+ kLoopFloor =|constexpr \S+ k(?:FewCrossings|"
      r"MostRepeated|ClearlyFewer|PerFailure|MostForWalls) =", "lib/meshing/engine/refinement_policy.h"),
     ("what counts as the same", r"constexpr double k(?:AboutSameArea|SameArea|SamePlace|Harmless) =",
      "lib/geometry/model/sameness.h"),

@@ -36,7 +36,6 @@ auto timed(double& total, const Step& step) {
 
 void MeshRounds::run() {
   MeshTimes& times = result_.times;
-  std::uint64_t n_last = 0;  // places of the last search for crossings
   for (int n_rounds = 1, n_crossing_rounds = 0;; ++n_rounds) {
     executor_.begin_phase("edges");
     timed(times.edges, [&] { mesh_edges(); });
@@ -50,10 +49,9 @@ void MeshRounds::run() {
     const Places crossings = join_and_check();
     std::uint64_t n = crossings.size();
     share(executor_, n);
-    const bool is_promising = RefinementPolicy::is_promising(n, n_last, is_measured(crossings));
+    const bool is_promising = RefinementPolicy::is_promising(n, is_measured(crossings));
     if (is_last || n == 0 || !policy_.refines_crossings(n_crossing_rounds++, is_promising)) return;
-    n_last = n;
-    if (!refine(crossings, policy_.crossing_floor(is_promising))) return;
+    if (!refine(crossings, policy_.crossing_floor)) return;
   }
 }
 
@@ -120,8 +118,7 @@ MeshRounds::Places MeshRounds::affordable(const Places& places) {
 bool MeshRounds::refine(const Places& places, double floor) {
   const std::size_t n_before = refinements_.all().size();
   if (executor_.is_root())
-    for (const RefinementPoint& p : affordable(places))
-      refinements_.add(p, p.factor > 0 ? policy_.promising_floor : floor);
+    for (const RefinementPoint& p : affordable(places)) refinements_.add(p, floor);
   std::vector<Refinement> all = refinements_.all();
   share(executor_, all);
   refinements_.assign(std::move(all));

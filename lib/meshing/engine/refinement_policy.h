@@ -12,14 +12,12 @@ namespace st {
 struct RefinementPolicy {
   int max_rounds;                   ///< of loops, folds and narrow parts
   int max_crossing_rounds;          ///< of crossing triangles
-  int max_promising_rounds;         ///< likewise where few are left, or ever fewer
-  double promising_floor;           ///< length at which these end
+  int max_promising_rounds;         ///< likewise where few are left, or it is known what parts them
+  double crossing_floor;            ///< length at which refining crossing triangles ends
   std::size_t max_crossing_places;  ///< refined in one round
 
   // lengths
-  static constexpr double kLoopFloor = 1.0 / 16;       ///< of loops, folds and narrow parts: refining ends there
-  static constexpr double kCrossingFloor = 1.0 / 8;    ///< likewise of crossing triangles
-  static constexpr double kPromisingFloor = 1.0 / 64;  ///< likewise where few triangles cross, or ever fewer
+  static constexpr double kLoopFloor = 1.0 / 16;    ///< of loops, folds and narrow parts: refining ends there
   static constexpr double kLeastFactor = 1.0 / 32;  ///< of a triangle's length: walls that need less cannot be parted
   static constexpr double kCovering = 1.5;          ///< of half a triangle's longest side: a circle that covers it
   static constexpr double kWider = 0.75;            ///< more than that in each later round: new places crossed beside
@@ -27,7 +25,6 @@ struct RefinementPolicy {
 
   // places
   static constexpr std::uint64_t kFewCrossings = 200;  ///< so many may be refined for longer
-  static constexpr double kPromising = 0.8;            ///< of those before: fewer is getting better
   static constexpr std::size_t kMaxWallPlaces = 8000;  ///< in one round, where it is measured what parts walls
   static constexpr std::size_t kMostBadPlaces = 2000;  ///< that are looked at when refinements are taken back
   static constexpr std::size_t kFewRefined = 200;      ///< with more, no lengths are loosened: it takes too long
@@ -57,15 +54,13 @@ struct RefinementPolicy {
   /// Whether loops, folds and narrow parts are refined after this round, the first one being 1.
   bool refines_loops(int round) const { return round <= max_rounds; }
   /// Whether crossing triangles at `n_places` may be refined for longer. `is_measured`: it is known what parts some.
-  static bool is_promising(std::uint64_t n_places, std::uint64_t n_before, bool is_measured) {
-    return n_places <= kFewCrossings || is_measured ||
-           static_cast<double>(n_places) < kPromising * static_cast<double>(n_before);
+  static bool is_promising(std::uint64_t n_places, bool is_measured) {
+    return n_places <= kFewCrossings || is_measured;
   }
-  /// Whether they are refined after so many rounds of that, and down to which length.
+  /// Whether they are refined after so many rounds of that.
   bool refines_crossings(int n_rounds, bool is_promising) const {
     return n_rounds < (is_promising ? max_promising_rounds : max_crossing_rounds);
   }
-  double crossing_floor(bool is_promising) const { return is_promising ? promising_floor : kCrossingFloor; }
   /// Whether more was meshed than rounds can be worth, as on damaged surfaces. `n_for_walls`: of these, to part walls.
   static bool runs_away(std::uint64_t n_meshed, std::uint64_t n_first, double n_for_walls) {
     return static_cast<double>(n_meshed) >
@@ -100,13 +95,13 @@ struct RefinementPolicy {
 inline constexpr RefinementPolicy kFacePolicy{.max_rounds = 6,
                                               .max_crossing_rounds = 8,
                                               .max_promising_rounds = 14,
-                                              .promising_floor = RefinementPolicy::kPromisingFloor,
+                                              .crossing_floor = 1.0 / 64,
                                               .max_crossing_places = 2000};
 /// The policy for the holes of a mesh: one that cannot be filled grows, sizes do not help.
 inline constexpr RefinementPolicy kHolePolicy{.max_rounds = 0,
                                               .max_crossing_rounds = 4,
                                               .max_promising_rounds = 4,
-                                              .promising_floor = RefinementPolicy::kCrossingFloor,
+                                              .crossing_floor = 1.0 / 8,
                                               .max_crossing_places = 500};
 
 }  // namespace st

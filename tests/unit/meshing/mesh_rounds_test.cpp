@@ -63,7 +63,7 @@ Scripted::Places places(int call, int n) {
 constexpr RefinementPolicy kLimits{.max_rounds = 3,
                                    .max_crossing_rounds = 2,
                                    .max_promising_rounds = 5,
-                                   .promising_floor = 0.125,
+                                   .crossing_floor = 0.125,
                                    .max_crossing_places = 2000};
 
 TEST(MeshRounds, end_after_one_round_where_nothing_is_wrong) {
@@ -106,7 +106,7 @@ TEST(MeshRounds, refine_a_crossing_down_to_its_floor) {
   EXPECT_EQ(rounds.shortest(), 0.125);
 }
 
-TEST(MeshRounds, give_up_sooner_where_many_triangles_cross_and_do_not_get_fewer) {
+TEST(MeshRounds, give_up_sooner_where_many_triangles_cross) {
   MeshResult result;
   Scripted rounds(kLimits, result, kNothing, [](int call) { return places(call, 300); });
   rounds.run();
