@@ -107,6 +107,20 @@ bool ProfileFacets::add(std::vector<std::uint8_t> wanted, const Executor& execut
   return true;
 }
 
+void ProfileFacets::clear() {
+  std::ranges::fill(is_known_, std::uint8_t{0});
+  mirrors_.clear();
+  facets_ = {};
+}
+
+bool FacetStore::knows(FaceId f) const {
+  return std::ranges::any_of(all_, [f](const auto& step) { return step.second.knows(f); });
+}
+
+void FacetStore::clear() {
+  for (auto& [step, facets] : all_) facets.clear();
+}
+
 ProfileFacets& FacetStore::near(double deflection, bool is_exact) {
   const int step = static_cast<int>(std::lround(std::log2(deflection / roles_.reference_diagonal)));
   const double own = std::ldexp(roles_.reference_diagonal, step);

@@ -46,6 +46,10 @@ class ProfileFacets {
   /// Those of the walls at an edge, and of all that a cut through `x` meets which begins there.
   void add_cut(EdgeId e, Vec3 x, Vec3 normal, const Executor& executor);
 
+  /// Whether the facets of a face are there.
+  bool knows(FaceId f) const { return is_known_[f] != 0; }
+  void clear();
+
   const Facets& facets() const { return facets_; }
   double reach() const { return limits_.reach; }
 
@@ -79,6 +83,9 @@ class FacetStore {
 
   /// Of the step nearest to `deflection`, model unit.
   ProfileFacets& near(double deflection, bool is_exact);
+  /// Whether there are facets of a face, of any step.
+  bool knows(FaceId f) const;
+  void clear();
 
  private:
   const Model& model_;

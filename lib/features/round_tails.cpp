@@ -51,23 +51,28 @@ double way_along(const ChordEdge& edge, Vec3 ChordStation::*place) {
   return way;
 }
 
-/// Whether most places of an edge's stations are near the tails of another one's.
-bool has_same_tail(const Draft& own, const Draft& other) {
+std::vector<Vec3> tail_of(const Draft& draft) {
+  std::vector<Vec3> tail;
+  for (const ChordStation& s : draft.edge.stations)
+    if (s.is_measured) tail.push_back(s.trailing);
+  return tail;
+}
+
+/// Whether most of its tail is near a line.
+bool runs_along(const Draft& own, std::span<const Vec3> line) {
   std::size_t n = 0, n_near = 0;
   for (const ChordStation& s : own.edge.stations) {
     if (!s.is_measured) continue;
     ++n;
     bool is_near = false;
-    const ChordStation* last = nullptr;
-    for (const ChordStation& o : other.edge.stations) {
-      if (!o.is_measured) continue;
-      is_near = is_near || (last && segment_distance(s.trailing, last->trailing, o.trailing) < kSameTail * s.chord);
-      last = &o;
-    }
+    for (std::size_t i = 1; i < line.size() && !is_near; ++i)
+      is_near = segment_distance(s.trailing, line[i - 1], line[i]) < kSameTail * s.chord;
     n_near += is_near;
   }
   return 2 * n_near > n;
 }
+
+bool has_same_tail(const Draft& own, const Draft& other) { return runs_along(own, tail_of(other)); }
 
 void sort_once(std::vector<std::int32_t>& ids) {
   std::ranges::sort(ids);
@@ -77,10 +82,12 @@ void sort_once(std::vector<std::int32_t>& ids) {
 /// Cuts along one edge.
 class TailMeasurer {
  public:
-  TailMeasurer(const Model& model, const FaceRoles& roles, FacetStore& facets)
-      : model_(model), roles_(roles), facets_(facets) {}
+  TailMeasurer(const Model& model, const FaceRoles& roles) : model_(model), roles_(roles), facets_(model, roles) {
+    model.tables().edge_faces(offsets_, edge_faces_);
+  }
 
   std::optional<Draft> run(const SpanEdge& span_edge) {
+    leave_other_bodies(span_edge.edge);
     const WingEdge own{.edge = span_edge.edge, .length = model_.tables().edge_length[span_edge.edge]};
     if (!is_wing_half_way(own, facets_.near(kCoarse * span_edge.chord, true))) return std::nullopt;
     ProfileFacets& facets = facets_.near(kDeflection * span_edge.chord, true);
@@ -91,6 +98,13 @@ class TailMeasurer {
   }
 
  private:
+  /// Cuts search all facets that are there: those of faces that the last edges did not reach are dropped, so that a
+  /// hundred blades take a hundred times as long as one.
+  void leave_other_bodies(EdgeId e) {
+    const std::span faces(edge_faces_.data() + offsets_[e], edge_faces_.data() + offsets_[e + 1]);
+    if (std::ranges::none_of(faces, [&](FaceId f) { return facets_.knows(f); })) facets_.clear();
+  }
+
   /// Spares facets of bodies that are none.
   bool is_wing_half_way(const WingEdge& own, ProfileFacets& facets) {
     const auto curve = model_.curve(own.edge);
@@ -243,7 +257,9 @@ class TailMeasurer {
 
   const Model& model_;
   const FaceRoles& roles_;
-  FacetStore& facets_;
+  FacetStore facets_;
+  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
+  std::vector<FaceId> edge_faces_;
   std::map<FaceId, std::optional<Vec2>> nose_guess_, tail_guess_;  // (u,v) of the last one on each face
 };
 
@@ -254,12 +270,17 @@ class TailFinder {
       : model_(model), t_(model.tables()), roles_(roles), is_excluded_(is_excluded) {}
 
   std::vector<LiftingSurface> run(std::span<const LiftingSurface> wings) {
-    FacetStore facets(model_, roles_);
-    TailMeasurer measurer(model_, roles_, facets);
+    TailMeasurer measurer(model_, roles_);
     std::vector<Draft> drafts;
-    for (const SpanEdge& e : find_span_edges(model_, roles_, wings))
-      if (!is_excluded_[e.edge])
-        if (std::optional<Draft> own = measurer.run(e)) drafts.push_back(std::move(*own));
+    std::vector<std::vector<Vec3>> excluded = excluded_edges();
+    for (const SpanEdge& e : find_span_edges(model_, roles_, wings)) {
+      std::optional<Draft> own = measurer.run(e);
+      if (own && is_excluded_[e.edge]) excluded.push_back(tail_of(*own));
+      if (own && !is_excluded_[e.edge]) drafts.push_back(std::move(*own));
+    }
+    std::erase_if(drafts, [&](const Draft& own) {
+      return std::ranges::any_of(excluded, [&](const std::vector<Vec3>& line) { return runs_along(own, line); });
+    });
     if (drafts.empty()) return {};
     const std::vector<Draft> best = once(drafts);
     const std::vector<std::uint8_t> is_concave = find_concave_edges(model_, roles_);
@@ -270,6 +291,20 @@ class TailFinder {
   }
 
  private:
+  /// Points along each.
+  std::vector<std::vector<Vec3>> excluded_edges() const {
+    constexpr int kPoints = 17;
+    std::vector<std::vector<Vec3>> lines;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+      if (!is_excluded_[e] || t_.edge_is_degenerate[e]) continue;
+      const auto curve = model_.curve(e);
+      std::vector<Vec3>& line = lines.emplace_back();
+      for (int i = 0; i < kPoints; ++i)
+        line.push_back(curve->point(std::lerp(curve->t_min(), curve->t_max(), static_cast<double>(i) / (kPoints - 1))));
+    }
+    return lines;
+  }
+
   /// One of those along each tail: on the tail itself before others, and longer before shorter ones.
   static std::vector<Draft> once(std::vector<Draft> drafts) {
     std::ranges::stable_sort(drafts, [](const Draft& a, const Draft& b) {

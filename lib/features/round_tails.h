@@ -13,8 +13,9 @@ namespace st {
 
 /// Appends lifting surfaces to `wings` where smooth edges of free-form walls, seams too, run along a body whose cuts
 /// are a wing's profile (features/profile.h) at half of the way or more, clearly thinner at one end than at the other.
-/// Not on faces of `wings`, nor at edges in `is_excluded` ([n_edges]). `edges`: of find_wing_edges(); those along the
-/// noses become leading edges. By first edge. Local. Cost: coarse facets at each such edge, exact ones of thin bodies.
+/// Not on faces of `wings`, nor where the tail runs along an edge in `is_excluded` ([n_edges]) or along the tail of
+/// cuts at such an edge. `edges`: of find_wing_edges(); those along the noses become leading edges. By first edge.
+/// Local. Cost: coarse facets at each such edge, exact ones of thin bodies.
 void add_round_tails(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges,
                      std::span<const std::uint8_t> is_excluded, std::vector<LiftingSurface>& wings);
 

@@ -60,13 +60,13 @@ PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", 
 
 
 class WingShapes(ToolTest):
-    def raster(self, name, preset):
+    def raster(self, name, preset, *options):
         model, geometry = self.folder / f"{name}.brep", self.folder / "geometry.hdf"
         if not geometry.exists():
             subprocess.run([WING_MODELS, name, model], check=True, capture_output=True, timeout=100)
             must("st-import", model, "-o", geometry)
         return must("st-raster", geometry, "-o", self.folder / "raster.hdf", "--no-surface", "--json", "--preset",
-                    preset)
+                    preset, *options)
 
     def check_wing(self, name, spans):
         for preset in ("rans", "euler"):
@@ -88,6 +88,15 @@ class WingShapes(ToolTest):
         fine, usual, coarse = (n_samples(size) for size in ("none", "0.3%chord", "10%chord"))
         self.assertLess(usual, 0.85 * fine, "with all lengths at nose and edge")
         self.assertGreater(coarse, 0.5 * fine, "a coarse nose coarsens nothing else")
+
+    def test_a_round_tail_that_is_taken_out_is_not_found_from_another_edge(self):
+        rules = self.folder / "sizes.toml"
+        for name in ("blade_of_splines", "blade_of_halves"):
+            (self.folder / "geometry.hdf").unlink(missing_ok=True)
+            (wing,) = self.raster(name, "euler").json()["lifting_surfaces"]
+            edges = wing["trailing_edges"] + wing.get("inside_along", [])
+            rules.write_text(f"size = [{{ edges = {edges}, trailing_edge = false }}]\n")
+            self.assertEqual(self.raster(name, "euler", "--sizes", rules).json()["lifting_surfaces"], [], name)
 
     def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
         self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")
