@@ -9,6 +9,7 @@
 # the Debian packages, figures.txt and notes.txt; the commit gets the tag vVERSION with the notes. Where a step fails,
 # the files are as before, and there is neither a commit nor a tag.
 set -eu -o pipefail
+if [ $# -gt 1 ] && [ "$1" != --notes ]; then set -- "$1" "$(realpath -m "$2")"; fi
 cd "$(dirname "$0")/.."
 
 fail() {
@@ -57,6 +58,7 @@ notes "$version" > "$out/notes.txt"
 
 git commit -q -m "release: version $version" -m "What users see is in CHANGELOG.md under [$version]." \
   CHANGELOG.md "${naming[@]}"
-trap - EXIT
+trap 'git reset -q --mixed HEAD^; restore' EXIT
 git tag -a "v$version" --cleanup=verbatim -m "ST $version" -m "$(cat "$out/notes.txt")"
+trap - EXIT
 echo "release: v$version in $out; push it with: git push origin HEAD v$version"
