@@ -122,11 +122,13 @@ void FacetStore::clear() {
 }
 
 ProfileFacets& FacetStore::near(double deflection, bool is_exact) {
+  constexpr std::size_t kMostKept = 50'000;  // triangles: each cut searches them
   const int step = static_cast<int>(std::lround(std::log2(deflection / roles_.reference_diagonal)));
   const double own = std::ldexp(roles_.reference_diagonal, step);
-  return all_
-      .try_emplace({step, is_exact}, model_, roles_, ProfileLimits{{.deflection = own, .is_exact = is_exact}, 2 * own})
-      .first->second;
+  const ProfileLimits limits{{.deflection = own, .is_exact = is_exact}, 2 * own};
+  ProfileFacets& facets = all_.try_emplace({step, is_exact}, model_, roles_, limits).first->second;
+  if (facets.facets().triangle.size() > kMostKept) facets.clear();
+  return facets;
 }
 
 }  // namespace st

@@ -81,7 +81,7 @@ class FacetStore {
   /// Both must outlive the object.
   FacetStore(const Model& model, const FaceRoles& roles) : model_(model), roles_(roles) {}
 
-  /// Of the step nearest to `deflection`, model unit.
+  /// Of the step nearest to `deflection`, model unit. What is there is dropped where it became much to search.
   ProfileFacets& near(double deflection, bool is_exact);
   /// Whether there are facets of a face, of any step.
   bool knows(FaceId f) const;
