@@ -8,6 +8,7 @@
 
 #include "base/box_tree.h"
 #include "base/disjoint_sets.h"
+#include "features/cut_bases.h"
 #include "features/smooth_edges.h"
 
 namespace st {
@@ -30,9 +31,10 @@ class BaseStripFinder {
 
   std::vector<Strip> run() {
     std::vector<Strip> all = united();
+    add_cut_bases(all);
     measure_rows(all);
     for (Strip& ring : find_rings(model_)) all.push_back(std::move(ring));
-    std::sort(all.begin(), all.end(), [](const Strip& a, const Strip& b) { return a.face < b.face; });
+    std::ranges::stable_sort(all, {}, &Strip::face);
     return all;
   }
 
@@ -51,6 +53,16 @@ class BaseStripFinder {
   bool is_smooth(EdgeId e) const {
     return is_smooth_half_way(model_, e, std::span(edge_faces_).subspan(offsets_[e], offsets_[e + 1] - offsets_[e]),
                               kSmooth);
+  }
+
+  void add_cut_bases(std::vector<Strip>& all) const {
+    std::vector<std::uint8_t> is_strip(static_cast<std::size_t>(t_.n_faces()), 0);
+    for (const Strip& strip : all) {
+      is_strip[strip.face] = 1;
+      for (const FaceId f : strip.others) is_strip[f] = 1;
+    }
+    for (Strip& cut : find_cut_bases(model_))
+      if (!is_strip[cut.face]) all.push_back(std::move(cut));
   }
 
   std::vector<Strip> united() const {
@@ -90,23 +102,29 @@ class BaseStripFinder {
     }
   }
 
-  /// Strips that hang together at their ends.
+  /// Strips that hang together at their ends; those of one base in pieces are one.
   void measure_rows(std::vector<Strip>& all) const {
     DisjointSets rows(static_cast<std::int64_t>(all.size()));
     const auto root = [&](std::size_t i) { return static_cast<std::size_t>(rows.find(static_cast<std::int32_t>(i))); };
-    std::map<EdgeId, std::size_t> at_end;
-    for (std::size_t i = 0; i < all.size(); ++i)
+    std::map<EdgeId, std::size_t> at_end, at_face, is_side;
+    for (const Strip& s : all)
+      for (const EdgeId e : s.edges) is_side[e] = 1;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!all[i].others.empty()) continue;
+      const auto [first, is_first] = at_face.emplace(all[i].face, i);
+      if (!is_first) rows.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(first->second));
       for (const EdgeId e : t_.edges_of(all[i].face)) {
-        if (e == all[i].edges[0] || e == all[i].edges[1] || !all[i].others.empty()) continue;
+        if (is_side.contains(e)) continue;
         const auto [known, is_new] = at_end.emplace(e, i);
         const double a = width_of(all[i]), b = width_of(all[known->second]);
         if (!is_new && a <= kAlike * b && b <= kAlike * a)
           rows.join(static_cast<std::int32_t>(i), static_cast<std::int32_t>(known->second));
       }
+    }
     std::vector<double> length(all.size(), 0);
     std::vector<Box3> box(all.size());
     for (std::size_t i = 0; i < all.size(); ++i) {
-      length[root(i)] += all[i].length;
+      if (all[i].cut_side != 1) length[root(i)] += all[i].length;
       box[root(i)].add(all[i].stations.front().x);
       box[root(i)].add(all[i].stations.back().x);
     }

@@ -2,6 +2,7 @@
 // curvature shows.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "geometry/model/model.h"
@@ -13,10 +14,11 @@ namespace st {
 struct Strip {
   static constexpr double kInexact = 2;
   FaceId face = kNone;
-  std::vector<FaceId> others = {};   ///< of a base of several strips beside each other: all but the first
-  EdgeId edges[2] = {kNone, kNone};  ///< the long edges, the lower id first
-  bool is_opposed = false;           ///< they run against each other
-  double length = 0;                 ///< of the first, model unit
+  std::vector<FaceId> others = {};             ///< of a base of several strips beside each other: all but the first
+  EdgeId edges[2] = {kNone, kNone};            ///< the long edges, the lower id first
+  bool is_opposed = false;                     ///< they run against each other
+  double length = 0;                           ///< of the first, model unit
+  std::optional<int> cut_side = std::nullopt;  ///< 0 or 1: the side of a base in pieces on which the first edge lies
   double row = 0;    ///< of all strips that go on end to end in about one line, model unit; set for bases
   double exact = 0;  ///< model unit; above 0: its edges cross, so that where they are nearer they are one
   struct Station {

@@ -343,7 +343,7 @@ class WingEdgeFinder {
     if (!is_narrow(strip, width)) return;
     if (is_half) complete(strip, places);
     if (count_blunt(strip, places) < kAgreeing || is_rim(strip, places)) return;
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < (strip.cut_side ? 1 : 2); ++k) {
       if (mirror[k] != kNone) continue;
       found[strip.edges[k]] = make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width, strip.face);
       found[strip.edges[k]]->mirror = mirror[1 - k];
@@ -390,10 +390,11 @@ class WingEdgeFinder {
            (std::ranges::all_of(places[0], is_square) && std::ranges::all_of(places[1], is_square));
   }
 
-  /// Closed edges may begin anywhere.
+  /// Closed edges and those of sides in pieces may begin anywhere.
   const Station& across_from(const Station& a, int i, const Strip& strip, const std::vector<Station>& other) const {
     const EdgeId e = strip.edges[1];
-    if (t_.edge_vertices[2 * e] != t_.edge_vertices[2 * e + 1]) return other[strip.is_opposed ? kStations - 1 - i : i];
+    if (!strip.cut_side && t_.edge_vertices[2 * e] != t_.edge_vertices[2 * e + 1])
+      return other[strip.is_opposed ? kStations - 1 - i : i];
     return *std::ranges::min_element(other, {}, [&](const Station& s) { return distance(s.x, a.x); });
   }
 

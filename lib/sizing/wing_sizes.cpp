@@ -211,10 +211,12 @@ std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface
       raster.add_tails(trailing);
     else if (!is_ruled(trailing.edge))
       raster.add_edge(trailing);
-    const auto strip =
-        std::find_if(strips.begin(), strips.end(), [&](const Strip& s) { return s.face == trailing.base; });
+    const auto strip = std::find_if(strips.begin(), strips.end(), [&](const Strip& s) {
+      return s.face == trailing.base && (!s.cut_side || s.edges[0] == trailing.edge);
+    });
     const bool has_base = trailing.base != kNone && strip != strips.end();
-    const bool is_second = has_base && !trailing.is_half && strip->edges[1] == trailing.edge;
+    const bool is_second =
+        has_base && !trailing.is_half && (strip->cut_side ? *strip->cut_side == 1 : strip->edges[1] == trailing.edge);
     if (has_noses && !is_second) raster.add_noses(trailing);
     if (has_base && !is_ruled(strip->edges[0]) && !is_ruled(strip->edges[1])) raster.add_base(*strip, trailing);
   }

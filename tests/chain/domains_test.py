@@ -98,7 +98,8 @@ class Domains(ToolTest):
 
     def test_that_are_doubtful_are_said_in_one_line(self):
         for size in (0.9, 0.6):
-            run = must("st-import", self.make(self.wing("flying_wing"), "box", size, "whole"), "-o", self.folder / "g.hdf")
+            path = self.make(self.wing("flying_wing"), "box", size, "whole")
+            run = must("st-import", path, "-o", self.folder / "g.hdf")
             self.assertIn("larger than a quarter of what is around it; --flow-domain yes", run.err + run.out)
 
     def test_machine_parts_are_none(self):

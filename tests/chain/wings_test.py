@@ -1,11 +1,14 @@
 """How many lifting surfaces st-raster finds on real CAD files (ST_CORPUS, by default ../shared/corpus beside the
 repository): counted by hand on pictures."""
+import os
+import subprocess
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import CORPUS, ToolTest, main_on_corpus, must  # noqa: E402
 
+CUT_MODEL = Path(os.environ["ST_BIN"]).parent / "tests/support/cut_model"
 WINGS = {
     "aero_d150_fullspan.brep": 5,
     "aero_d150_half_with_tail.brep": 3,
@@ -36,6 +39,15 @@ WINGS = {
 }
 
 
+# Spans of wings, measured on drawings in the model's unit, and how they are cut: seed, random planes through all faces,
+# and edges that get two vertices, a hundred-thousandth of their length apart.
+CUT_WINGS = {
+    "aero_d150_wing_body_half.brep": ([16.02], ((1, 0, 20), (3, 5, 20), (4, 12, 40))),
+    "aero_onera_m6_sharpte.brep": ([1.533], ((1, 0, 20), (2, 0, 60))),  # planes would cut its domain, too
+    "aero_tigl_simplewing.brep": ([2.0], ((1, 0, 20), (2, 0, 60), (3, 5, 20))),
+}
+
+
 class Wings(ToolTest):
     def raster(self, name, *options):
         geometry = self.folder / "geometry.hdf"
@@ -46,6 +58,21 @@ class Wings(ToolTest):
     def check(self, name, n_wings):
         done = self.raster(name, "--preset", "preview")
         self.assertEqual(len(done.json()["lifting_surfaces"]), n_wings, f"{name}: {done}")
+
+    def test_cut_at_random_places_stay_the_same_wings(self):
+        for name, (spans, cuts) in CUT_WINGS.items():
+            for cut in cuts:
+                with self.subTest(name=name, cut=cut):
+                    model, geometry = self.folder / "cut.brep", self.folder / "cut.hdf"
+                    subprocess.run([CUT_MODEL, CORPUS / name, model, *map(str, cut)], check=True, capture_output=True,
+                                   timeout=100)
+                    must("st-import", model, "-o", geometry)
+                    done = must("st-raster", geometry, "-o", self.folder / "raster.hdf", "--no-surface", "--json",
+                                "--preset", "rans")
+                    found = sorted((wing["span"] for wing in done.json()["lifting_surfaces"]), reverse=True)
+                    self.assertEqual(len(found), len(spans), done)
+                    for got, asked in zip(found, spans):
+                        self.assertLess(abs(got - asked), 0.05 * asked, done)
 
     def test_the_user_has_the_last_word(self):
         other, rules = self.folder / "none.hdf", self.folder / "sizes.toml"

@@ -1,18 +1,25 @@
-// Cuts the faces of a CAD model by random planes: cut_model IN OUT.brep SEED N
+// Cuts the faces of a CAD model by random planes: cut_model IN OUT.brep SEED N [N_EDGES]
 //
 // The solids are left out, so that planes cut faces only; N = 0 writes the faces as they are. Every plane is an edge
-// between smooth neighbours, somewhere: it says nothing about the shape.
+// between smooth neighbours, somewhere: it says nothing about the shape. N_EDGES random edges are cut at two places
+// which are 1e-5 of their length apart, so that between them is a short one.
+#include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <IGESControl_Reader.hxx>
 #include <Interface_Static.hxx>
 #include <STEPControl_Reader.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopTools_ListOfShape.hxx>
+#include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <cmath>
 #include <cstdint>
@@ -84,17 +91,39 @@ TopoDS_Shape cut(const TopoDS_Shape& surfaces, int n_planes, Random& random) {
   return splitter.Shape();
 }
 
+TopoDS_Shape with_short_edges(const TopoDS_Shape& surfaces, int n_edges, Random& random) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(surfaces, TopAbs_EDGE, edges);
+  TopTools_ListOfShape arguments, tools;
+  arguments.Append(surfaces);
+  for (int i = 0; i < n_edges; ++i) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(1 + static_cast<int>(random(0, edges.Extent()))));
+    if (BRep_Tool::Degenerated(edge)) continue;
+    const BRepAdaptor_Curve curve(edge);
+    const double t = random(0.1, 0.9), from = curve.FirstParameter(), way = curve.LastParameter() - from;
+    for (const double share : {t, t + 1e-5})
+      tools.Append(BRepBuilderAPI_MakeVertex(curve.Value(from + share * way)).Vertex());
+  }
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(arguments);
+  splitter.SetTools(tools);
+  splitter.Build();
+  if (splitter.HasErrors()) throw std::runtime_error("the edges cannot be cut");
+  return splitter.Shape();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::fputs("usage: cut_model IN OUT.brep SEED N\n", stderr);
+  if (argc != 5 && argc != 6) {
+    std::fputs("usage: cut_model IN OUT.brep SEED N [N_EDGES]\n", stderr);
     return 2;
   }
   try {
     TopoDS_Shape surfaces = surfaces_of(read_model(argv[1]));
     Random random(std::strtoull(argv[3], nullptr, 10));
     if (const int n = std::atoi(argv[4]); n > 0) surfaces = cut(surfaces, n, random);
+    if (argc == 6 && std::atoi(argv[5]) > 0) surfaces = with_short_edges(surfaces, std::atoi(argv[5]), random);
     if (!BRepTools::Write(surfaces, argv[2])) throw std::runtime_error(std::string("cannot write ") + argv[2]);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "cut_model: error: %s\n", e.what());

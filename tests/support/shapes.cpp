@@ -10,6 +10,7 @@
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
@@ -388,6 +389,20 @@ TopoDS_Shape wing(double closing, double thickness = 0.12) {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
 }
 
+/// The blunt wing, the long edges of its base cut into four and two.
+TopoDS_Shape wing_with_cut_base() {
+  const double y = 6 * (0.2969 - 0.126 - 0.3516 + 0.2843 - 0.1015);
+  TopTools_ListOfShape arguments, tools;
+  arguments.Append(wing(0.1015));
+  for (const auto& [side, z] : {std::pair{1.0, 7.0}, {1.0, 7.0003}, {1.0, 19.0}, {-1.0, 12.0}})
+    tools.Append(BRepBuilderAPI_MakeVertex(gp_Pnt(10, side * y, z)).Vertex());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(arguments);
+  splitter.SetTools(tools);
+  splitter.Build();
+  return splitter.Shape();
+}
+
 /// Length 30 (z) of one closed spline of length 10 (x), alike above and below, that begins above its middle. `narrow`:
 /// how much thinner it is at one end than at the other; 0: an oval.
 TopoDS_Shape closed_bar(double narrow) {
@@ -605,6 +620,7 @@ const std::map<std::string, Factory>& factories() {
       {"blunt_wing", [] { return wing(0.1015); }},
       {"thin_wing", [] { return wing(0.1036, 0.035); }},
       {"tapering_wing", tapering_wing},
+      {"wing_with_cut_base", wing_with_cut_base},
       {"closed_wing", [] { return closed_bar(0.6); }},
       {"oval_bar", [] { return closed_bar(0); }},
       {"double_wedge", double_wedge},
