@@ -187,7 +187,7 @@ class Enhancer {
   void smooth_sweep() {
     const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
     for (std::int32_t i = first; i < n; ++i) {
-      if (!is_active_[i] || m_.triangle_at(i) == kNone) continue;
+      if (!is_active_[i] || m_.triangle_at(i) == kNone || m_.nodes[i].is_laid) continue;
       is_active_[i] = 0;
       smooth(i);
     }

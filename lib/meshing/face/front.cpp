@@ -10,6 +10,7 @@
 #include "base/eigen.h"
 #include "base/predicates.h"
 #include "geometry/shape/surface.h"
+#include "meshing/face/row_blocks.h"
 #include "meshing/face/stretch.h"
 
 namespace st {
@@ -19,12 +20,13 @@ constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
 
 // Rules: docs/design/kernel.md; where each number comes from: docs/design/heuristics.md.
-constexpr double kFinishedRadius = 0.68;  // circumradius over requested length; equilateral: 0.577
-constexpr double kNearNode = 0.76;        // of the side: a new node nearer than this to another is not made
-constexpr double kNearBoundary = 0.4;     // of the side: nor nearer than this to a boundary segment
-constexpr double kGrowth = 1.4;           // size of a new node over its base side
-constexpr double kVeryLong = 1.5;         // times the size: an edge so long is split even closer to other nodes
-constexpr double kCloseSplit = 0.55;      // the distances kept then
+constexpr double kFinishedRadius = 0.68;       // circumradius over requested length; equilateral: 0.577
+constexpr double kNearNode = 0.76;             // of the side: a new node nearer than this to another is not made
+constexpr double kNearBoundary = 0.4;          // of the side: nor nearer than this to a boundary segment
+constexpr double kObtuseAtRow = radians(130);  // no new node sees an edge of a laid row under a larger angle
+constexpr double kGrowth = 1.4;                // size of a new node over its base side
+constexpr double kVeryLong = 1.5;              // times the size: an edge so long is split even closer to other nodes
+constexpr double kCloseSplit = 0.55;           // the distances kept then
 constexpr double kShortBase = 0.8;  // of the size at its ends: a shorter base does not hold back the growth any more
 constexpr double kTurningFloor = 0.25;  // of the requested length: turning shortens sides no further
 constexpr double kTooLarge = 0.80;      // circumradius over requested length that is split when the front has ended
@@ -47,6 +49,7 @@ class Front {
         cos_too_far_(std::cos(1.25 * work.max_turning)) {}
 
   void run() {
+    if constexpr (kStretched) ends_ = lay_row_blocks(w_);
     start();
     if constexpr (kStretched) lay_rows();
     ring_narrow_parts();
@@ -82,11 +85,13 @@ class Front {
     return kFinishedRadius + (kRowRadius - kFinishedRadius) * std::clamp(4 * squeeze2 - 2, 0.0, 1.0);
   }
 
-  static bool is_done(const PlaneTriangle& t) { return t.state == kFinished || t.state == kRetired; }
+  static bool is_done(const PlaneTriangle& t) {
+    return t.state == kFinished || t.state == kRetired || t.state == kLaid;
+  }
 
   void start() {
     for (std::size_t i = 0; i < m_.triangles.size(); ++i)
-      if (PlaneTriangle& t = m_.triangles[i]; t.state != kOutside)
+      if (PlaneTriangle& t = m_.triangles[i]; t.state == kUnfinished)
         t.state = is_finished(t, circumradius2(t)) ? kFinished : kUnfinished;
     for (std::size_t i = 0; i < m_.triangles.size(); ++i)
       if (m_.triangles[i].state == kUnfinished) push_front_edges(static_cast<std::int32_t>(i));
@@ -224,6 +229,7 @@ class Front {
   /// loops elsewhere; the triangles between them are right-angled in space. Rows end where sizes are about equal again.
   void lay_rows() {
     for (const auto& [a, b] : w_.segments) seed_rows(a, b);
+    for (const auto& [a, b] : ends_) seed_rows(a, b);
     while (!across_.empty() || !along_.empty()) {
       const bool is_across = !across_.empty();
       const std::int32_t node = is_across ? across_.front() : -along_.top().second;
@@ -254,7 +260,8 @@ class Front {
     double length = a.h;
     MeshNode p;
     if (!row_point(a, is_across ? sign * across : sign * aspect_of(a) * t, is_across ? t : across, length, p)) return;
-    if (!insert(p, inside_triangle_at(from), length, kGrowth * a.h)) return;
+    const std::int32_t start = m_.triangle_towards(from, p.p);
+    if (start == kNone || !insert(p, start, length, kGrowth * a.h)) return;
     if (aspect_of(p) < kRowAspect) return;
     const auto added = static_cast<std::int32_t>(m_.nodes.size()) - 1;
     across_.push_back(added);
@@ -316,7 +323,7 @@ class Front {
   bool insert(MeshNode& p, std::int32_t start, double r, double largest) {
     if (m_.nodes.size() >= w_.max_nodes || !std::isfinite(norm2(p.x) + norm(p.p))) return false;
     const std::int32_t at = m_.locate(p.p, start);
-    if (at == kNone || m_.triangles[at].state == kOutside) return false;
+    if (at == kNone || m_.triangles[at].state == kOutside || m_.triangles[at].state == kLaid) return false;
     const Metric metric = metric_of(p);
     for (const std::int32_t v : m_.triangles[at].v)  // most crowded places show here, before the cavity is looked for
       if (is_near(p, m_.nodes[v], metric, r)) return false;
@@ -364,6 +371,8 @@ class Front {
       if (is_near(p, a, metric, r)) return true;
       if (!e.constrained || are_one_pole(a, b)) continue;
       if (distance_to(p, a, b) < kNearBoundary * r && plane_near(p, metric, a, b, 2 * kNearBoundary * r)) return true;
+      const bool is_laid = e.outer != kNone && m_.triangles[e.outer].state == kLaid;
+      if (is_laid && angle_between(a.x - p.x, b.x - p.x) > kObtuseAtRow) return true;
     }
     return false;
   }
@@ -432,6 +441,7 @@ class Front {
   std::deque<std::int32_t> across_;                             // nodes from which rows go on
   std::priority_queue<std::pair<double, std::int32_t>> along_;  // minus size, minus node: the finest first
   std::vector<std::int32_t> fan_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> ends_;  // of laid rows
 };
 
 }  // namespace

@@ -102,6 +102,19 @@ std::int32_t Triangulation::locate(Vec2 p, std::int32_t start) const {
   return kNone;
 }
 
+std::int32_t Triangulation::triangle_towards(std::int32_t node, Vec2 p) const {
+  const Vec2 a = nodes[node].p;
+  const std::int32_t first = node_triangle_[node];
+  std::int32_t t = first;
+  do {
+    const PlaneTriangle& r = triangles[t];
+    const int k = index_of(t, node);
+    if (orient2d(a, nodes[r.v[kNext[k]]].p, p) >= 0 && orient2d(a, p, nodes[r.v[kPrev[k]]].p) > 0) return t;
+    t = r.n[kPrev[k]];
+  } while (t != first && t != kNone);
+  return kNone;
+}
+
 bool Triangulation::find_cavity(Vec2 p, const Metric& metric, std::int32_t start) {
   cavity_.clear();
   ring_.clear();
@@ -205,13 +218,32 @@ void Triangulation::mark(std::int32_t t, int k) {
   triangles[o].toggles ^= static_cast<std::uint8_t>(1 << j);
 }
 
-// Forces the edge a-b by swapping the edges it crosses (Sloan 1993).
 std::optional<LoopConflict> Triangulation::insert_segment(std::int32_t a, std::int32_t b) {
+  if (auto conflict = force_edge(a, b)) return conflict;
+  int k = 0;
+  const std::int32_t t = find_edge(a, b, k);
+  mark(t, k);
+  return std::nullopt;
+}
+
+bool Triangulation::force_side(std::int32_t a, std::int32_t b) {
+  if (force_edge(a, b)) return false;
+  int k = 0;
+  const std::int32_t t = find_edge(a, b, k);
+  constrain(t, k);
+  return true;
+}
+
+std::pair<std::int32_t, std::int32_t> Triangulation::left_of(std::int32_t a, std::int32_t b) const {
+  int k = 0;
+  const std::int32_t t = find_edge(a, b, k);
+  return t == kNone ? std::pair{kNone, kNone} : std::pair{t, triangles[t].v[kPrev[k]]};
+}
+
+// Forces the edge a-b by swapping the edges it crosses (Sloan 1993).
+std::optional<LoopConflict> Triangulation::force_edge(std::int32_t a, std::int32_t b) {
   int k;
-  if (const std::int32_t t = find_edge(a, b, k); t != kNone) {
-    mark(t, k);
-    return std::nullopt;
-  }
+  if (find_edge(a, b, k) != kNone) return std::nullopt;
   const Vec2 pa = nodes[a].p, pb = nodes[b].p;
   std::vector<std::pair<std::int32_t, std::int32_t>> crossing;
   // first triangle about a whose far edge the segment crosses
@@ -259,9 +291,7 @@ std::optional<LoopConflict> Triangulation::insert_segment(std::int32_t a, std::i
     if (c == a || c == b || d == a || d == b) continue;
     if ((orient2d(pa, pb, nodes[c].p) > 0) != (orient2d(pa, pb, nodes[d].p) > 0)) crossing.push_back({c, d});
   }
-  const std::int32_t done = find_edge(a, b, k);
-  if (done == kNone) return LoopConflict{a, b, a, b};
-  mark(done, k);
+  if (find_edge(a, b, k) == kNone) return LoopConflict{a, b, a, b};
   return std::nullopt;
 }
 

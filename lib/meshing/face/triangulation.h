@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "meshing/face/face_node.h"
@@ -13,7 +14,8 @@ namespace st {
 
 /// A node of a face in the plane. Its `h` is the edge length to aim at: the request, limited by growth and turning.
 struct MeshNode : FaceNode {
-  bool is_kept = false;  ///< of a ring about a narrow part: not to be collapsed
+  bool is_kept = false;  ///< of a ring about a narrow part, or laid in a row: not to be collapsed
+  bool is_laid = false;  ///< in a row: not to be moved
   Vec2 p{};              ///< scaled parameter plane
   Vec3 du{}, dv{};       ///< derivatives by the scaled parameters
   Vec3 normal{};         ///< unit normal du x dv; where that is singular, of a place a little inside
@@ -34,8 +36,8 @@ struct PlaneTriangle {
   std::uint8_t state = 0;        ///< TriangleState
 };
 
-/// Retired: no node can be placed in it, though it is not small enough.
-enum TriangleState : std::uint8_t { kOutside = 0, kUnfinished = 1, kFinished = 2, kDead = 3, kRetired = 4 };
+/// Retired: no node can be placed in it, though it is not small enough. Laid: of a row, and stays as it is.
+enum TriangleState : std::uint8_t { kOutside = 0, kUnfinished = 1, kFinished = 2, kDead = 3, kRetired = 4, kLaid = 5 };
 
 /// Symmetric metric E dx^2 + 2 F dx dy + G dy^2.
 struct Metric {
@@ -66,9 +68,17 @@ class Triangulation {
   void adopt(std::int32_t n_fixed, std::vector<MeshNode> part, const std::vector<std::array<std::int32_t, 3>>& corners);
   /// A side that must stay.
   void constrain(std::int32_t t, int k);
+  /// Makes a-b an edge that must stay, by swaps; inside and outside remain as they are. False when a node or an edge
+  /// that must stay is in its way.
+  bool force_side(std::int32_t a, std::int32_t b);
+  /// The triangle to the left of edge a -> b and its third corner; kNone when there is no such edge.
+  std::pair<std::int32_t, std::int32_t> left_of(std::int32_t a, std::int32_t b) const;
 
   /// Triangle that contains p, walked from `start` without crossing a constrained edge; kNone when one is in the way.
   std::int32_t locate(Vec2 p, std::int32_t start) const;
+
+  /// The triangle at `node` in which the way to p begins, whatever must stay; kNone: there is none.
+  std::int32_t triangle_towards(std::int32_t node, Vec2 p) const;
 
   /// The cavity of p: triangles whose circumcircle (in the metric) holds p, grown from `start`, star-shaped about p.
   /// Fills cavity() and ring(). False when p lies on a constrained edge or on a node.
@@ -107,6 +117,7 @@ class Triangulation {
   void start_box();
   bool insert_boundary_node(std::int32_t node, std::int32_t& hint);
   std::optional<LoopConflict> insert_segment(std::int32_t a, std::int32_t b);
+  std::optional<LoopConflict> force_edge(std::int32_t a, std::int32_t b);
   void mark(std::int32_t t, int k);
   void classify();
   std::int32_t find_edge(std::int32_t a, std::int32_t b, int& k) const;

@@ -381,5 +381,31 @@ TEST(Triangulation, stays_valid_under_collapses) {
   for (const auto& [a, b] : joined(ring(0, 4), ring(4, 4))) EXPECT_TRUE(has_edge(m, a, b, true));
 }
 
+TEST(Triangulation, forces_a_side_inside_that_no_swap_takes_away) {
+  Triangulation m = with_nodes({{0, 0}, {4, 0}, {4, 3}, {0, 3}, {1, 1}, {3, 2.1}, {2, 2}, {2.1, 1}});
+  const Segments loop = ring(0, 4);
+  ASSERT_TRUE(m.build(loop).empty());
+  EXPECT_TRUE(m.force_side(4, 5));
+  const auto [t, apex] = m.left_of(4, 5);
+  ASSERT_NE(t, kNone);
+  EXPECT_GT(orient2d(m.nodes[4].p, m.nodes[5].p, m.nodes[apex].p), 0);
+  for (int k = 0; k < 3; ++k) EXPECT_FALSE(m.triangles[t].v[k] == 4 && m.can_swap(t, k));
+  EXPECT_FALSE(m.force_side(6, 7));  // it would cross
+  EXPECT_NEAR(inside_area(m), 12, 1e-12);
+  EXPECT_EQ(m.left_of(0, 2).first == kNone, m.left_of(2, 0).first == kNone);
+}
+
+TEST(Triangulation, finds_the_triangle_in_which_a_way_begins) {
+  Triangulation m = with_nodes({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}});
+  ASSERT_TRUE(m.build(ring(0, 4)).empty());
+  for (const Vec2 p : {Vec2{3, 2.2}, Vec2{1.9, 3}, Vec2{1, 1.5}, Vec2{2.3, 1}}) {
+    const std::int32_t t = m.triangle_towards(4, p);
+    ASSERT_NE(t, kNone);
+    const Vec2 near = m.nodes[4].p + 0.01 * (p - m.nodes[4].p);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_GE(orient2d(m.nodes[m.triangles[t].v[k]].p, m.nodes[m.triangles[t].v[(k + 1) % 3]].p, near), 0);
+  }
+}
+
 }  // namespace
 }  // namespace st

@@ -1,0 +1,288 @@
+#include "meshing/face/row_blocks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <queue>
+
+#include "meshing/face/row_chains.h"
+#include "meshing/face/row_line.h"
+#include "meshing/face/row_map.h"
+#include "meshing/face/stretch.h"
+
+namespace st {
+namespace {
+
+using Side = std::pair<std::int32_t, std::int32_t>;
+
+/// Of a boundary node: rows begin there, or end there at their side.
+enum Use : char { kFree, kChain, kLine };
+
+/// The rows along one chain.
+class RowBlock {
+ public:
+  RowBlock(FaceWork& work, RowChain chain, std::vector<Use>& is_used)
+      : w_(work), m_(work.mesh), chain_(std::move(chain)), is_used_(is_used) {
+    line_.nodes = chain_.nodes;
+    line_.joined.assign(line_.nodes.size() - 1, 1);
+    line_.lowest.assign(line_.nodes.size(), 0);
+    line_.highest = line_.lowest;
+    line_.is_closed = chain_.is_closed;
+    for (const std::int32_t n : chain_.nodes) is_used_[n] = kChain;
+    height_ = w_.mesh.nodes[chain_.nodes[chain_.nodes.size() / 2]].request;
+  }
+
+  /// All rows up to the side across, where it fits; false: none.
+  bool map() {
+    std::vector<NextLine> lines = mapped_lines(w_, chain_);
+    if (lines.empty() || is_top_laid()) return false;
+    line_.nodes = chain_.bottom;
+    line_.lowest.assign(line_.nodes.size(), 0);
+    line_.highest = line_.lowest;
+    line_.joined = lines[0].joined;
+    line_.is_closed = false;
+    for (NextLine& next : lines) {
+      lay(next);
+      for (const NextLine::Column& c : next.columns)
+        if (c.existing != kNone && c.existing < m_.n_boundary) is_used_[c.existing] = kLine;
+    }
+    line_.joined.assign(line_.joined.size(), 0);
+    return true;
+  }
+
+  /// One row more; false where there is none.
+  bool grow() {
+    const RowSides sides = find_sides();
+    if (is_exhausted_) return false;
+    NextLine next = next_line(w_, line_, sides);
+    if (std::none_of(next.joined.begin(), next.joined.end(), [](char j) { return j; })) return false;
+    is_merging(next) ? merge(next) : lay(next);
+    return std::any_of(line_.joined.begin(), line_.joined.end(), [](char j) { return j; });
+  }
+
+  /// Of the last row.
+  double height() const { return height_; }
+
+  /// Edges of the lines behind which no row lies.
+  void add_ends(std::vector<Side>& sides) const {
+    sides.insert(sides.end(), ended_.begin(), ended_.end());
+    for (std::size_t i = 0; n_rows_ > 0 && i < line_.joined.size(); ++i)
+      if (line_.joined[i]) sides.push_back({line_.nodes[i], line_.nodes[i + 1]});
+  }
+
+ private:
+  bool is_top_laid() const {
+    for (std::size_t i = 1; i < chain_.top.size(); ++i)
+      if (const std::int32_t t = m_.left_of(chain_.top[i], chain_.top[i - 1]).first;
+          t != kNone && m_.triangles[t].state == kLaid)
+        return true;
+    return false;
+  }
+
+  void lay(NextLine& next) {
+    insert(next, 1);
+    for (std::size_t i = 0; i < next.joined.size(); ++i)
+      next.joined[i] = line_.joined[i] && is_whole(next, i) && force(i, next);
+    advance(next, 1);
+  }
+
+  /// Do all but a few of the quadrilaterals allow edges twice as long, and triangles over two of them?
+  bool is_merging(const NextLine& next) const {
+    if (line_.is_closed || n_rows_ == 0) return false;
+    std::size_t n = 0, n_fit = 0;
+    for (std::size_t i = 0; i < next.joined.size(); ++i) {
+      if (!next.joined[i]) continue;
+      ++n;
+      const Vec3 c = next.columns[i].node.x, d = next.columns[i + 1].node.x;
+      const double height = 0.5 * (distance(x(line_.nodes[i]), c) + distance(x(line_.nodes[i + 1]), d));
+      n_fit += distance(c, d) < kFlat * height && w_.field->local(c, hint_).in(d - c) > kMuchLonger * distance(c, d);
+    }
+    return n >= kLeastMerged && static_cast<double>(n_fit) > kMostFit * static_cast<double>(n);
+  }
+
+  /// A row in which two columns become one.
+  void merge(const NextLine& fine) {
+    NextLine next;
+    for (std::size_t i = 0; i < fine.columns.size(); i += 2) next.columns.push_back(fine.columns[i]);
+    for (std::size_t i = 0; i + 1 < fine.joined.size(); i += 2)
+      next.joined.push_back(fine.joined[i] && fine.joined[i + 1]);
+    next.columns.resize(next.joined.size() + 1);
+    insert(next, 2);
+    for (std::size_t i = 0; i < next.joined.size(); ++i)
+      next.joined[i] = line_.joined[2 * i] && line_.joined[2 * i + 1] && is_whole(next, i) && force_pair(i, next);
+    advance(next, 2);
+  }
+
+  static bool is_whole(const NextLine& next, std::size_t i) {
+    return next.joined[i] && next.columns[i].existing != kNone && next.columns[i + 1].existing != kNone;
+  }
+
+  RowSides find_sides() {
+    RowSides sides;
+    const auto next_of = [&](const std::vector<std::int32_t>& way, std::int32_t now) {
+      if (n_rows_ + 1 >= way.size() || way[n_rows_] != now) return kNone;
+      return way[n_rows_ + 1];
+    };
+    sides.first = next_of(chain_.before, line_.nodes.front());
+    sides.last = next_of(chain_.after, line_.nodes.back());
+    for (std::int32_t* n : {&sides.first, &sides.last}) {
+      if (*n == kNone) continue;
+      is_exhausted_ |= is_used_[*n] == kLine;
+      if (is_used_[*n] == kChain) *n = kNone;  // other rows begin there
+    }
+    return sides;
+  }
+
+  /// The nodes of every column of the line, or of every second.
+  void insert(NextLine& next, std::size_t stride) {
+    for (std::size_t i = 0; i < next.columns.size(); ++i) {
+      NextLine::Column& c = next.columns[i];
+      if (line_.nodes[stride * i] == kNone) continue;
+      const bool is_wanted = (i > 0 && next.joined[i - 1]) || (i < next.joined.size() && next.joined[i]) ||
+                             (line_.is_closed && i == 0 && next.joined.back());
+      if (!is_wanted || c.existing != kNone) continue;
+      if (line_.is_closed && i + 1 == next.columns.size()) {
+        c.existing = next.columns[0].existing;
+        continue;
+      }
+      c.existing = insert(c.node, line_.nodes[stride * i]);
+    }
+  }
+
+  /// On the way from a node of the line, which was found to be free.
+  std::int32_t insert(const MeshNode& p, std::int32_t from) {
+    if (m_.nodes.size() >= w_.max_nodes) return kNone;
+    const std::int32_t start = m_.triangle_towards(from, p.p);
+    if (start == kNone || m_.triangles[start].state != kUnfinished) return kNone;
+    const std::int32_t at = m_.locate(p.p, start);
+    if (at == kNone || m_.triangles[at].state != kUnfinished || !m_.find_cavity(p.p, metric_of(p), at)) return kNone;
+    if (is_crowded(p, distance(p.x, x(from)))) return kNone;
+    m_.nodes.push_back(p);
+    m_.added_node();
+    const auto added = static_cast<std::int32_t>(m_.nodes.size()) - 1;
+    m_.fill_cavity(added);
+    return added;
+  }
+
+  /// Nearer than a part of the row's height to a node, or to an edge that must stay.
+  bool is_crowded(const MeshNode& p, double height) const {
+    return std::any_of(m_.ring().begin(), m_.ring().end(), [&](const Triangulation::RingEdge& e) {
+      return distance(p.x, x(e.a)) < kNearNode * height ||
+             (e.constrained && segment_distance(p.x, x(e.a), x(e.b)) < kNearSide * height);
+    });
+  }
+
+  /// The quadrilateral a, b, d, c between columns i and i+1, cut by its shorter diagonal.
+  bool force(std::size_t i, const NextLine& next) {
+    const std::int32_t a = line_.nodes[i], b = line_.nodes[i + 1];
+    const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
+    const bool is_first = distance(x(a), x(d)) <= kEven * distance(x(b), x(c));
+    const Side diagonal = is_first ? Side{a, d} : Side{b, c};
+    for (const Side& s : {Side{a, b}, Side{a, c}, Side{b, d}, Side{c, d}, diagonal})
+      if (!m_.force_side(s.first, s.second)) return false;
+    const auto [t, apex] = m_.left_of(a, b);
+    const auto [u, foot] = m_.left_of(d, c);
+    if (apex != (is_first ? d : c) || foot != (is_first ? a : b)) return false;
+    m_.triangles[t].state = m_.triangles[u].state = kLaid;
+    return true;
+  }
+  /// Three triangles over two segments.
+  bool force_pair(std::size_t i, const NextLine& next) {
+    const std::int32_t a = line_.nodes[2 * i], middle = line_.nodes[2 * i + 1], b = line_.nodes[2 * i + 2];
+    const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
+    for (const Side& s :
+         {Side{a, middle}, Side{middle, b}, Side{a, c}, Side{b, d}, Side{c, d}, Side{middle, c}, Side{middle, d}})
+      if (!m_.force_side(s.first, s.second)) return false;
+    const auto [t, first] = m_.left_of(a, middle);
+    const auto [u, last] = m_.left_of(middle, b);
+    const auto [v, foot] = m_.left_of(d, c);
+    if (first != c || last != d || foot != middle) return false;
+    m_.triangles[t].state = m_.triangles[u].state = m_.triangles[v].state = kLaid;
+    return true;
+  }
+  Vec3 x(std::int32_t n) const { return m_.nodes[n].x; }
+
+  /// `next` becomes the line; it has every column, or every second.
+  void advance(const NextLine& next, std::size_t stride) {
+    ++n_rows_;
+    double sum = 0;
+    std::size_t n = 0;
+    const std::size_t n_columns = next.columns.size();
+    RowLine line{std::vector<std::int32_t>(n_columns, kNone), std::vector<double>(n_columns, 0),
+                 std::vector<double>(n_columns, 0), next.joined, line_.is_closed};
+    std::vector<char> goes_on(line_.joined.size(), 0);
+    for (std::size_t i = 0; i < next.joined.size(); ++i) {
+      if (!next.joined[i]) continue;
+      std::fill_n(goes_on.begin() + static_cast<std::ptrdiff_t>(stride * i), stride, 1);
+      for (const std::size_t k : {i, i + 1}) {
+        line.nodes[k] = next.columns[k].existing;
+        const double height = distance(x(line_.nodes[stride * k]), x(line.nodes[k]));
+        settle(line.nodes[k], height, distance(x(next.columns[i].existing), x(next.columns[i + 1].existing)));
+        const double lowest = line_.lowest[stride * k];
+        const bool is_lowest = lowest == 0 || height < lowest;
+        line.lowest[k] = is_lowest ? height : lowest;
+        line.highest[k] = is_lowest ? height : std::max(line_.highest[stride * k], height);
+        sum += height;
+        ++n;
+      }
+    }
+    for (std::size_t i = 0; i < goes_on.size(); ++i)
+      if (line_.joined[i] && !goes_on[i] && n_rows_ > 1) ended_.push_back({line_.nodes[i], line_.nodes[i + 1]});
+    if (n > 0) height_ = sum / static_cast<double>(n);
+    line_ = std::move(line);
+  }
+
+  /// A node of a row stays. Its lengths are those that were laid, so that the front goes on from them.
+  void settle(std::int32_t n, double height, double width) {
+    MeshNode& node = m_.nodes[n];
+    if (n < m_.n_boundary) {
+      is_used_[n] = kLine;
+      return;
+    }
+    node.is_laid = node.is_kept = true;
+    node.h = std::min(node.request, height * 1.25);
+    const double most = std::max(1.0, 1.3 * width / node.h), own = aspect_of(node);
+    if (own > most) node.squeeze = std::sqrt((1 - 1 / (most * most)) / (1 - 1 / (own * own))) * node.squeeze;
+  }
+
+  static constexpr double kNearNode = 0.55;  // of a row's height: nearer to other nodes no node is laid,
+  static constexpr double kNearSide = 0.45;  // nor to edges that must stay
+  static constexpr double kEven = 1.0001;    // diagonals that are as long: always the same one
+
+  static constexpr double kFlat = 1.9;        // length over height of quadrilaterals of which two become one
+  static constexpr double kMuchLonger = 1.7;  // length asked for along over that of the row
+  static constexpr double kMostFit = 0.9;     // share of a row in which this must hold
+  static constexpr std::size_t kLeastMerged = 8;
+
+  FaceWork& w_;
+  Triangulation& m_;
+  RowChain chain_;
+  std::vector<Use>& is_used_;  // [boundary nodes]
+  RowLine line_;
+  std::vector<Side> ended_;
+  std::size_t n_rows_ = 0;
+  double height_ = 0;
+  bool is_exhausted_ = false;
+  mutable int hint_ = 0;  // of the field
+};
+
+}  // namespace
+
+std::vector<Side> lay_row_blocks(FaceWork& work) {
+  std::vector<Use> is_used(work.mesh.n_boundary, kFree);
+  std::vector<RowBlock> blocks;
+  for (RowChain& chain : find_row_chains(work)) blocks.emplace_back(work, std::move(chain), is_used);
+  std::priority_queue<std::pair<double, std::int32_t>> queue;  // minus height, minus block: the finest first
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    if (!blocks[i].map()) queue.push({-blocks[i].height(), -static_cast<std::int32_t>(i)});
+  while (!queue.empty()) {
+    const std::int32_t i = -queue.top().second;
+    queue.pop();
+    if (blocks[i].grow()) queue.push({-blocks[i].height(), -i});
+  }
+  std::vector<Side> ends;
+  for (const RowBlock& b : blocks) b.add_ends(ends);
+  return ends;
+}
+
+}  // namespace st

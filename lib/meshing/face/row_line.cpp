@@ -1,0 +1,287 @@
+#include "meshing/face/row_line.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/predicates.h"
+#include "meshing/face/row_chains.h"
+#include "meshing/face/stretch.h"
+
+namespace st {
+namespace {
+
+// Where each number comes from: docs/design/heuristics.md.
+constexpr double kGrowth = 1.4;       // of heights from row to row, at most
+constexpr double kTooSquare = 1.0;    // length over height of a quadrilateral
+constexpr double kEndAspect = 1.3;    // on the mean of a quadrilateral and its neighbours
+constexpr double kFreeBeyond = 0.7;   // of a row's height, which must be free behind it,
+constexpr double kFreeOfWidth = 0.3;  // and of the length of its quadrilaterals,
+constexpr double kMostFree = 4;       // but no more than of the height
+constexpr double kLeastAngle = 50;    // degrees, of a quadrilateral's corners
+constexpr double kMostAngle = 130;
+constexpr double kMostShear = radians(50);        // of a side against the square
+constexpr double kSideMisfit = 1.8;               // between the height asked for and that of the side's segment
+constexpr double kNarrowing = 0.6;                // of a column's width from row to row
+constexpr double kTooLong = 1.5;                  // over the length asked for along a quadrilateral
+constexpr double kFalling = 0.75;                 // of a column's greatest height: it comes to where others begin,
+constexpr double kRisen = 1.5;                    // over its least height before,
+constexpr double kAhead = 10;                     // if an edge lies within that many heights
+constexpr double kAlong = 0.94;                   // cosine to the direction of a stretch: the row is along it
+constexpr double kMiss = 0.01;                    // of a height, by which a node may miss its place
+constexpr double kBetween[] = {0.25, 0.5, 0.75};  // of a quadrilateral's length: where room is looked for
+constexpr int kSmoothing = 3;                     // passes over the heights
+constexpr std::size_t kNeighbours = 3;            // of a quadrilateral, on each side
+constexpr std::size_t kLeastRun = 4;              // quadrilaterals beside each other
+
+class LineMaker {
+ public:
+  LineMaker(FaceWork& work, const RowLine& line, const RowSides& sides) : w_(work), line_(line), sides_(sides) {
+    next_.columns.resize(n());
+    next_.joined = line.joined;
+    along_.resize(n());
+    across_.resize(n());
+    height_.assign(n(), 0);
+  }
+
+  NextLine run() {
+    const auto runs = find_runs();
+    for (const auto& [first, last] : runs) {
+      direct(first, last);
+      bound(first, last);
+      smooth(first, last);
+      place(first, last);
+    }
+    close();
+    for (std::size_t i = 0; i + 1 < n(); ++i) next_.joined[i] = next_.joined[i] && is_good(i);
+    end_square();
+    drop_short_runs();
+    return std::move(next_);
+  }
+
+ private:
+  using Run = std::pair<std::size_t, std::size_t>;  // columns, first and last
+
+  std::size_t n() const { return line_.nodes.size(); }
+  const MeshNode& node(std::size_t i) const { return w_.mesh.nodes[line_.nodes[i]]; }
+  double width(std::size_t i) const { return distance(node(i).x, node(i + 1).x); }
+  bool is_ring() const {
+    return line_.is_closed && std::all_of(line_.joined.begin(), line_.joined.end(), [](char j) { return j; });
+  }
+
+  std::vector<Run> find_runs() const {
+    std::vector<Run> runs;
+    for (std::size_t i = 0; i < next_.joined.size(); ++i) {
+      if (!next_.joined[i]) continue;
+      const std::size_t first = i;
+      while (i + 1 < next_.joined.size() && next_.joined[i + 1]) ++i;
+      runs.push_back({first, i + 1});
+    }
+    return runs;
+  }
+
+  /// Directions along and square to the line, and the heights that the sizes ask for.
+  void direct(std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i <= last; ++i) {
+      const MeshNode& a = node(i);
+      std::size_t from = i > first ? i - 1 : i, to = i < last ? i + 1 : i;
+      if (is_ring() && i == 0) from = n() - 2;
+      if (is_ring() && i + 1 == n()) to = 1;
+      // by angle, not by length: the shorter neighbour tells as much
+      const Vec3 back = normalized(a.x - node(from).x), ahead = normalized(node(to).x - a.x);
+      along_[i] = normalized(back + ahead - dot(back + ahead, a.normal) * a.normal);
+      across_[i] = cross(a.normal, along_[i]);
+      const double own = w_.field->local(a.x, w_.hint).in(across_[i]);
+      const double there = w_.field->local(a.x + own * across_[i], w_.hint).in(across_[i]);
+      height_[i] = 0.5 * (own + std::min(there, kGrowth * own));
+    }
+  }
+
+  /// At the sides the loop's own nodes are taken; towards them heights and directions change in equal steps.
+  void bound(std::size_t first, std::size_t last) {
+    const bool has_first = first == 0 && take_side(0, sides_.first);
+    const bool has_last = last + 1 == n() && take_side(last, sides_.last);
+    if (!has_first && !has_last) return;
+    const double f_first = has_first ? factor_at(first) : 1, f_last = has_last ? factor_at(last) : 1;
+    const double b_first = has_first ? shear_at(first) : 0, b_last = has_last ? shear_at(last) : 0;
+    std::vector<double> way(n(), 0);
+    for (std::size_t i = first; i < last; ++i) way[i + 1] = way[i] + width(i);
+    for (std::size_t i = first; i <= last; ++i) {
+      const double share = way[i] / way[last];
+      const double shear = (1 - share) * b_first + share * b_last;
+      height_[i] *= ((1 - share) * f_first + share * f_last) / std::cos(shear);
+      across_[i] = std::cos(shear) * across_[i] - std::sin(shear) * along_[i];
+    }
+  }
+
+  bool take_side(std::size_t i, std::int32_t side) {
+    if (side == kNone) return false;
+    next_.columns[i].existing = side;
+    next_.columns[i].node = w_.mesh.nodes[side];
+    const double factor = factor_at(i);
+    if (std::abs(shear_at(i)) < kMostShear && factor < kSideMisfit && factor > 1 / kSideMisfit) return true;
+    next_.columns[i].existing = kNone;
+    next_.joined[i == 0 ? 0 : i - 1] = 0;  // the rows come off the side
+    return false;
+  }
+  /// Height of the side's segment over that asked for.
+  double factor_at(std::size_t i) const {
+    return dot(next_.columns[i].node.x - node(i).x, cross(node(i).normal, along_[i])) / height_[i];
+  }
+  double shear_at(std::size_t i) const {
+    return turning(cross(node(i).normal, along_[i]), next_.columns[i].node.x - node(i).x, node(i).normal);
+  }
+
+  void smooth(std::size_t first, std::size_t last) {
+    std::vector<double> old;
+    for (int pass = 0; pass < kSmoothing; ++pass) {
+      old = height_;
+      for (std::size_t i = first; i <= last; ++i) {
+        if (next_.columns[i].existing != kNone) continue;
+        std::size_t from = i > first ? i - 1 : i, to = i < last ? i + 1 : i;
+        if (is_ring() && i == 0) from = n() - 2;
+        if (is_ring() && i + 1 == n()) to = 1;
+        height_[i] = 0.25 * old[from] + 0.5 * old[i] + 0.25 * old[to];
+      }
+    }
+  }
+
+  void place(std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i <= last; ++i) {
+      NextLine::Column& c = next_.columns[i];
+      if (c.existing != kNone) {
+        c.is_placed = true;
+        continue;
+      }
+      if (!step_on_surface(w_, node(i), across_[i], height_[i], c.node)) continue;
+      w_.ask_sizes(c.node);
+      if (is_over_crest(i)) continue;
+      c.is_placed = dot(c.node.normal, node(i).normal) > std::cos(w_.max_turning) && is_free(i);
+    }
+  }
+
+  /// The last column of a ring is the first.
+  void close() {
+    if (line_.is_closed) next_.columns[n() - 1] = next_.columns[0];
+  }
+
+  /// Is the way of a column free, and some of the room beyond?
+  bool is_free(std::size_t i) const {
+    const double length =
+        std::max(i > 0 && next_.joined[i - 1] ? width(i - 1) : 0, i + 1 < n() && next_.joined[i] ? width(i) : 0);
+    const Vec2 beyond = beyond_of(node(i).p, next_.columns[i].node.p, length / height_[i]);
+    return is_free_from(w_.mesh.triangle_towards(line_.nodes[i], beyond), beyond);
+  }
+  /// Heights have risen and fall again, towards other rows.
+  bool is_over_crest(std::size_t i) const {
+    if (!(height_[i] < kFalling * line_.highest[i]) || !(line_.highest[i] > kRisen * line_.lowest[i])) return false;
+    const Vec2 ahead = node(i).p + kAhead * (next_.columns[i].node.p - node(i).p);
+    return !is_free_from(w_.mesh.triangle_towards(line_.nodes[i], ahead), ahead);
+  }
+  /// Likewise between columns i and i+1.
+  bool is_free_between(std::size_t i) const {
+    const std::int32_t start = w_.mesh.left_of(line_.nodes[i], line_.nodes[i + 1]).first;
+    const double aspect = width(i) / (0.5 * (height_[i] + height_[i + 1]));
+    return std::all_of(std::begin(kBetween), std::end(kBetween), [&](double share) {
+      const Vec2 a = (1 - share) * node(i).p + share * node(i + 1).p;
+      const Vec2 b = (1 - share) * next_.columns[i].node.p + share * next_.columns[i + 1].node.p;
+      return is_free_from(start, beyond_of(a, b, aspect));
+    });
+  }
+  static Vec2 beyond_of(Vec2 a, Vec2 b, double aspect) {
+    return a + (1 + std::clamp(kFreeOfWidth * aspect, kFreeBeyond, kMostFree)) * (b - a);
+  }
+  bool is_free_from(std::int32_t start, Vec2 p) const {
+    const Triangulation& m = w_.mesh;
+    if (start == kNone || m.triangles[start].state != kUnfinished) return false;
+    const std::int32_t at = m.locate(p, start);
+    return at != kNone && m.triangles[at].state == kUnfinished;
+  }
+
+  /// Is the quadrilateral between columns i and i+1 one of a row?
+  bool is_good(std::size_t i) const {
+    const NextLine::Column &c = next_.columns[i], &d = next_.columns[i + 1];
+    if (!c.is_placed || !d.is_placed) return false;
+    if (!is_upright(node(i), node(i + 1), d.node, c.node)) return false;
+    return distance(c.node.x, d.node.x) > kNarrowing * width(i) && aspect(i) > kTooSquare && !is_too_long(i) &&
+           is_free_between(i);
+  }
+
+  /// For the length asked for at its far side.
+  bool is_too_long(std::size_t i) const {
+    const Vec3 a = next_.columns[i].node.x, b = next_.columns[i + 1].node.x;
+    const LocalSize local = w_.field->local(0.5 * (a + b), w_.hint);
+    const bool is_along = std::abs(dot(local.direction, b - a)) > kAlong * distance(a, b);
+    return distance(a, b) > kTooLong * (is_along ? local.along : local.in(b - a));
+  }
+
+  double aspect(std::size_t i) const {
+    const double length = width(i) + distance(next_.columns[i].node.x, next_.columns[i + 1].node.x);
+    return length /
+           (distance(node(i).x, next_.columns[i].node.x) + distance(node(i + 1).x, next_.columns[i + 1].node.x));
+  }
+
+  /// Where quadrilaterals and their neighbours are nearly as high as long.
+  void end_square() {
+    std::vector<char> joined = next_.joined;
+    for (std::size_t i = 0; i < joined.size(); ++i) {
+      double sum = 0, count = 0;
+      for (std::size_t k = i - std::min(i, kNeighbours); k <= std::min(i + kNeighbours, joined.size() - 1); ++k) {
+        if (!next_.joined[k]) continue;
+        sum += aspect(k);
+        ++count;
+      }
+      if (sum < kEndAspect * count) joined[i] = 0;
+    }
+    next_.joined = std::move(joined);
+  }
+
+  void drop_short_runs() {
+    for (const auto& [first, last] : find_runs())
+      if (last - first < kLeastRun)
+        std::fill_n(next_.joined.begin() + static_cast<std::ptrdiff_t>(first), last - first, 0);
+  }
+
+  FaceWork& w_;
+  const RowLine& line_;
+  const RowSides& sides_;
+  NextLine next_;
+  std::vector<Vec3> along_, across_;
+  std::vector<double> height_;
+};
+
+}  // namespace
+
+bool is_upright(const MeshNode& a, const MeshNode& b, const MeshNode& c, const MeshNode& d) {
+  const MeshNode* corner[4] = {&a, &b, &c, &d};
+  for (int k = 0; k < 4; ++k) {
+    const MeshNode &here = *corner[k], &next = *corner[(k + 1) % 4], &last = *corner[(k + 3) % 4];
+    if (orient2d(here.p, next.p, last.p) <= 0) return false;
+    const double angle = degrees(turning(next.x - here.x, last.x - here.x, here.normal));
+    if (!(angle > kLeastAngle && angle < kMostAngle)) return false;
+  }
+  return true;
+}
+
+bool step_on_surface(const FaceWork& work, const MeshNode& a, Vec3 d, double length, MeshNode& p) {
+  const auto first = tangent_step(a.du, a.dv, length * d);
+  if (!first) return false;
+  const Vec3 aside = cross(a.normal, d);
+  p.p = a.p + *first;
+  for (int step = 0;; ++step) {
+    work.evaluate(p);
+    const Vec3 chord = p.x - a.x;
+    const double reached = norm(chord), aslant = dot(chord, aside);
+    if (!(reached > 0) || !std::isfinite(reached)) return false;
+    if (std::abs(length - reached) < kMiss * length && std::abs(aslant) < kMiss * length) return true;
+    if (step == 4) return reached > 0.6 * length && reached < 1.6 * length && std::abs(aslant) < 0.2 * length;
+    const auto back = tangent_step(p.du, p.dv, -aslant * aside);
+    if (!back) return false;
+    p.p = a.p + std::clamp(length / reached, 0.4, 2.0) * (p.p - a.p + *back);
+  }
+}
+
+NextLine next_line(FaceWork& work, const RowLine& line, const RowSides& sides) {
+  return LineMaker(work, line, sides).run();
+}
+
+}  // namespace st

@@ -1,0 +1,142 @@
+#include "meshing/face/row_blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "unit/meshing/row_case.h"
+
+namespace st::test {
+namespace {
+
+double largest_angle(const MeshView& view) {
+  double largest = 0;
+  for (std::size_t i = 0; i < view.mesh.corners.size(); i += 3)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 a = view.x(view.mesh.corners[i + k]), b = view.x(view.mesh.corners[i + (k + 1) % 3]);
+      largest = std::max(largest, angle_between(b - a, view.x(view.mesh.corners[i + (k + 2) % 3]) - a));
+    }
+  return degrees(largest);
+}
+
+TEST(RowBlocks, fill_a_band_with_rows_of_right_angled_triangles) {
+  const WallField field(0.1, 0, 1);
+  RowCase face({band(10, 10, {0.1, 0.2, 0.3, 0.4}, {0.1, 0.2, 0.3, 0.4})}, field);
+  EXPECT_TRUE(lay_row_blocks(face.work).empty());
+  EXPECT_EQ(face.n_laid(), 2 * 10 * 4);
+  EXPECT_NEAR(face.laid_area(), 10 * 0.4, 1e-9);
+}
+
+TEST(RowBlocks, grow_by_the_slope_until_they_are_nearly_square) {
+  const WallField field(0.1, 0.2, 1);
+  const std::vector<double> side = growing(0.1, 0.2, 9);
+  RowCase face({band(10, 10, side, side)}, field);
+  const auto ends = lay_row_blocks(face.work);
+  EXPECT_EQ(ends.size(), 10u);
+  double height = 0;
+  for (const auto& [a, b] : ends) {
+    EXPECT_TRUE(face.work.mesh.nodes[a].is_laid || a < face.work.mesh.n_boundary);
+    height = std::max(height, face.work.mesh.nodes[a].x.y);
+  }
+  EXPECT_GT(height, 2.5);
+  EXPECT_LT(height, 4.5);
+  EXPECT_NEAR(face.laid_area(), 10 * height, 0.05 * 10 * height);
+}
+
+/// As a wall, but lengths along grow, too.
+class WideningField : public WallField {
+ public:
+  WideningField() : WallField(0.1, 0.15, 1) {}
+  LocalSize local(Vec3 x, int& hint) const override { return {size(x, hint), 0.6 + x.y, {1, 0, 0}}; }
+};
+
+TEST(RowBlocks, merge_two_columns_into_one_where_longer_edges_are_asked_for) {
+  const WideningField field;
+  const std::vector<double> side = growing(0.1, 0.15, 9);
+  RowCase face({band(20, 10, side, side)}, field);
+  EXPECT_LE(lay_row_blocks(face.work).size(), 10u);
+  FaceBoundary sized = face.boundary;
+  const FaceMesh mesh = mesh_face(kPlane, sized, field, {});
+  expect_valid(sized, mesh);
+  EXPECT_LT(largest_angle({sized, mesh}), 140);
+}
+
+TEST(RowBlocks, stay_as_they_were_laid) {
+  const WallField field(0.1, 0.2, 1);
+  const std::vector<double> side = growing(0.1, 0.2, 9);
+  RowCase face({band(10, 10, side, side)}, field);
+  lay_row_blocks(face.work);
+  const std::vector<MeshNode> before = face.work.mesh.nodes;
+  const int n_laid = face.n_laid();
+  RowCase again({band(10, 10, side, side)}, field);
+  advance_front(again.work);
+  enhance(again.work, 5);
+  EXPECT_EQ(again.n_laid(), n_laid);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_TRUE(!before[i].is_laid || again.work.mesh.nodes[i].x == before[i].x) << i;
+}
+
+TEST(RowBlocks, leave_a_hole_free_and_the_mesh_valid) {
+  const WallField field(0.1, 0.2, 1);
+  const std::vector<double> side = growing(0.1, 0.2, 9);
+  const FaceBoundary boundary =
+      polygons({band(20, 10, side, side), {{4.5, 0.5}, {4.5, 0.8}, {4.8, 0.8}, {4.8, 0.5}}}, 0.1);
+  FaceBoundary sized = boundary;
+  for (FaceNode& n : sized.nodes) n.h = field.size(n.x);
+  const FaceMesh mesh = mesh_face(kPlane, sized, field, {});
+  expect_valid(sized, mesh);
+  const MeshView view{sized, mesh};
+  EXPECT_NEAR(view.area(), 10 * 9 - 0.3 * 0.3, 1e-6);
+  EXPECT_LT(largest_angle(view), 150);
+}
+
+TEST(RowBlocks, keep_their_distance_from_rows_across) {
+  const WallField field(0.1, 0, 0.4);
+  std::vector<Vec2> loop;
+  for (int i = 0; i <= 25; ++i) loop.push_back({0.4 * i, 0});
+  for (int k = 1; k < 10; ++k) loop.push_back({10, 0.1 * k});
+  for (int i = 30; i >= 0; --i) loop.push_back({i / 3.0, 1});  // stations that do not match
+  for (int k = 9; k > 0; --k) loop.push_back({0, 0.1 * k});
+  const FaceBoundary boundary = polygons({loop}, 0.1);
+  const FaceMesh mesh = mesh_face(kPlane, boundary, field, {});
+  expect_valid(boundary, mesh);
+  EXPECT_LT(largest_angle({boundary, mesh}), 140);
+}
+
+/// Largest angle under which the nodes beside laid rows see their edges, degrees.
+double largest_view_of_rows(const Triangulation& m) {
+  double largest = 0;
+  for (const PlaneTriangle& t : m.triangles)
+    for (int k = 0; k < 3; ++k) {
+      if (t.state == kLaid || t.state == kOutside || t.state == kDead || t.n[k] == kNone) continue;
+      if (m.triangles[t.n[k]].state != kLaid || t.v[(k + 2) % 3] < m.n_boundary) continue;
+      if (m.nodes[t.v[(k + 2) % 3]].is_laid) continue;
+      const Vec3 p = m.nodes[t.v[(k + 2) % 3]].x;
+      largest = std::max(largest, angle_between(m.nodes[t.v[k]].x - p, m.nodes[t.v[(k + 1) % 3]].x - p));
+    }
+  return degrees(largest);
+}
+
+TEST(RowBlocks, are_seen_by_new_nodes_under_no_obtuse_angle) {
+  for (const int n : {7, 8, 10, 13, 16, 20}) {
+    const WallField field(0.1, 0, 10.0 / n);
+    std::vector<Vec2> loop;
+    for (int i = 0; i <= n; ++i) loop.push_back({10.0 * i / n, 0});
+    for (int k = 1; k < 10; ++k) loop.push_back({10, 0.1 * k});
+    for (int i = n + 3; i >= 0; --i) loop.push_back({10.0 * i / (n + 3), 1});
+    for (int k = 9; k > 0; --k) loop.push_back({0, 0.1 * k});
+    RowCase face({loop}, field);
+    advance_front(face.work);
+    EXPECT_LT(largest_view_of_rows(face.work.mesh), 131) << n;
+  }
+}
+
+TEST(RowBlocks, are_none_where_lengths_are_equal) {
+  const WallField field(0.5, 0, 0.5);
+  RowCase face({band(20, 10, {5}, {5})}, field);
+  EXPECT_TRUE(lay_row_blocks(face.work).empty());
+  EXPECT_EQ(face.n_laid(), 0);
+}
+
+}  // namespace
+}  // namespace st::test

@@ -1,0 +1,118 @@
+#include "meshing/face/row_line.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "unit/meshing/row_case.h"
+
+namespace st::test {
+namespace {
+
+RowLine line_of(std::int32_t n) {
+  RowLine line;
+  for (std::int32_t i = 0; i < n; ++i) line.nodes.push_back(i);
+  line.joined.assign(n - 1, 1);
+  line.lowest.assign(n, 0);
+  line.highest.assign(n, 0);
+  return line;
+}
+
+TEST(NextLine, is_as_high_as_the_sizes_say_and_square_to_the_line) {
+  const WallField field(0.1, 0.2, 1);
+  RowCase face({band(10, 10, {5}, {5})}, field);
+  const NextLine next = next_line(face.work, line_of(11), {});
+  for (std::size_t i = 1; i < 10; ++i) {  // the others would run along the sides
+    ASSERT_TRUE(next.columns[i].is_placed);
+    EXPECT_NEAR(next.columns[i].node.x.y, 0.1 * (1 + 0.2 / 2), 2e-3);
+    EXPECT_NEAR(next.columns[i].node.x.x, static_cast<double>(i), 2e-3);
+  }
+  EXPECT_GE(std::count(next.joined.begin(), next.joined.end(), 1), 8);
+}
+
+TEST(NextLine, takes_the_nodes_of_its_sides_and_turns_towards_them) {
+  const WallField field(0.1, 0, 1);
+  std::vector<Vec2> loop = band(10, 8, {0.1, 3}, {0.1, 3});
+  for (Vec2& p : loop) p.x += 1 + 0.4 * p.y;  // both sides lean to the right
+  RowCase face({loop}, field);
+  const NextLine next = next_line(face.work, line_of(11), {static_cast<std::int32_t>(loop.size()) - 1, 11});
+  EXPECT_EQ(next.columns[0].existing, static_cast<std::int32_t>(loop.size()) - 1);
+  EXPECT_EQ(next.columns[10].existing, 11);
+  EXPECT_NEAR(next.columns[5].node.x.x, 5.04, 2e-3);
+  EXPECT_NEAR(next.columns[5].node.x.y, 0.1, 2e-3);
+}
+
+TEST(NextLine, comes_off_a_side_whose_segment_is_much_longer) {
+  const WallField field(0.1, 0, 1);
+  RowCase face({band(10, 10, {0.3, 3}, {0.1, 3})}, field);
+  const auto last = static_cast<std::int32_t>(face.boundary.nodes.size()) - 1;
+  const NextLine next = next_line(face.work, line_of(11), {last, 11});
+  EXPECT_EQ(next.columns[0].existing, kNone);
+  EXPECT_FALSE(next.joined[0]);
+  EXPECT_TRUE(next.joined[1]);
+}
+
+TEST(NextLine, leaves_out_columns_in_front_of_something) {
+  const WallField field(0.1, 0, 1);
+  RowCase face({band(20, 10, {5}, {5}), {{2.4, 0.12}, {2.4, 0.5}, {2.6, 0.5}, {2.6, 0.12}}}, field);
+  const NextLine next = next_line(face.work, line_of(21), {});
+  EXPECT_FALSE(next.joined[4]);
+  EXPECT_FALSE(next.joined[5]);
+  EXPECT_TRUE(next.joined[8]);
+  EXPECT_TRUE(next.joined[18]);
+}
+
+TEST(NextLine, ends_where_quadrilaterals_are_nearly_square) {
+  const WallField coarse(0.85, 0, 1), fine(0.5, 0, 1);
+  RowCase square({band(10, 10, {5}, {5})}, coarse), flat({band(10, 10, {5}, {5})}, fine);
+  const auto n = [](const NextLine& l) { return std::count(l.joined.begin(), l.joined.end(), 1); };
+  EXPECT_EQ(n(next_line(square.work, line_of(11), {})), 0);
+  EXPECT_GE(n(next_line(flat.work, line_of(11), {})), 8);
+}
+
+TEST(NextLine, ends_where_a_shorter_length_is_asked_for_along_it) {
+  const WallField field(0.1, 0, 0.6);
+  RowCase face({band(10, 10, {5}, {5})}, field);
+  const NextLine next = next_line(face.work, line_of(11), {});
+  EXPECT_EQ(std::count(next.joined.begin(), next.joined.end(), 1), 0);
+}
+
+TEST(NextLine, ends_behind_the_crest_of_its_heights) {
+  const WallField field(0.1, 0, 1);
+  RowCase face({band(10, 10, {0.8}, {0.8})}, field);
+  RowLine line = line_of(11);
+  line.lowest.assign(11, 0.1);
+  line.highest.assign(11, 0.16);
+  const NextLine next = next_line(face.work, line, {});
+  EXPECT_EQ(std::count(next.joined.begin(), next.joined.end(), 1), 0);
+}
+
+TEST(StepOnSurface, has_its_length_and_direction_on_a_curved_surface) {
+  const FaceCase cylinder("cylinder", UniformField(1));
+  FaceWork work;
+  work.set_surface(*cylinder.surface);
+  MeshNode a, p;
+  a.p = work.plane.to_plane({0.5 * (cylinder.surface->u_min() + cylinder.surface->u_max()),
+                             0.5 * (cylinder.surface->v_min() + cylinder.surface->v_max())});
+  work.evaluate(a);
+  const Vec3 d = normalized(normalized(a.du) + normalized(a.dv));
+  ASSERT_TRUE(step_on_surface(work, a, d, 0.5, p));
+  EXPECT_NEAR(distance(a.x, p.x), 0.5, 0.006);
+  EXPECT_NEAR(dot(p.x - a.x, cross(a.normal, d)), 0, 0.006);
+}
+
+TEST(IsUpright, refuses_folded_and_slanted_quadrilaterals) {
+  const auto at = [](double x, double y) {
+    MeshNode n;
+    n.p = {x, y};
+    n.x = {x, y, 0};
+    n.normal = {0, 0, 1};
+    return n;
+  };
+  EXPECT_TRUE(is_upright(at(0, 0), at(3, 0), at(3, 1), at(0, 1)));
+  EXPECT_FALSE(is_upright(at(0, 0), at(3, 0), at(5, 1), at(2, 1)));
+  EXPECT_FALSE(is_upright(at(0, 0), at(3, 0), at(0, 1), at(3, 1)));
+}
+
+}  // namespace
+}  // namespace st::test
