@@ -5,116 +5,22 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <optional>
 #include <utility>
 
-#include "base/eigen.h"
 #include "sizing/wing_sizes.h"
+#include "stages/spanwise.h"
 
 namespace st {
 namespace {
 
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
-constexpr double kAround = 3;               // lengths around a place whose segments count
-constexpr double kAlong = 0.71;             // cosine to the span of a segment along it, at least
-constexpr double kNoseReach = 0.02;         // of the chord: where growth and turning are measured
-constexpr double kThick = 0.4;              // of the chord: a profile's points lie no further from it
-constexpr double kWidestGap = radians(90);  // between stations about their middle: with a wider one they are no ring
-constexpr double kOpenGap = radians(30);    // with a wider one the ring is open
-constexpr double kMissed = 1.5;             // length over that asked for
-constexpr double kHeld = 1.3;               // likewise, at most
-
-/// A wing's stations in the order of the span; those of a ring around it, from the first one on.
-struct Spanwise {
-  std::vector<const WingRecord::Station*> station;
-  std::vector<double> share;
-  bool is_ring = false;
-
-  explicit Spanwise(const WingRecord& wing) {
-    for (const WingRecord::Station& s : wing.stations) station.push_back(&s);
-    if (station.empty() || sort_around()) return;
-    const auto furthest_from = [&](Vec3 x) {
-      return *std::ranges::max_element(station, {}, [&](const auto* s) { return distance(s->trailing, x); });
-    };
-    const WingRecord::Station* a = furthest_from(furthest_from(station.front()->trailing)->trailing);
-    const WingRecord::Station* b = furthest_from(a->trailing);
-    if (b->chord > a->chord) std::swap(a, b);
-    const Vec3 way = b->trailing - a->trailing;
-    sort_by([&](const WingRecord::Station* s) {
-      return dot(way, way) > 0 ? dot(s->trailing - a->trailing, way) / dot(way, way) : 0;
-    });
-  }
-
-  std::size_t nearest(double at) const {
-    const auto i = std::ranges::min_element(share, {}, [&](double own) { return std::abs(own - at); });
-    return static_cast<std::size_t>(i - share.begin());
-  }
-
-  /// The one before or after, around a ring; nothing beyond an end.
-  std::optional<std::size_t> beside(std::size_t i, int step) const {
-    const std::size_t n = station.size();
-    if (!is_ring && i == (step > 0 ? n - 1 : 0)) return std::nullopt;
-    return (i + n + static_cast<std::size_t>(step)) % n;
-  }
-
-  /// Where noses, or trailing edges, run at a station; by those about 2 per cent of the span away.
-  Vec3 direction(std::size_t i, Vec3 WingRecord::Station::*place) const {
-    return normalized(station[away(i, 1)]->*place - station[away(i, -1)]->*place);
-  }
-
-  /// Half of the way to the stations beside it, or to the end.
-  double part(std::size_t i) const {
-    const std::size_t a = beside(i, -1).value_or(i), b = beside(i, 1).value_or(i);
-    return share[b] - share[a] + (is_ring && b < a ? 1 : 0);
-  }
-
- private:
-  template <class ShareOf>
-  void sort_by(const ShareOf& share_of) {
-    std::ranges::stable_sort(station, {}, share_of);
-    for (const auto* s : station) share.push_back(share_of(s));
-  }
-
-  std::size_t away(std::size_t i, int step) const {
-    constexpr double kStep = 0.02;
-    std::size_t at = i;
-    double way = 0;
-    while (way < kStep) {
-      const std::optional<std::size_t> next = beside(at, step);
-      if (!next || *next == i) break;
-      const double own = std::abs(share[*next] - share[at]);
-      way += std::min(own, is_ring ? 1 - own : own);
-      at = *next;
-    }
-    return at;
-  }
-
-  /// By the angle about the middle; false: the stations do not lie all around it.
-  bool sort_around() {
-    Vec3 middle;
-    for (const auto* s : station) middle += s->trailing / static_cast<double>(station.size());
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    for (const auto* s : station) spread += to_eigen(s->trailing - middle) * to_eigen(s->trailing - middle).transpose();
-    const PrincipalAxes plane = principal_axes(spread);
-    const auto angle_of = [&](const WingRecord::Station* s) {
-      return std::atan2(dot(s->trailing - middle, plane.axis[1]), dot(s->trailing - middle, plane.axis[2]));
-    };
-    std::vector<double> angles;
-    for (const auto* s : station) angles.push_back(angle_of(s));
-    std::sort(angles.begin(), angles.end());
-    double begin = angles.front(), gap = begin + 2 * kPi - angles.back();
-    for (std::size_t i = 1; i < angles.size(); ++i)
-      if (angles[i] - angles[i - 1] > gap) gap = angles[i] - angles[i - 1], begin = angles[i];
-    if (gap > kWidestGap) return false;
-    is_ring = gap < kOpenGap;
-    const double whole = is_ring ? 2 * kPi : 2 * kPi - gap;
-    sort_by([&](const WingRecord::Station* s) {
-      const double from_begin = angle_of(s) - begin;
-      return (from_begin < 0 ? from_begin + 2 * kPi : from_begin) / whole;
-    });
-    return true;
-  }
-};
+constexpr double kAround = 3;        // lengths around a place whose segments count
+constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
+constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
+constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
+constexpr double kThick = 0.4;       // of the chord: a profile's points lie no further from it
+constexpr double kMissed = 1.5;      // length over that asked for
+constexpr double kHeld = 1.3;        // likewise, at most
 
 /// Around a triangle.
 struct Ball {
@@ -144,15 +50,22 @@ class WingMesh {
   bool is_empty() const { return skin_.empty(); }
 
   LengthsAt lengths_at(Vec3 place, Vec3 along_span) const {
-    const double reach = kAround * mean_side(nearest(place));
+    const TriangleId at_place = nearest(place, along_span);
+    const double side = mean_side(at_place), reach = kAround * side;
+    const double height = norm(height_of(at_place)), flatness = kStretched * height < side ? height / side : 1;
+    const Vec3 middle = flatness < 1 ? ball_of(at_place).center : place;
+    const auto is_around = [&](Vec3 x) {
+      const double along2 = flatness < 1 ? dot(x, along_span) * dot(x, along_span) : 0;
+      return along2 + (norm2(x) - along2) / (flatness * flatness) <= reach * reach;
+    };
     std::array<double, 2> sum = {0, 0};
     std::array<std::int64_t, 2> n = {0, 0};
-    for (const auto& [t, center, radius, at] : skin_within(place, reach)) {
-      if (norm2(center - place) > reach * reach) continue;
+    for (const auto& [t, center, radius, at] : skin_within(middle, reach)) {
+      if (!is_around(center - middle)) continue;
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 side = corner(t, (k + 1) % 3) - corner(t, k);
-        const std::size_t is_along = std::abs(dot(normalized(side), along_span)) >= kAlong ? 1 : 0;
-        sum[is_along] += norm(side);
+        const Vec3 way = corner(t, (k + 1) % 3) - corner(t, k);
+        const std::size_t is_along = std::abs(dot(normalized(way), along_span)) >= kAlong ? 1 : 0;
+        sum[is_along] += norm(way);
         ++n[is_along];
       }
     }
@@ -220,6 +133,17 @@ class WingMesh {
     const auto end = std::ranges::upper_bound(begin, skin_.end(), place.*axis_ + reach, {}, &Ball::at);
     return {begin, end};
   }
+  /// Of those beside the nearest one, where that is stretched, the nearest across the span.
+  TriangleId nearest(Vec3 place, Vec3 along_span) const {
+    TriangleId best = nearest(place);
+    if (kStretched * norm(height_of(best)) >= mean_side(best)) return best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Ball& b : skin_within(place, ball_of(best).radius)) {
+      const double along = dot(b.center - place, along_span), across2 = norm2(b.center - place) - along * along;
+      if (std::abs(along) <= b.radius && across2 < least) least = across2, best = b.triangle;
+    }
+    return best;
+  }
   /// By the centre; the skin is not empty.
   TriangleId nearest(Vec3 place) const {
     auto after = std::ranges::lower_bound(skin_, place.*axis_, {}, &Ball::at), before = after;
@@ -239,7 +163,28 @@ class WingMesh {
             distance(corner(t, 2), corner(t, 0))) /
            3;
   }
+  /// Its height over the longest side, as a vector.
+  Vec3 height_of(TriangleId t) const {
+    Vec3 longest;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const Vec3 way = corner(t, (k + 1) % 3) - corner(t, k); norm2(way) > norm2(longest)) longest = way;
+    return cross(normal_of(t), longest) / std::max(norm2(longest), std::numeric_limits<double>::min());
+  }
   Vec3 normal_of(TriangleId t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
+
+  /// How much of a triangle's extent a cut crosses, and that extent: along the cut, of a stretched one over its longest
+  /// side, as a cut that is hardly oblique sees much of that.
+  std::pair<double, double> crossed(TriangleId t, Vec3 way) const {
+    const Vec3 up = height_of(t);
+    if (norm(up) > 0 && kStretched * norm(up) < mean_side(t)) return {std::abs(dot(way, up)) / norm(up), norm(up)};
+    const Vec3 direction = normalized(way);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t k = 0; k < 3; ++k) {
+      low = std::min(low, dot(corner(t, k), direction));
+      high = std::max(high, dot(corner(t, k), direction));
+    }
+    return {norm(way), high - low};
+  }
 
   /// `visit` gets of each triangle that the profile's plane cuts: the part that the cut is of the triangle's extent
   /// along it, that extent, and how far it is from the nose.
@@ -261,13 +206,8 @@ class WingMesh {
       if (norm(middle - from_nose * forward) > kThick * s.chord || from_nose < -kNoseReach * s.chord ||
           from_nose > (1 + kNoseReach) * s.chord)
         continue;
-      const Vec3 way = normalized(end[1] - end[0]);
-      double low = std::numeric_limits<double>::infinity(), high = -low;
-      for (std::size_t k = 0; k < 3; ++k) {
-        low = std::min(low, dot(corner(t, k), way));
-        high = std::max(high, dot(corner(t, k), way));
-      }
-      visit(distance(end[0], end[1]) / (high - low), high - low, norm(middle));
+      const auto [own, extent] = crossed(t, end[1] - end[0]);
+      visit(own / extent, extent, norm(middle));
     }
   }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "unit/stages/plank.h"
 
@@ -38,6 +39,23 @@ TEST(WingMeasure, knows_lengths_across_and_along_the_span) {
   EXPECT_EQ(all[0].held, 1);
   ASSERT_TRUE(all[0].worst);
   EXPECT_NEAR(all[0].worst->has / all[0].worst->asked, 1, 1e-9);
+}
+
+TEST(WingMeasure, of_stretched_rows_has_their_heights) {
+  std::vector<double> x{0};
+  for (double height = 0.001; x.back() + height < 0.5; height *= 1.2) x.push_back(x.back() + height);
+  const auto n_half = static_cast<int>(x.size());
+  for (int i = n_half - 1; i >= 0; --i) x.push_back(1 - x[i]);
+  const WingRecord wing = record(0.001);
+  const std::vector<WingMeasure> all = measure_wings(test::plank_of(x, 16, 0.1), {&wing, 1});
+  EXPECT_EQ(all[0].held, 1);
+  for (const WingStationMeasure& s : all[0].stations) {
+    EXPECT_GE(s.nose.normal, 0.001);
+    EXPECT_LT(s.nose.normal, 0.0013);
+    EXPECT_LT(s.trailing.normal, 0.0013);
+    EXPECT_NEAR(s.chord_cells, 2 * n_half - 1, 1);
+  }
+  EXPECT_TRUE(find_misses(all).empty());
 }
 
 TEST(WingMeasure, holds_on_the_share_of_the_span_where_no_place_is_too_coarse) {
