@@ -40,10 +40,17 @@ inline bool is_below(const Lengths& lengths, float share, const Lengths& others)
   return is_any(is_below);
 }
 
-/// Of four vectors the sixteen numbers.
-inline float* numbers(Lengths& lengths) { return &lengths[0][0]; }
-inline const float* numbers(const Lengths& lengths) { return &lengths[0][0]; }
-inline std::int32_t* numbers(std::array<Int4, kGroups>& winners) { return &winners[0][0]; }
+/// Of vectors the numbers in them, which are their elements to the compiler, too.
+inline float* numbers(Lengths& lengths) { return reinterpret_cast<float*>(lengths.data()); }
+inline const float* numbers(const Lengths& lengths) { return reinterpret_cast<const float*>(lengths.data()); }
+template <std::size_t n>
+std::int32_t* numbers(std::array<Int4, n>& winners) {
+  return reinterpret_cast<std::int32_t*>(winners.data());
+}
+template <std::size_t n>
+const std::int32_t* numbers(const std::array<Int4, n>& winners) {
+  return reinterpret_cast<const std::int32_t*>(winners.data());
+}
 
 /// The cube of a cell, from the lower corner of the root.
 struct ConeCell {

@@ -92,7 +92,7 @@ class ConeSpread {
     std::int32_t more = kNone;  // the last of those beyond `own`, into entries_
     std::int32_t n_refused = 0;
     std::uint64_t may_have = 0;  // a bit for each of its samples, the same one for some
-    Int4 own[2] = {Int4{} + kNone, Int4{} + kNone};
+    std::array<Int4, 2> own{Int4{} + kNone, Int4{} + kNone};
     Int4 refused = Int4{} + kNone;                 // the last samples that were, which others may offer again
     std::array<Int4, kGroups> winner;              // the sample of `best`; kNone: the largest length
     std::pair<std::int32_t, std::int32_t> beside;  // first and after the last in beside_
@@ -287,7 +287,7 @@ class ConeSpread {
   bool wins_nearby(const Site& s, std::int32_t sample) const {
     const std::int32_t first = s.winner_towards(cones_[sample]);  // most are beaten by it
     return kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), largest_,
-                                {cones_.front().numbers(), first == sample ? kNone : first, sample, &s.own[0][0],
+                                {cones_.front().numbers(), first == sample ? kNone : first, sample, numbers(s.own),
                                  std::min(s.n, Site::kOwn), entries_.data(), s.more});
   }
 
