@@ -13,7 +13,7 @@
 namespace st {
 namespace {
 
-constexpr double kSeedSlope = 0.2, kLargest = 0.2;
+constexpr double kSeedSlope = 0.2, kSeedLargest = 0.2;
 
 struct Prolonged {
   RasterOctree raster;
@@ -59,12 +59,12 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, con
   p->raster = build_octree(test::kUnitBox, boxes);
   if (!samples.empty()) forget_samples(p->raster);
   const Neighbours neighbours(p->raster.shape.view());
-  p->lengths = prolong(neighbours, p->raster.stored_length, p->raster.stored_cause, {kSeedSlope, kLargest});
+  p->lengths = prolong(neighbours, p->raster.stored_length, p->raster.stored_cause, {kSeedSlope, kSeedLargest});
   OctreeFieldData data{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSeedSlope, 1};
   if (!samples.empty()) {
     const std::vector<float> slope(samples.size(), static_cast<float>(kSeedSlope));
-    p->cones = spread_cones(neighbours, samples, slope, kLargest, nullptr);
-    data.set_cones(p->cones, kLargest);
+    p->cones = spread_cones(neighbours, samples, slope, kSeedLargest, nullptr);
+    data.set_cones(p->cones, kSeedLargest);
     p->lengths = lengths_at_centers(data);
     data.cells = p->lengths.cells;
     data.cause = p->lengths.cause;
@@ -77,7 +77,7 @@ double mean_error(const SizeField& field, const std::vector<RasterBox>& boxes) {
   double sum = 0;
   int n = 0;
   for (std::size_t i = 0; i < boxes.size(); i += 7, ++n) {
-    double exact = kLargest;
+    double exact = kSeedLargest;
     for (const RasterBox& b : boxes)
       exact = std::min(exact, b.length + kSeedSlope * distance(b.center, boxes[i].center));
     sum += std::abs(std::log(field.size(boxes[i].center) / exact));
