@@ -99,11 +99,8 @@ struct ExactSurface {
   Reason why;
 };
 
-/// Coarse facets that are added later change nothing of these.
-struct ExactTries {
-  std::map<std::vector<EdgeId>, ExactSurface> chains;  // by the edges
-  FacetStore facets;
-};
+/// By the edges of the chain: coarse facets that are added later do not change it.
+using TriedChains = std::map<std::vector<EdgeId>, ExactSurface>;
 
 /// How a chain is cut; lengths in the model unit.
 struct CutRules {
@@ -574,7 +571,7 @@ std::vector<WingEdge> possible_tails(const ModelTables& t, std::span<const WingE
 class SurfaceFinder {
  public:
   SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets,
-                std::vector<CutEnd>& ends, ExactTries& tried)
+                std::vector<CutEnd>& ends, TriedChains& tried)
       : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends), tried_(tried) {
     model.tables().edge_faces(offsets_, edge_faces_);
   }
@@ -758,7 +755,7 @@ class SurfaceFinder {
       return;
     std::vector<EdgeId> key;
     for (const WingEdge& w : chain) key.push_back(w.edge);
-    const auto [known, is_new] = tried_.chains.try_emplace(std::move(key));
+    const auto [known, is_new] = tried_.try_emplace(std::move(key));
     if (is_new) known->second = exact_surface(chain, kDeflection * std::min(extent, roles_.reference_diagonal));
     const auto& [better, also] = known->second;
     if (!better ||
@@ -769,14 +766,14 @@ class SurfaceFinder {
   }
 
   ExactSurface exact_surface(const std::vector<WingEdge>& chain, double deflection) {
-    ProfileFacets& exact = tried_.facets.near(deflection, true);
+    ProfileFacets exact(model_, roles_, {{.deflection = deflection, .is_exact = true}, 2 * deflection});
     exact.add_along(chain, SerialExecutor());
     const FaceId mirror = mirror_of(chain);
     const Facets whole =
         mirror == kNone ? Facets() : with_image(model_, exact.facets(), mirror, kOnPlane * roles_.reference_diagonal);
     ExactSurface found;
     found.surface =
-        surface_at(chain, ProfileCutter(mirror == kNone ? exact.facets() : whole), exact.reach(), found.why);
+        surface_at(chain, ProfileCutter(mirror == kNone ? exact.facets() : whole), 2 * deflection, found.why);
     return found;
   }
 
@@ -827,7 +824,7 @@ class SurfaceFinder {
   std::span<const WingEdge> edges_;
   const Facets& facets_;
   std::vector<CutEnd>& ends_;  // of cuts through these
-  ExactTries& tried_;
+  TriedChains& tried_;
   std::map<FaceId, Facets> whole_;     // by symmetry plane
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
@@ -907,7 +904,7 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
   ProfileFacets own(model, roles, {{.deflection = deflection}, 2 * deflection});
   const bool has_all = has_wall_facets(roles, deflection);
   if (!has_all) own.add_along(tails, executor);
-  ExactTries tried{{}, FacetStore(model, roles)};
+  TriedChains tried;
   while (true) {
     std::vector<CutEnd> ends;
     std::vector<LiftingSurface> surfaces;

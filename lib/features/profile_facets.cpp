@@ -28,7 +28,8 @@ void ProfileFacets::add_along(std::span<const WingEdge> edges, const Executor& e
   std::vector<std::uint8_t> next(is_known_.size(), 0);
   for (const WingEdge& w : edges) take_walls_at(w.edge, nullptr, next);
   const std::vector<Cut> cuts = executor.is_root() ? cuts_at(edges) : std::vector<Cut>();
-  for (std::size_t n_done = 0; add(std::move(next), executor);) {
+  std::size_t n_done = 0;
+  for (bool is_first = true; add(std::move(next), executor) || is_first; is_first = false) {  // all may be known
     std::vector<CutEnd> ends;
     const ProfileCutter cutter(facets_, &ends);
     next.assign(is_known_.size(), 0);
