@@ -4,8 +4,8 @@
 usage: commits.py SOURCE_DIR              exit 1 and one line per violation
        commits.py SOURCE_DIR --self-test  makes a repository with one violation of each rule and expects to find it
 
-The body says why and what users see. Merges are passed over. Without a history, as in an archive of the sources, there
-is nothing to judge.
+The body says why and what users see. Merges are passed over, and a subject that begins with Revert needs no area.
+Without a history, as in an archive of the sources, there is nothing to judge.
 """
 import re
 import subprocess
@@ -16,7 +16,7 @@ from pathlib import Path
 import house
 
 MOST_COLUMNS = 72
-AREA = re.compile(r"^[\w./, -]+: \S")
+AREA = re.compile(r"^(?:Revert \"|[\w./, -]+: \S)")
 THIS = "tests/lint/commits.py"
 
 
