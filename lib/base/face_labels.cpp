@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/nearest_name.h"
+#include "base/sort_once.h"
 
 namespace st {
 namespace {
@@ -79,8 +80,7 @@ std::vector<std::int32_t> members(const std::vector<EntityGroup>& groups, const 
   std::vector<std::int32_t> ids;
   for (const EntityGroup& g : groups)
     if (is_wanted(g)) ids.insert(ids.end(), g.ids.begin(), g.ids.end());
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sort_once(ids);
   return ids;
 }
 

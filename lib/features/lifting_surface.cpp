@@ -11,6 +11,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/share.h"
+#include "base/sort_once.h"
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
 #include "features/edge_places.h"
@@ -311,8 +312,7 @@ class SurfaceMeasurer {
       }
       surface.trailing[places[i].edge].stations.push_back(station);
     }
-    std::sort(surface.faces.begin(), surface.faces.end());
-    surface.faces.erase(std::unique(surface.faces.begin(), surface.faces.end()), surface.faces.end());
+    sort_once(surface.faces);
     measure_chords(surface);
     return surface;
   }
@@ -697,8 +697,7 @@ class SurfaceFinder {
       }
       own.insert(own.end(), edge_faces_.begin() + offsets_[e], edge_faces_.begin() + offsets_[e + 1]);
     }
-    std::sort(planes.begin(), planes.end());
-    planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+    sort_once(planes);
     std::sort(own.begin(), own.end());
     std::erase_if(planes, [&](FaceId f) { return std::ranges::binary_search(own, f); });
     return planes;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/boxes.h"
+#include "base/sort_once.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -216,8 +217,7 @@ std::optional<Profile> ProfileCutter::profile_of(const std::vector<Segment>& par
   if (!(profile.thickness >= kThinnest && profile.thickness <= kThickest && at >= kFirstThickest &&
         at <= kLastThickest && nose >= kSharpNose && nose <= kFlatNose && end <= kThickEnd))
     return std::nullopt;
-  std::sort(profile.faces.begin(), profile.faces.end());
-  profile.faces.erase(std::unique(profile.faces.begin(), profile.faces.end()), profile.faces.end());
+  sort_once(profile.faces);
   return profile;
 }
 

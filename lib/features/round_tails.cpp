@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/disjoint_sets.h"
+#include "base/sort_once.h"
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
 #include "features/edge_places.h"
@@ -73,11 +74,6 @@ bool runs_along(const Draft& own, std::span<const Vec3> line) {
 }
 
 bool has_same_tail(const Draft& own, const Draft& other) { return runs_along(own, tail_of(other)); }
-
-void sort_once(std::vector<std::int32_t>& ids) {
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-}
 
 /// Cuts along one edge.
 class TailMeasurer {

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/sort_once.h"
+
 namespace st {
 namespace {
 
@@ -100,8 +102,7 @@ void add_segments(SurfaceMesh& mesh, const EdgeMesh& edges, std::span<const Vert
   mesh.segment_edge.clear();
   std::vector<EdgeId> in_groups;
   for (const EntityGroup& g : mesh.labels.edge_groups) in_groups.insert(in_groups.end(), g.ids.begin(), g.ids.end());
-  std::sort(in_groups.begin(), in_groups.end());
-  in_groups.erase(std::unique(in_groups.begin(), in_groups.end()), in_groups.end());
+  sort_once(in_groups);
   const NodeFinder nodes(mesh, edges, edge_vertices);
   for (const EdgeId e : in_groups) {
     if (e >= edges.n_edges()) break;

@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/error.h"
 #include "base/limits.h"
+#include "base/sort_once.h"
 #include "base/threads.h"
 #include "mesh/corner_uv.h"
 
@@ -173,8 +174,7 @@ std::vector<NodeId> boundary_nodes(const SurfaceMesh& mesh, const FaceRange& r) 
   for (TriangleId i = r.begin; i < r.end; ++i)
     for (const NodeId n : mesh.triangles[i].n)
       if (n < r.first) nodes.push_back(n);
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_once(nodes);
   return nodes;
 }
 

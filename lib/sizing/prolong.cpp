@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "base/eigen.h"
+#include "base/sort_once.h"
 
 namespace st {
 namespace {
@@ -253,8 +254,7 @@ std::vector<float> spread_slopes(const Neighbours& neighbours, std::span<const f
   for (float& slope : kinds)
     if (!(slope > 0)) slope = static_cast<float>(options.slope);
   const std::vector<float> cell_slope = kinds;
-  std::sort(kinds.begin(), kinds.end());
-  kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
+  sort_once(kinds);
   std::vector<std::int32_t> label;
   for (const float slope : cell_slope)
     label.push_back(static_cast<std::int32_t>(std::lower_bound(kinds.begin(), kinds.end(), slope) - kinds.begin()));

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/log.h"
+#include "base/sort_once.h"
 #include "features/arc_table.h"
 
 namespace st {
@@ -176,11 +177,6 @@ class WingRaster {
   std::vector<RasterBox>& boxes_;
   std::optional<RaisedLength> most_raised_;  // by a rule
 };
-
-void sort_once(std::vector<FaceId>& faces) {
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-}
 
 }  // namespace
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "base/sort_once.h"
+
 namespace st {
 namespace {
 
@@ -58,8 +60,7 @@ nlohmann::json wings_json(std::span<const LiftingSurface> wings) {
       (edge.is_inside ? inside : edges).push_back(edge.edge + 1);
       if (edge.base != kNone) bases.push_back(edge.base + 1);
     }
-    std::sort(bases.begin(), bases.end());
-    bases.erase(std::unique(bases.begin(), bases.end()), bases.end());
+    sort_once(bases);
     for (const EdgeId e : wing.leading) leading.push_back(e + 1);
     list.push_back({{"trailing_edges", edges},
                     {"inside_along", inside},

@@ -70,32 +70,36 @@ TopoDS_Shape surfaces_of(const TopoDS_Shape& shape) {
   return compound;
 }
 
+TopoDS_Shape split(const TopoDS_Shape& surfaces, const TopTools_ListOfShape& tools, const char* failure) {
+  TopTools_ListOfShape arguments;
+  arguments.Append(surfaces);
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(arguments);
+  splitter.SetTools(tools);
+  splitter.Build();
+  if (splitter.HasErrors()) throw std::runtime_error(failure);
+  return splitter.Shape();
+}
+
 TopoDS_Shape cut(const TopoDS_Shape& surfaces, int n_planes, Random& random) {
   Bnd_Box box;
   BRepBndLib::Add(surfaces, box);
   double lo[3], hi[3];
   box.Get(lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]);
   const double size = 2 * std::sqrt(box.SquareExtent());
-  TopTools_ListOfShape arguments, tools;
-  arguments.Append(surfaces);
+  TopTools_ListOfShape tools;
   for (int i = 0; i < n_planes; ++i) {
     const gp_Pnt at(random(lo[0], hi[0]), random(lo[1], hi[1]), random(lo[2], hi[2]));
     const gp_Dir normal(random(-1, 1), random(-1, 1), random(-1, 1));
     tools.Append(BRepBuilderAPI_MakeFace(gp_Pln(at, normal), -size, size, -size, size).Face());
   }
-  BRepAlgoAPI_Splitter splitter;
-  splitter.SetArguments(arguments);
-  splitter.SetTools(tools);
-  splitter.Build();
-  if (splitter.HasErrors()) throw std::runtime_error("the planes cannot cut the model");
-  return splitter.Shape();
+  return split(surfaces, tools, "the planes cannot cut the model");
 }
 
 TopoDS_Shape with_short_edges(const TopoDS_Shape& surfaces, int n_edges, Random& random) {
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(surfaces, TopAbs_EDGE, edges);
-  TopTools_ListOfShape arguments, tools;
-  arguments.Append(surfaces);
+  TopTools_ListOfShape tools;
   for (int i = 0; i < n_edges; ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(edges(1 + static_cast<int>(random(0, edges.Extent()))));
     if (BRep_Tool::Degenerated(edge)) continue;
@@ -104,12 +108,7 @@ TopoDS_Shape with_short_edges(const TopoDS_Shape& surfaces, int n_edges, Random&
     for (const double share : {t, t + 1e-5})
       tools.Append(BRepBuilderAPI_MakeVertex(curve.Value(from + share * way)).Vertex());
   }
-  BRepAlgoAPI_Splitter splitter;
-  splitter.SetArguments(arguments);
-  splitter.SetTools(tools);
-  splitter.Build();
-  if (splitter.HasErrors()) throw std::runtime_error("the edges cannot be cut");
-  return splitter.Shape();
+  return split(surfaces, tools, "the edges cannot be cut");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/share.h"
+#include "base/sort_once.h"
 #include "base/threads.h"
 #include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
@@ -141,8 +142,7 @@ std::vector<FaceId> FaceRounds::suspects() const {
   std::vector<FaceId> faces = crossings_.crossing_faces(crossings_.n_pairs() <= Policy::kFewPairs);
   for (FaceId f = 0; f < tables_.n_faces(); ++f)
     if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) faces.push_back(f);
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sort_once(faces);
   return faces;
 }
 

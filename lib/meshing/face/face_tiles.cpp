@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/sort_once.h"
 #include "base/threads.h"
 #include "meshing/face/scaled_field.h"
 
@@ -419,8 +420,7 @@ std::vector<std::int32_t> shared_nodes(const std::vector<Tile>& tiles, std::int3
 std::vector<std::int32_t> numbers_of(const FaceBoundary& boundary) {
   std::vector<std::int32_t> ids, numbers;
   for (const FaceNode& n : boundary.nodes) ids.push_back(n.id);
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  sort_once(ids);
   for (const FaceNode& n : boundary.nodes)
     numbers.push_back(static_cast<std::int32_t>(std::lower_bound(ids.begin(), ids.end(), n.id) - ids.begin()));
   return numbers;
@@ -452,8 +452,7 @@ TileCut cut_face(const Surface& surface, const SurfaceMaker& make_surface, const
 std::vector<std::int32_t> nodes_of(const Tile& tile) {
   std::vector<std::int32_t> nodes;
   for (const auto& [a, b] : tile.segments) nodes.insert(nodes.end(), {a, b});
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_once(nodes);
   return nodes;
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/eigen.h"
+#include "base/sort_once.h"
 #include "mesh/adjacency.h"
 #include "meshing/face/scaled_field.h"
 #include "meshing/face/triangle_places.h"
@@ -243,8 +244,7 @@ class FoldRepair {
     ++n_tried_;
     std::vector<NodeId> nodes;
     for (const std::size_t t : place.triangles) nodes.insert(nodes.end(), triangles_[t].n, triangles_[t].n + 3);
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    sort_once(nodes);
     std::vector<Vec3> points, normals;
     for (const NodeId n : nodes) {
       if (nodes_[n].is_pole) return false;

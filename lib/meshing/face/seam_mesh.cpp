@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/parallel_reserve.h"
+#include "base/sort_once.h"
 #include "base/threads.h"
 #include "meshing/face/face_check.h"
 
@@ -123,8 +124,7 @@ class SectionSplitter {
       split_.boundary_number.push_back(cut_.number[places_[i]]);
     }
     std::vector<std::int32_t>& numbers = split_.boundary_number;
-    std::sort(numbers.begin(), numbers.end());
-    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    sort_once(numbers);
   }
 
   /// Triangles that stay have no cut node, for these have the band around them.
@@ -251,8 +251,7 @@ class SeamMesher {
   /// The nodes between each two tiles are a piece; so is each junction.
   void find_pieces(const std::vector<std::array<std::int32_t, 2>>& tiles) {
     std::vector<std::array<std::int32_t, 2>> all = tiles;
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    sort_once(all);
     for (const auto& own : tiles)
       pieces_.push_back(static_cast<std::int32_t>(std::lower_bound(all.begin(), all.end(), own) - all.begin()));
   }

@@ -9,6 +9,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel_reserve.h"
+#include "base/sort_once.h"
 #include "base/threads.h"
 #include "mesh/adjacency.h"
 #include "meshing/face/face_check.h"
@@ -77,8 +78,7 @@ class SeamPiece {
     for (const std::int32_t t : triangles_)
       of_number_.insert(of_number_.end(), &mesh_.corners[3 * static_cast<std::size_t>(t)],
                         &mesh_.corners[3 * static_cast<std::size_t>(t)] + 3);
-    std::sort(of_number_.begin(), of_number_.end());
-    of_number_.erase(std::unique(of_number_.begin(), of_number_.end()), of_number_.end());
+    sort_once(of_number_);
     const auto inner =
         std::stable_partition(of_number_.begin(), of_number_.end(), [&](std::int32_t c) { return !is_inner(c); });
     n_fixed_ = static_cast<std::int32_t>(inner - of_number_.begin());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/sort_once.h"
+
 namespace st {
 namespace {
 
@@ -201,8 +203,7 @@ void grow_hole(const HoleMesh& cad, FaceId face, std::span<const TriangleId> hol
   for (int l = 0; l < layers; ++l) {
     for (const TriangleId i : fresh)
       touched.insert(touched.end(), cad.mesh.triangles[i].n, cad.mesh.triangles[i].n + 3);
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    sort_once(touched);
     fresh.clear();
     for (TriangleId i = cad.face_begin[face]; i < cad.face_begin[face + 1]; ++i) {
       if (marks.triangle[i]) continue;

@@ -42,18 +42,21 @@ Sampled sample(const std::string& shape, const WingSizes& sizes, std::vector<Edg
 
 WingSizes share_of_chord(const std::string& text) { return {parse_length(text, "--edge-size"), 2, {30, {}}, {}, 2}; }
 
+/// Boxes from end to end of a wing of span 30, at x, no more than a length apart.
+void expect_run_along(const Sampled& s, double x) {
+  std::vector<double> z;
+  for (const RasterBox& b : s.boxes)
+    if (std::abs(b.center.x - x) < 0.03) z.push_back(b.center.z);
+  std::sort(z.begin(), z.end());
+  ASSERT_GT(z.size(), 500u);
+  EXPECT_LT(z.front(), 0.1);
+  EXPECT_GT(z.back(), 29.9);
+  for (std::size_t i = 1; i < z.size(); ++i) EXPECT_LE(z[i] - z[i - 1], 0.0505);
+}
+
 TEST(WingSizes, run_along_the_trailing_edge_and_the_nose_without_holes) {
   const Sampled s = sample("sharp_wing", share_of_chord("0.5%chord"));
-  for (const double x : {0.0, 10.0}) {
-    std::vector<double> z;
-    for (const RasterBox& b : s.boxes)
-      if (std::abs(b.center.x - x) < 0.03) z.push_back(b.center.z);
-    std::sort(z.begin(), z.end());
-    ASSERT_GT(z.size(), 500u);
-    EXPECT_LT(z.front(), 0.1);
-    EXPECT_GT(z.back(), 29.9);
-    for (std::size_t i = 1; i < z.size(); ++i) EXPECT_LE(z[i] - z[i - 1], 0.0505);
-  }
+  for (const double x : {0.0, 10.0}) expect_run_along(s, x);
   for (const RasterBox& b : s.boxes)
     EXPECT_NEAR(b.length, b.center.x < 5 ? 0.9 * 0.05 : 0.95 * 0.05, 1e-4)
         << "so that the first triangles beside nose and edge have what was asked for";
@@ -61,16 +64,7 @@ TEST(WingSizes, run_along_the_trailing_edge_and_the_nose_without_holes) {
 
 TEST(WingSizes, run_along_a_trailing_edge_inside_a_face) {
   const Sampled s = sample("closed_wing", share_of_chord("0.5%chord"));
-  for (const double x : {-5.0, 5.0}) {
-    std::vector<double> z;
-    for (const RasterBox& b : s.boxes)
-      if (std::abs(b.center.x - x) < 0.03) z.push_back(b.center.z);
-    std::sort(z.begin(), z.end());
-    ASSERT_GT(z.size(), 500u);
-    EXPECT_LT(z.front(), 0.1);
-    EXPECT_GT(z.back(), 29.9);
-    for (std::size_t i = 1; i < z.size(); ++i) EXPECT_LE(z[i] - z[i - 1], 0.0505);
-  }
+  for (const double x : {-5.0, 5.0}) expect_run_along(s, x);
   EXPECT_TRUE(s.with(CauseKind::kEdge).empty());
   for (const RasterBox& b : s.boxes) EXPECT_NEAR(b.length, 0.9 * 0.05, 1e-4);
 }
