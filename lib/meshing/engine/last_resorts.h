@@ -1,0 +1,16 @@
+// What is done to triangles that no smaller sizes could mend.
+#pragma once
+
+#include "base/executor.h"
+#include "meshing/engine/meshed_faces.h"
+
+namespace st {
+
+/// Collective. Folds and crossings: triangles of the same nodes without them, off the surface rather than through
+/// themselves. Stays only where clearly fewer are left.
+void refill_bad(MeshedFaces& faces, const Executor& executor);
+
+/// Collective. Triangles that touch because the CAD touches itself: a hair apart. Stays only where fewer are left.
+void part_touching(MeshedFaces& faces, const Executor& executor);
+
+}  // namespace st

@@ -1,0 +1,210 @@
+#include "meshing/engine/meshed_faces.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/share.h"
+#include "base/sort_once.h"
+#include "base/threads.h"
+#include "meshing/engine/refinement_policy.h"
+#include "meshing/face/patch_refill.h"
+
+namespace st {
+
+using Policy = RefinementPolicy;
+
+MeshedFaces::MeshedFaces(const Model& model, const MeshTopology& topology, const Executor& executor, bool across_bodies,
+                         EdgeMesh& edges)
+    : topology_(topology),
+      tables_(topology.tables()),
+      executor_(executor),
+      edges_(edges),
+      outcomes_(tables_.n_faces()),
+      places_(tables_.n_faces()),
+      store_(executor),
+      crossings_(model, store_, executor, across_bodies) {}
+
+void MeshedFaces::set_edges(EdgeMesh edges) {
+  edges_ = std::move(edges);
+  numbering_.emplace(topology_, edges_);
+}
+
+std::vector<Vec3> MeshedFaces::nodes_of(const FacePatch& patch) const {
+  return node_places(edges_, tables_.vertex_xyz, patch);
+}
+
+void MeshedFaces::set(FaceId f, FacePlace place, FaceOutcome outcome) {
+  places_[f] = std::move(place);
+  outcomes_[f] = std::move(outcome);
+  crossings_.renew(f);
+}
+
+void MeshedFaces::put(FaceId f, FacePatch&& patch) {
+  places_[f] = FacePlace(store_.put({std::move(patch)}, 0, --own_version_, edges_, tables_.vertex_xyz));
+  crossings_.renew(f);
+}
+
+void MeshedFaces::close(FaceId f, FacePatch&& patch, bool is_near, double deviation) {
+  FaceOutcome& o = outcomes_[f];
+  o.is_closed = true;
+  o.is_near = is_near;
+  o.deviation = deviation;
+  put(f, std::move(patch));
+}
+
+bool MeshedFaces::has_holes() const {
+  return std::ranges::any_of(outcomes_, [](const FaceOutcome& o) { return o.is_hole(); });
+}
+
+std::int64_t MeshedFaces::n_bad() const {
+  std::int64_t n = crossings_.n_pairs();
+  for (const FaceOutcome& o : outcomes_) n += o.n_folds + (o.cause == FailureCause::kNone ? 0 : Policy::kPerFailure);
+  return n;
+}
+
+std::vector<FaceId> MeshedFaces::sound_faces() const {
+  const std::vector<FaceId> crossing = crossings_.crossing_faces(true);
+  std::vector<FaceId> sound;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (const FaceOutcome& o = outcomes_[f]; o.cause == FailureCause::kNone && o.n_folds == 0)
+      if (!std::ranges::binary_search(crossing, f)) sound.push_back(f);
+  return sound;
+}
+
+std::vector<FaceId> MeshedFaces::suspects() const {
+  std::vector<FaceId> faces = crossings_.crossing_faces(crossings_.n_pairs() <= Policy::kFewPairs);
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) faces.push_back(f);
+  sort_once(faces);
+  return faces;
+}
+
+MeshedFaces::BadTriangles MeshedFaces::bad_triangles(const Patches& patches) const {
+  BadTriangles bad;
+  for (const auto& [f, patch] : patches) {
+    std::vector<std::size_t> own = crossings_.crossing_in(f, crossings_.n_pairs() <= Policy::kFewPairs);
+    if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) {
+      const std::vector<std::size_t> flawed = find_flawed(nodes_of(patch), patch);
+      own.insert(own.end(), flawed.begin(), flawed.end());
+    }
+    if (!own.empty()) bad[f] = std::move(own);
+  }
+  return bad;
+}
+
+MeshedFaces::Patches MeshedFaces::bring(const std::vector<FaceId>& faces) const {
+  std::vector<PlacedFace> wanted;
+  for (const FaceId f : faces)
+    if (places_[f].is_there()) wanted.push_back({f, places_[f]});
+  Patches patches;
+  for (FacePatch& p : store_.bring(std::move(wanted))) {
+    const FaceId f = p.face;
+    patches[f] = std::move(p);
+  }
+  return patches;
+}
+
+std::vector<Vec3> MeshedFaces::bad_places() const {
+  std::vector<Vec3> places;
+  for (const FaceOutcome& o : outcomes_)
+    for (const auto* some : {&o.fold_places, &o.failed_places})
+      for (const RefinementPoint& p : *some) places.push_back(p.x);
+  for (const auto& [f, patch] : bring(crossings_.crossing_faces(true))) {
+    const std::vector<Vec3> xyz = nodes_of(patch);
+    for (const std::size_t t : crossings_.crossing_in(f, true)) {
+      const NodeId* n = patch.triangles[t].n;
+      places.push_back((xyz[n[0]] + xyz[n[1]] + xyz[n[2]]) / 3);
+    }
+  }
+  const std::size_t step = places.size() / Policy::kMostBadPlaces + 1;
+  for (std::size_t i = 1; i * step < places.size(); ++i) places[i] = places[i * step];
+  places.resize((places.size() + step - 1) / step);
+  return places;
+}
+
+void MeshedFaces::go_back(const State& before, const std::vector<FaceId>& changed) {
+  set_edges(before.edges);
+  if (executor_.is_root()) outcomes_ = before.outcomes;
+  go_back(before.places, changed);
+}
+
+void MeshedFaces::go_back(const std::vector<FacePlace>& places, const std::vector<FaceId>& changed) {
+  if (executor_.is_root()) {
+    places_ = places;
+    for (const FaceId f : changed) crossings_.renew(f);
+  }
+  search_crossings();
+}
+
+void MeshedFaces::keep_only(std::vector<PlacedFace> others) {
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) others.push_back({f, places_[f]});
+  std::vector<PlacedPatch> live;
+  for (const PlacedFace& face : others)
+    for (const PatchPlace& section : face.place.sections) live.push_back({face.face, section});
+  share(executor_, live);
+  store_.keep_only(live);
+}
+
+void MeshedFaces::report(MeshResult& result) const {
+  result.n_crossing_pairs = crossings_.n_pairs();
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    const FaceOutcome& o = outcomes_[f];
+    result.folds.insert(result.folds.end(), o.fold_places.begin(), o.fold_places.end());
+    if (o.cause == FailureCause::kNone) continue;
+    result.failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause), o.cause_xyz,
+                               o.is_closed, o.is_near, o.deviation});
+    result.failed_faces.push_back(o.failed);
+  }
+}
+
+/// Local: a patch that is all here, which is not kept any more.
+FacePatch MeshedFaces::take_whole(FaceId f) {
+  const std::vector<SectionBegin> begins = places_[f].begins();
+  std::vector<SectionRows> rows;
+  for (std::size_t s = 0; s < begins.size(); ++s)
+    if (places_[f].sections[s].is_there()) rows.push_back(store_.take(f, places_[f], s, begins));
+  return join_rows(std::move(rows));
+}
+
+/// Collective.
+void MeshedFaces::hand_to_root(MeshResult& result) {
+  std::vector<FaceId> elsewhere;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    if (std::ranges::any_of(places_[f].sections, [](const PatchPlace& p) { return p.rank > 0; }))
+      elsewhere.push_back(f);
+  Patches remote = bring(elsewhere);
+  result.patches.resize(tables_.n_faces());
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    if (const auto it = remote.find(f); it != remote.end())
+      result.patches[f] = std::move(it->second);
+    else if (executor_.is_root())
+      result.patches[f] = take_whole(f);
+    result.patches[f].face = f;
+  }
+}
+
+void MeshedFaces::hand_over(PatchesGo patches, MeshResult& result) {
+  share(executor_, places_);
+  report(result);
+  if (patches == PatchesGo::kToRoot) return hand_to_root(result);
+  struct OwnSection {
+    FaceId face;
+    std::size_t number;
+    std::shared_ptr<const std::vector<SectionBegin>> begins;
+  };
+  std::vector<OwnSection> own;
+  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+    const auto begins = std::make_shared<const std::vector<SectionBegin>>(places_[f].begins());
+    for (std::size_t s = 0; s < begins->size(); ++s)
+      if (store_.is_own(places_[f].sections[s])) own.push_back({f, s, begins});
+  }
+  result.rows.resize(own.size());
+  parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
+    const auto& [f, number, begins] = own[i];
+    result.rows[i] = store_.take(f, places_[f], number, *begins);
+  });
+  result.places = places_;
+}
+
+}  // namespace st

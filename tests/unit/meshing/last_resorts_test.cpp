@@ -1,0 +1,68 @@
+#include "meshing/engine/last_resorts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/checks.h"
+#include "support/meshed.h"
+
+namespace st {
+namespace {
+
+/// A box put together again, one of its faces with this patch.
+struct Box {
+  test::Meshed meshed{"box", 4};
+  EdgeMesh edges;
+  MeshedFaces faces{meshed.model, meshed.topology, test::one_rank, true, edges};
+  static constexpr FaceId kFace = 2;
+
+  explicit Box(bool has_fold) {
+    faces.set_edges(meshed.result.edges);
+    for (const FacePatch& p : meshed.result.patches) faces.put(p.face, FacePatch(p));
+    if (has_fold) fold();
+    faces.search_crossings();
+  }
+  std::size_t n_bad() { return faces.bad_triangles(faces.bring(faces.suspects())).size(); }
+
+ private:
+  /// Moves a node inside the face over its neighbours.
+  void fold() {
+    FacePatch patch = meshed.result.patches[kFace];
+    const auto is_inside = [&](const auto& t) { return std::ranges::min(t.n) >= patch.n_boundary; };
+    const auto it = std::ranges::find_if(patch.triangles, is_inside);
+    Vec3& node = patch.inner_xyz[it->n[0] - patch.n_boundary];
+    node += 1.5 * (patch.inner_xyz[it->n[1] - patch.n_boundary] - node);
+    FaceOutcome outcome;
+    outcome.n_folds = 1;
+    outcome.fold_places = {RefinementPoint{}};
+    faces.set(kFace, FacePlace(), outcome);
+    faces.put(kFace, std::move(patch));
+  }
+};
+
+TEST(LastResorts, refill_what_a_node_beside_its_place_folds) {
+  Box box(true);
+  ASSERT_EQ(box.n_bad(), 1u);
+  refill_bad(box.faces, test::one_rank);
+  EXPECT_EQ(box.n_bad(), 0u);
+}
+
+TEST(LastResorts, change_nothing_where_nothing_is_bad) {
+  Box box(false);
+  refill_bad(box.faces, test::one_rank);
+  part_touching(box.faces, test::one_rank);
+  for (const auto& [f, patch] : box.faces.bring({0, 1, 2, 3, 4, 5}))
+    EXPECT_EQ(packed(patch), packed(box.meshed.result.patches[f]));
+}
+
+TEST(LastResorts, leave_no_fold_where_the_surface_is_folded) {
+  const test::Meshed meshed("crumpled", 0.5);
+  ASSERT_TRUE(meshed.result.failures.empty());
+  const ShapeReport shape = check_shape(meshed.mesh, edges_of(meshed.mesh));
+  EXPECT_EQ(shape.folds.count, 0);
+  EXPECT_EQ(shape.zero_area.count, 0);
+}
+
+}  // namespace
+}  // namespace st

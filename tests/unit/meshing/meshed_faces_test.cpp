@@ -1,0 +1,83 @@
+#include "meshing/engine/meshed_faces.h"
+
+#include <gtest/gtest.h>
+
+#include "meshing/engine/refinement_policy.h"
+#include "support/meshed.h"
+
+namespace st {
+namespace {
+
+/// A meshed shape, its patches put together again.
+struct PutFaces {
+  test::Meshed meshed;
+  EdgeMesh edges;
+  MeshedFaces faces{meshed.model, meshed.topology, test::one_rank, true, edges};
+
+  PutFaces(const std::string& shape, double length) : meshed(shape, length) {
+    faces.set_edges(meshed.result.edges);
+    for (const FacePatch& p : meshed.result.patches) faces.put(p.face, FacePatch(p));
+    faces.search_crossings();
+  }
+  /// A triangle of the face, turned over.
+  FacePatch folded(FaceId f) const {
+    FacePatch patch = meshed.result.patches[f];
+    std::swap(patch.triangles[0].n[0], patch.triangles[0].n[1]);
+    return patch;
+  }
+};
+
+TEST(MeshedFaces, go_back_to_the_patches_and_outcomes_from_before) {
+  PutFaces put("box", 8);
+  MeshedFaces& faces = put.faces;
+  EXPECT_EQ(faces.n_bad(), 0);
+  EXPECT_EQ(faces.sound_faces().size(), 6u);
+  const MeshedFaces::State before = faces.state();
+  FaceOutcome failed;
+  failed.cause = FailureCause::kError;
+  failed.n_folds = 2;
+  faces.set(3, FacePlace(), failed);
+  EXPECT_TRUE(faces.has_holes());
+  EXPECT_EQ(faces.n_bad(), 2 + RefinementPolicy::kPerFailure);
+  EXPECT_EQ(faces.sound_faces().size(), 5u);
+  EXPECT_TRUE(faces.bring({3}).empty());
+  faces.go_back(before, {3});
+  EXPECT_EQ(faces.n_bad(), 0);
+  EXPECT_EQ(packed(faces.bring({3}).at(3)), packed(put.meshed.result.patches[3]));
+}
+
+TEST(MeshedFaces, find_a_triangle_that_is_turned_over_in_a_face_under_suspicion) {
+  PutFaces put("box", 8);
+  MeshedFaces& faces = put.faces;
+  FaceOutcome outcome;
+  outcome.n_folds = 1;
+  outcome.fold_places = {{put.meshed.model.tables().face_box[2].center(), 1, 0}};
+  faces.set(2, faces.place(2), outcome);
+  faces.put(2, put.folded(2));
+  EXPECT_EQ(faces.suspects(), std::vector<FaceId>{2});
+  const MeshedFaces::BadTriangles bad = faces.bad_triangles(faces.bring(faces.suspects()));
+  ASSERT_EQ(bad.size(), 1u);
+  EXPECT_FALSE(bad.at(2).empty());
+  EXPECT_EQ(faces.bad_places().size(), 1u);
+}
+
+TEST(MeshedFaces, say_what_was_closed_and_hand_over_every_patch) {
+  PutFaces put("box", 8);
+  FaceOutcome failed;
+  failed.cause = FailureCause::kError;
+  failed.error = "no surface here";
+  put.faces.set(1, FacePlace(), failed);
+  put.faces.close(1, FacePatch(put.meshed.result.patches[1]), true, 0.25);
+  EXPECT_FALSE(put.faces.has_holes());
+  MeshResult result;
+  put.faces.hand_over(PatchesGo::kToRoot, result);
+  ASSERT_EQ(result.failures.size(), 1u);
+  EXPECT_EQ(result.failures[0].cause, "no surface here");
+  EXPECT_TRUE(result.failures[0].is_closed);
+  EXPECT_EQ(result.failures[0].deviation, 0.25);
+  ASSERT_EQ(result.patches.size(), 6u);
+  for (const FacePatch& p : result.patches) EXPECT_FALSE(p.triangles.empty());
+}
+
+}  // namespace
+}  // namespace st
