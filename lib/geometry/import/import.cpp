@@ -31,6 +31,7 @@
 #include "geometry/import/pcurve_repair.h"
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
+#include "geometry/import/solid_contacts.h"
 #include "geometry/import/sound_geometry.h"
 #include "geometry/import/space_curves.h"
 #include "geometry/import/topology_report.h"

@@ -1,4 +1,4 @@
-// Bodies that touch.
+// Bodies that touch, joined.
 #pragma once
 
 #include <set>
@@ -10,16 +10,6 @@
 #include "geometry/model/model_tables.h"
 
 namespace st::occt {
-
-/// Numbers of solids, in TopExp order, ascending.
-struct TouchingGroups {
-  std::vector<std::vector<int>> groups;  ///< solids that lie on each other; or one that touches itself
-  std::set<int> self_touching;           ///< two edges of the solid are at one place
-};
-
-/// Solids with faces of the same surface, or with edges between the same points. `tables` are those of `model`. Cost:
-/// comparisons of boxes; surfaces only where these meet.
-TouchingGroups find_touching_solids(const ImportedShape& model, const ModelTables& tables);
 
 /// Gives solids that touch common faces and edges, by OpenCASCADE's general fuse. A common face is named after both
 /// sides: "interface_plate_bolt". What does not keep the area of every face stays as it was, with a finding;

@@ -123,17 +123,5 @@ TEST(TouchingBodies, are_none_where_solids_are_apart_or_cross) {
   }
 }
 
-TEST(TouchingBodies, are_no_thin_plates_in_a_large_domain) {
-  occt::ImportedShape model;
-  model.shape = BRepAlgoAPI_Cut(BRepPrimAPI_MakeBox(gp_Pnt(-2500, -2500, -2500), 5000, 5000, 5000).Shape(),
-                                BRepPrimAPI_MakeBox(1, 1, 0.004).Shape());
-  TopExp::MapShapes(model.shape, TopAbs_FACE, model.faces);
-  model.attributes.resize(model.faces.Extent());
-  const ModelTables tables = occt::make_tables(model, "test").tables;
-  ASSERT_EQ(tables.n_faces(), 12);
-  EXPECT_LT(0.004, 1e-6 * tables.box().diagonal()) << "one place by the domain";
-  EXPECT_TRUE(occt::find_touching_solids(model, tables).self_touching.empty());
-}
-
 }  // namespace
 }  // namespace st
