@@ -6,8 +6,8 @@
 #
 # The version goes into the files that name it, and [Unreleased] of CHANGELOG.md gets its number and today's date. Then
 # `make check` has to pass, and no stage may need over 3 % more instructions than bench/budget.tsv has. OUT_DIR gets
-# the Debian packages, figures.txt and notes.txt; the commit gets the tag vVERSION with the notes. Where a step fails,
-# the files are as before, and there is neither a commit nor a tag.
+# the Debian packages, the wheel, figures.txt and notes.txt; the commit gets the tag vVERSION with the notes. Where a
+# step fails, the files are as before, and there is neither a commit nor a tag.
 set -eu -o pipefail
 if [ $# -gt 1 ] && [ "$1" != --notes ]; then set -- "$1" "$(realpath -m "$2")"; fi
 cd "$(dirname "$0")/.."
@@ -54,6 +54,9 @@ echo "release: package"
 package() { cmake --preset release && cmake --build --preset release && (cd build/release && cpack -G DEB); }
 package > "$out/package.log" || fail "no package; see $out/package.log" 6
 mv build/release/*_"$version"_*.deb "$out"
+echo "release: wheel"
+wheel=$(scripts/wheel.sh build/release "$out") || fail "no wheel" 6
+tests/package/wheel_test.sh "$PWD" "$PWD/build/check" "$wheel" || fail "the wheel does not work" 5
 notes "$version" > "$out/notes.txt"
 
 git commit -q -m "release: version $version" -m "What users see is in CHANGELOG.md under [$version]." \

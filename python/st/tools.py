@@ -3,7 +3,10 @@ import json
 import os
 import shutil
 import subprocess
+import sys
 from pathlib import Path
+
+_WHEEL = Path(__file__).parent / "bin"  # where a wheel has the tools
 
 
 class ToolError(RuntimeError):
@@ -15,12 +18,18 @@ class ToolError(RuntimeError):
 
 
 def _program(tool):
-    """In the folder ST_BIN, else in PATH."""
-    folder = os.environ.get("ST_BIN")
+    """In the folder ST_BIN, else in the wheel that this module came with, else in PATH."""
+    folder = os.environ.get("ST_BIN") or (str(_WHEEL) if _WHEEL.is_dir() else None)
     found = shutil.which(str(Path(folder) / tool) if folder else tool)
     if not found:
-        raise FileNotFoundError(f"{tool} is not in {'ST_BIN=' + folder if folder else 'PATH'}; install ST")
+        raise FileNotFoundError(f"{tool} is not in {folder or 'PATH'}; install ST")
     return found
+
+
+def command():
+    """The tool of the name under which this was started: a command that a wheel installs."""
+    tool = _program(Path(sys.argv[0]).name)
+    os.execv(tool, [tool, *sys.argv[1:]])
 
 
 def _arguments(options):
