@@ -221,6 +221,19 @@ void say_faults(const ImportStageOptions& o, const ImportResult& r) {
   }
 }
 
+/// What --cap closed, and what it could not.
+void say_openings(const ImportStageOptions& o, const ImportResult& r) {
+  for (const ImportFinding& f : r.findings) {
+    if (f.kind == FindingKind::kCapped) log_report(fmt::format("  {}: {}", f.entity, f.what()));
+    if (f.kind == FindingKind::kOpeningLeft)
+      log_warning(fmt::format("{}: {}, at ({:.6g}, {:.6g}, {:.6g})", o.model, f.what(), f.xyz.x, f.xyz.y, f.xyz.z));
+  }
+  if (o.cap && std::ranges::none_of(r.findings, [](const ImportFinding& f) {
+        return f.kind == FindingKind::kCapped || f.kind == FindingKind::kOpeningLeft;
+      }))
+    log_report("  --cap: there is no opening");
+}
+
 /// The largest extent of what is neither far field nor symmetry plane, m.
 double extent_in_metres(const ModelTables& t) {
   Box3 box;
@@ -287,6 +300,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   say_bodies(o, r);
   say_crossing_faces(o, r);
   say_faults(o, r);
+  say_openings(o, r);
   const auto say_line = o.check ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
@@ -340,6 +354,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   options.flow_domain = o.flow_domain;
   options.unite = o.unite;
   options.join_touching = o.join;
+  options.cap = o.cap;
   options.check_only = o.check;
   options.require_closed = o.require_closed;
   options.groups = groups.rules;

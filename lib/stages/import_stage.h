@@ -24,6 +24,7 @@ struct ImportStageOptions {
   std::string groups;                                ///< groups file (TOML); empty: the groups of the CAD file
   bool unite = false;                                ///< of ImportOptions
   bool join = false;                                 ///< solids that touch get common faces
+  bool cap = false;                                  ///< of ImportOptions
   bool check = false;                                ///< report only, write nothing
   bool require_closed = false;                       ///< an open model is an error (exit 4)
 };

@@ -53,6 +53,15 @@ class Report(ToolTest):
         run = must("st-import", MODELS / "box.step", "-o", self.folder / "g.hdf", "-v", "--small", "1000")
         self.assertIn("and 8 more: see --json", run.err)  # 12 short edges, 6 narrow faces
 
+    def test_cap_closes_openings_in_planes_and_says_so(self):
+        model = MODELS / "plate_with_hole.brep"
+        run = must("st-import", model, "-o", self.folder / "g.hdf", "--cap")
+        self.assertEqual(run.err.count("  cap_1: opening closed: area "), 1)
+        report = self.import_json(model, "--cap")
+        self.assertEqual((report["faces"], report["free_edges"]), (2, 4))
+        self.assertIn("--cap: there is no opening",
+                      must("st-import", MODELS / "box.step", "-o", self.folder / "g.hdf", "--cap").err)
+
 
 class Bodies(ToolTest):
     """Parts that cross or touch."""

@@ -24,6 +24,8 @@ int main(int argc, char** argv) {
   tool.number(o.kTimeLimit, o.time_limit);
   tool.flag("--unite", o.unite, "make solids that overlap or touch one body, without what is inside");
   tool.flag("--join", o.join, "give solids that touch common faces and edges, in groups of their own");
+  tool.flag("--cap", o.cap,
+            "close openings whose rim lies in a plane, or in two or three, by faces named cap_1, cap_2 ...");
   tool.flag("--check", o.check, "print a report of the defects and write nothing");
   tool.flag("--require-closed", o.require_closed, "end with exit code 4 when the model is not closed");
   tool.examples({"st-import wing.step", "st-import aircraft.step --symmetry y=0 --farfield sphere:50 -o geometry.hdf",

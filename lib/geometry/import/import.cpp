@@ -28,6 +28,7 @@
 #include "geometry/import/left_out_faces.h"
 #include "geometry/import/loop_periods.h"
 #include "geometry/import/loop_repair.h"
+#include "geometry/import/openings.h"
 #include "geometry/import/pcurve_repair.h"
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
@@ -107,8 +108,16 @@ void scale_to_unit(ImportedShape& model, const ModelUnit& unit, std::vector<Impo
   for (ImportFinding& f : findings) f.xyz = factor * f.xyz, f.size *= factor;
 }
 
-/// The air that the file has gets its roles, or goes; symmetry plane and far field that are asked for are made. Tables
-/// are made again; new faces need no word on their trimming curves and shells.
+/// Tables of a model that has got new faces; these need no word on their trimming curves and shells.
+void take_new_faces(ImportedShape& model, occt::ModelOfFile& tables, const std::string& path) {
+  std::vector<ImportFinding> own;
+  occt::repair_loops(model, own);
+  occt::repair_pcurves(model, own);
+  tables = occt::make_tables(model, path);
+  if (occt::repair_shells(model, tables.measures, own)) tables = occt::make_tables(model, path);
+}
+
+/// The air that the file has gets its roles, or goes; symmetry plane and far field that are asked for are made.
 AirFaces settle_air(ImportedShape& model, occt::ModelOfFile& tables, occt::AskedAir asked,
                     std::vector<ImportFinding>& findings, const std::string& path) {
   const occt::FileAir air = occt::find_file_air(model, tables.tables, asked, path);
@@ -120,13 +129,9 @@ AirFaces settle_air(ImportedShape& model, occt::ModelOfFile& tables, occt::Asked
   AirFaces counts = occt::counts_of(air);
   counts.is_replaced = asked.replaces;
   if (!asked.plane && !asked.far) return counts;
-  std::vector<ImportFinding> own;
   occt::make_flow_domain(model, tables.tables.box(), tables.tables.reference_diagonal(), asked.plane, asked.far,
                          findings, path);
-  occt::repair_loops(model, own);
-  occt::repair_pcurves(model, own);
-  tables = occt::make_tables(model, path);
-  if (occt::repair_shells(model, tables.measures, own)) tables = occt::make_tables(model, path);
+  take_new_faces(model, tables, path);
   return counts;
 }
 
@@ -286,9 +291,12 @@ void say_what_touches(const ImportedShape& model, const ModelTables& t, const st
   }
 }
 
-/// Bodies that overlap are united where asked, those that touch are joined; what touches itself always is.
+/// Openings are closed and bodies that overlap united where asked, those that touch are joined; what touches itself
+/// always is.
 void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
                    std::vector<ImportFinding>& findings, const std::string& path, Progress& progress) {
+  if (options.cap && occt::cap_openings(model, tables.tables.reference_diagonal(), findings))
+    take_new_faces(model, tables, path);
   progress.step("uniting bodies", 0.65);
   if (options.unite) occt::unite_solids(model, tables, options.unite_seconds, findings, path);
   progress.step("bodies that cross", 0.67);

@@ -24,6 +24,7 @@ struct ImportOptions {
   bool join_touching = false;        ///< solids that touch get common faces and edges
   bool unite = false;                ///< bodies that overlap become one, before that
   double unite_seconds = 60;         ///< no union begins later
+  bool cap = false;                  ///< openings in planes get faces
   bool require_closed = false;       ///< Error(kGeometry) for a model that is open after repairs
   std::vector<GroupRule> groups;     ///< empty: those of the file
 };

@@ -71,3 +71,5 @@ KIND(kFarCurve, "trimming curve off its edge by more than a tolerance", "")
 KIND(kMergedSliver, "face folded back onto its neighbour, merged into it",
      "face folded back onto its neighbour, merged into {}")
 KIND(kMissingFile, "parts in another file, which is missing", "parts in another file, which is missing: {}")
+KIND(kCapped, "opening closed", "opening closed: {}")  // --cap
+KIND(kOpeningLeft, "opening left open", "opening left open: its rim of {} lies in no plane, or crosses itself there")
