@@ -14,6 +14,7 @@ namespace st {
 namespace {
 
 using Side = std::pair<std::int32_t, std::int32_t>;
+using Corners = std::array<std::int32_t, 3>;
 
 /// Of a boundary node: rows begin there, or end there at their side.
 enum Use : char { kFree, kChain, kLine };
@@ -152,9 +153,7 @@ class RowBlock {
   /// On the way from a node of the line, which was found to be free.
   std::int32_t insert(const MeshNode& p, std::int32_t from) {
     if (m_.nodes.size() >= w_.max_nodes) return kNone;
-    const std::int32_t start = m_.triangle_towards(from, p.p);
-    if (start == kNone || m_.triangles[start].state != kUnfinished) return kNone;
-    const std::int32_t at = m_.locate(p.p, start);
+    const std::int32_t at = m_.seen_from(from, p.p);
     if (at == kNone || m_.triangles[at].state != kUnfinished || !m_.find_cavity(p.p, metric_of(p), at)) return kNone;
     if (is_crowded(p, distance(p.x, x(from)))) return kNone;
     m_.nodes.push_back(p);
@@ -176,29 +175,33 @@ class RowBlock {
   bool force(std::size_t i, const NextLine& next) {
     const std::int32_t a = line_.nodes[i], b = line_.nodes[i + 1];
     const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
-    const bool is_first = distance(x(a), x(d)) <= kEven * distance(x(b), x(c));
-    const Side diagonal = is_first ? Side{a, d} : Side{b, c};
-    for (const Side& s : {Side{a, b}, Side{a, c}, Side{b, d}, Side{c, d}, diagonal})
-      if (!m_.force_side(s.first, s.second)) return false;
-    const auto [t, apex] = m_.left_of(a, b);
-    const auto [u, foot] = m_.left_of(d, c);
-    if (apex != (is_first ? d : c) || foot != (is_first ? a : b)) return false;
-    m_.triangles[t].state = m_.triangles[u].state = kLaid;
-    return true;
+    if (distance(x(a), x(d)) <= kEven * distance(x(b), x(c))) return force_all({{a, b, d}, {d, c, a}});
+    return force_all({{a, b, c}, {d, c, b}});
   }
   /// Three triangles over two segments.
   bool force_pair(std::size_t i, const NextLine& next) {
     const std::int32_t a = line_.nodes[2 * i], middle = line_.nodes[2 * i + 1], b = line_.nodes[2 * i + 2];
     const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
-    for (const Side& s :
-         {Side{a, middle}, Side{middle, b}, Side{a, c}, Side{b, d}, Side{c, d}, Side{middle, c}, Side{middle, d}})
-      if (!m_.force_side(s.first, s.second)) return false;
-    const auto [t, first] = m_.left_of(a, middle);
-    const auto [u, last] = m_.left_of(middle, b);
-    const auto [v, foot] = m_.left_of(d, c);
-    if (first != c || last != d || foot != middle) return false;
-    m_.triangles[t].state = m_.triangles[u].state = m_.triangles[v].state = kLaid;
-    return true;
+    return force_all({{a, middle, c}, {middle, b, d}, {d, c, middle}});
+  }
+
+  /// Triangles that are laid with all their edges, or not at all where an edge or a node is in the way.
+  bool force_all(const std::vector<Corners>& corners) {
+    std::vector<Side> fresh;
+    const auto fix = [&](std::int32_t a, std::int32_t b) {
+      if (m_.is_fixed(a, b)) return true;
+      if (!m_.force_side(a, b)) return false;
+      fresh.push_back({a, b});
+      return true;
+    };
+    bool is_free = true;
+    for (const auto& [a, b, c] : corners) is_free = is_free && fix(a, b) && fix(b, c) && fix(c, a);
+    for (const auto& [a, b, c] : corners) is_free = is_free && m_.left_of(a, b).second == c;
+    for (const auto& [a, b] : fresh)
+      if (!is_free) m_.release_side(a, b);
+    for (const auto& [a, b, c] : corners)
+      if (is_free) m_.triangles[m_.left_of(a, b).first].state = kLaid;
+    return is_free;
   }
   Vec3 x(std::int32_t n) const { return m_.nodes[n].x; }
 
@@ -230,6 +233,7 @@ class RowBlock {
       if (line_.joined[i] && !goes_on[i] && n_rows_ > 1) ended_.push_back({line_.nodes[i], line_.nodes[i + 1]});
     if (n > 0) height_ = sum / static_cast<double>(n);
     line_ = std::move(line);
+    open_at_gap(line_);
   }
 
   /// A node of a row stays. Its lengths are those that were laid, so that the front goes on from them.

@@ -64,9 +64,6 @@ class LineMaker {
   std::size_t n() const { return line_.nodes.size(); }
   const MeshNode& node(std::size_t i) const { return w_.mesh.nodes[line_.nodes[i]]; }
   double width(std::size_t i) const { return distance(node(i).x, node(i + 1).x); }
-  bool is_ring() const {
-    return line_.is_closed && std::all_of(line_.joined.begin(), line_.joined.end(), [](char j) { return j; });
-  }
 
   std::vector<Run> find_runs() const {
     std::vector<Run> runs;
@@ -84,8 +81,8 @@ class LineMaker {
     for (std::size_t i = first; i <= last; ++i) {
       const MeshNode& a = node(i);
       std::size_t from = i > first ? i - 1 : i, to = i < last ? i + 1 : i;
-      if (is_ring() && i == 0) from = n() - 2;
-      if (is_ring() && i + 1 == n()) to = 1;
+      if (line_.is_closed && i == 0) from = n() - 2;
+      if (line_.is_closed && i + 1 == n()) to = 1;
       // by angle, not by length: the shorter neighbour tells as much
       const Vec3 back = normalized(a.x - node(from).x), ahead = normalized(node(to).x - a.x);
       along_[i] = normalized(back + ahead - dot(back + ahead, a.normal) * a.normal);
@@ -138,8 +135,8 @@ class LineMaker {
       for (std::size_t i = first; i <= last; ++i) {
         if (next_.columns[i].existing != kNone) continue;
         std::size_t from = i > first ? i - 1 : i, to = i < last ? i + 1 : i;
-        if (is_ring() && i == 0) from = n() - 2;
-        if (is_ring() && i + 1 == n()) to = 1;
+        if (line_.is_closed && i == 0) from = n() - 2;
+        if (line_.is_closed && i + 1 == n()) to = 1;
         height_[i] = 0.25 * old[from] + 0.5 * old[i] + 0.25 * old[to];
       }
     }
@@ -155,7 +152,7 @@ class LineMaker {
       if (!step_on_surface(w_, node(i), across_[i], height_[i], c.node)) continue;
       w_.ask_sizes(c.node);
       if (is_over_crest(i)) continue;
-      c.is_placed = dot(c.node.normal, node(i).normal) > std::cos(w_.max_turning) && is_free(i);
+      c.is_placed = dot(c.node.normal, node(i).normal) > std::cos(w_.max_turning) && is_column_free(i);
     }
   }
 
@@ -165,37 +162,31 @@ class LineMaker {
   }
 
   /// Is the way of a column free, and some of the room beyond?
-  bool is_free(std::size_t i) const {
+  bool is_column_free(std::size_t i) const {
     const double length =
         std::max(i > 0 && next_.joined[i - 1] ? width(i - 1) : 0, i + 1 < n() && next_.joined[i] ? width(i) : 0);
     const Vec2 beyond = beyond_of(node(i).p, next_.columns[i].node.p, length / height_[i]);
-    return is_free_from(w_.mesh.triangle_towards(line_.nodes[i], beyond), beyond);
+    return is_free(w_.mesh.seen_from(line_.nodes[i], beyond));
   }
   /// Heights have risen and fall again, towards other rows.
   bool is_over_crest(std::size_t i) const {
     if (!(height_[i] < kFalling * line_.highest[i]) || !(line_.highest[i] > kRisen * line_.lowest[i])) return false;
     const Vec2 ahead = node(i).p + kAhead * (next_.columns[i].node.p - node(i).p);
-    return !is_free_from(w_.mesh.triangle_towards(line_.nodes[i], ahead), ahead);
+    return !is_free(w_.mesh.seen_from(line_.nodes[i], ahead));
   }
   /// Likewise between columns i and i+1.
   bool is_free_between(std::size_t i) const {
-    const std::int32_t start = w_.mesh.left_of(line_.nodes[i], line_.nodes[i + 1]).first;
     const double aspect = width(i) / (0.5 * (height_[i] + height_[i + 1]));
     return std::all_of(std::begin(kBetween), std::end(kBetween), [&](double share) {
       const Vec2 a = (1 - share) * node(i).p + share * node(i + 1).p;
       const Vec2 b = (1 - share) * next_.columns[i].node.p + share * next_.columns[i + 1].node.p;
-      return is_free_from(start, beyond_of(a, b, aspect));
+      return is_free(w_.mesh.seen_left_of(line_.nodes[i], line_.nodes[i + 1], a, beyond_of(a, b, aspect)));
     });
   }
   static Vec2 beyond_of(Vec2 a, Vec2 b, double aspect) {
     return a + (1 + std::clamp(kFreeOfWidth * aspect, kFreeBeyond, kMostFree)) * (b - a);
   }
-  bool is_free_from(std::int32_t start, Vec2 p) const {
-    const Triangulation& m = w_.mesh;
-    if (start == kNone || m.triangles[start].state != kUnfinished) return false;
-    const std::int32_t at = m.locate(p, start);
-    return at != kNone && m.triangles[at].state == kUnfinished;
-  }
+  bool is_free(std::int32_t t) const { return t != kNone && w_.mesh.triangles[t].state == kUnfinished; }
 
   /// Is the quadrilateral between columns i and i+1 one of a row?
   bool is_good(std::size_t i) const {
@@ -225,9 +216,12 @@ class LineMaker {
     std::vector<char> joined = next_.joined;
     for (std::size_t i = 0; i < joined.size(); ++i) {
       double sum = 0, count = 0;
-      for (std::size_t k = i - std::min(i, kNeighbours); k <= std::min(i + kNeighbours, joined.size() - 1); ++k) {
-        if (!next_.joined[k]) continue;
-        sum += aspect(k);
+      const std::size_t before = line_.is_closed ? kNeighbours : std::min(i, kNeighbours);
+      const std::size_t after = line_.is_closed ? kNeighbours : std::min(joined.size() - 1 - i, kNeighbours);
+      for (std::size_t k = 0; k <= before + after; ++k) {
+        const std::size_t at = (i + joined.size() + k - before) % joined.size();
+        if (!next_.joined[at]) continue;
+        sum += aspect(at);
         ++count;
       }
       if (sum < kEndAspect * count) joined[i] = 0;
@@ -236,9 +230,16 @@ class LineMaker {
   }
 
   void drop_short_runs() {
-    for (const auto& [first, last] : find_runs())
-      if (last - first < kLeastRun)
+    const std::vector<Run> runs = find_runs();
+    // those that meet where the line is closed are one
+    std::size_t over = 0;
+    if (line_.is_closed && next_.joined.front() && next_.joined.back())
+      over = runs.front().second - runs.front().first + runs.back().second - runs.back().first;
+    for (const auto& [first, last] : runs) {
+      const bool is_over = over >= kLeastRun && (first == 0 || last + 1 == n());
+      if (last - first < kLeastRun && !is_over)
         std::fill_n(next_.joined.begin() + static_cast<std::ptrdiff_t>(first), last - first, 0);
+    }
   }
 
   FaceWork& w_;
@@ -250,6 +251,28 @@ class LineMaker {
 };
 
 }  // namespace
+
+void open_at_gap(RowLine& line) {
+  const auto gap = std::find(line.joined.begin(), line.joined.end(), 0);
+  if (!line.is_closed || gap == line.joined.end()) return;
+  line.is_closed = false;
+  if (line.nodes.front() == kNone) {
+    line.nodes.front() = line.nodes.back();
+    line.lowest.front() = line.lowest.back();
+    line.highest.front() = line.highest.back();
+  }
+  line.nodes.pop_back();
+  line.lowest.pop_back();
+  line.highest.pop_back();
+  const auto begin_at = [n = gap - line.joined.begin() + 1](auto& of_columns) {
+    std::rotate(of_columns.begin(), of_columns.begin() + n % std::ssize(of_columns), of_columns.end());
+  };
+  begin_at(line.nodes);
+  begin_at(line.lowest);
+  begin_at(line.highest);
+  begin_at(line.joined);
+  line.joined.pop_back();  // the gap
+}
 
 bool is_upright(const MeshNode& a, const MeshNode& b, const MeshNode& c, const MeshNode& d) {
   const MeshNode* corner[4] = {&a, &b, &c, &d};

@@ -14,8 +14,11 @@ struct RowLine {
   std::vector<double> lowest;       ///< [nodes] least height of a column so far, 0 at the beginning
   std::vector<double> highest;      ///< [nodes] greatest height of a column since then, that is after its least
   std::vector<char> joined;         ///< [nodes - 1] does the next row go on between columns i and i+1?
-  bool is_closed = false;           ///< the last column is the first
+  bool is_closed = false;           ///< the last column is the first, and all are joined
 };
+
+/// A closed line that is no longer joined all around becomes an open one, which begins and ends at a gap.
+void open_at_gap(RowLine& line);
 
 /// What bounds the next row at an end: the next node of a loop there, kNone: nothing.
 struct RowSides {

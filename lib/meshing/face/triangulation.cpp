@@ -102,6 +102,32 @@ std::int32_t Triangulation::locate(Vec2 p, std::int32_t start) const {
   return kNone;
 }
 
+std::int32_t Triangulation::seen_from(std::int32_t node, Vec2 p) const {
+  const std::int32_t t = triangle_towards(node, p);
+  return t == kNone ? kNone : go_straight(nodes[node].p, p, t, kNext[index_of(t, node)]);
+}
+
+std::int32_t Triangulation::seen_left_of(std::int32_t a, std::int32_t b, Vec2 from, Vec2 p) const {
+  int k = 0;
+  const std::int32_t t = find_edge(a, b, k);
+  if (t == kNone) return kNone;
+  const bool is_apex_left = orient2d(from, p, nodes[triangles[t].v[kPrev[k]]].p) > 0;
+  return go_straight(from, p, t, is_apex_left ? kNext[k] : kPrev[k]);
+}
+
+/// From triangle t on, which the way leaves across its edge `exit`, if it does.
+std::int32_t Triangulation::go_straight(Vec2 from, Vec2 p, std::int32_t t, int exit) const {
+  for (;;) {
+    const PlaneTriangle& r = triangles[t];
+    if (orient2d(nodes[r.v[exit]].p, nodes[r.v[kNext[exit]]].p, p) >= 0) return t;
+    const std::int32_t o = r.n[exit];
+    if ((r.constrained >> exit & 1) || o == kNone) return kNone;
+    const int entry = neighbour_index(o, t);
+    t = o;
+    exit = orient2d(from, p, nodes[triangles[o].v[kPrev[entry]]].p) > 0 ? kNext[entry] : kPrev[entry];
+  }
+}
+
 std::int32_t Triangulation::triangle_towards(std::int32_t node, Vec2 p) const {
   const Vec2 a = nodes[node].p;
   const std::int32_t first = node_triangle_[node];
@@ -232,6 +258,20 @@ bool Triangulation::force_side(std::int32_t a, std::int32_t b) {
   const std::int32_t t = find_edge(a, b, k);
   constrain(t, k);
   return true;
+}
+
+bool Triangulation::is_fixed(std::int32_t a, std::int32_t b) const {
+  int k = 0;
+  const std::int32_t t = find_edge(a, b, k);
+  return t != kNone && (triangles[t].constrained >> k & 1);
+}
+
+void Triangulation::release_side(std::int32_t a, std::int32_t b) {
+  for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
+    int k = 0;
+    const std::int32_t t = find_edge(from, to, k);
+    if (t != kNone) triangles[t].constrained &= static_cast<std::uint8_t>(~(1 << k));
+  }
 }
 
 std::pair<std::int32_t, std::int32_t> Triangulation::left_of(std::int32_t a, std::int32_t b) const {

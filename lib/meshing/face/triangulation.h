@@ -71,11 +71,20 @@ class Triangulation {
   /// Makes a-b an edge that must stay, by swaps; inside and outside remain as they are. False when a node or an edge
   /// that must stay is in its way.
   bool force_side(std::int32_t a, std::int32_t b);
+  /// Is a-b an edge that must stay?
+  bool is_fixed(std::int32_t a, std::int32_t b) const;
+  /// An edge that had to stay need not. Precondition: force_side() made it so, and no boundary segment is there.
+  void release_side(std::int32_t a, std::int32_t b);
   /// The triangle to the left of edge a -> b and its third corner; kNone when there is no such edge.
   std::pair<std::int32_t, std::int32_t> left_of(std::int32_t a, std::int32_t b) const;
 
   /// Triangle that contains p, walked from `start` without crossing a constrained edge; kNone when one is in the way.
   std::int32_t locate(Vec2 p, std::int32_t start) const;
+
+  /// Triangle that contains p, straight from a node; kNone when an edge that must stay is in the way.
+  std::int32_t seen_from(std::int32_t node, Vec2 p) const;
+  /// Likewise from a point of edge a -> b to its left.
+  std::int32_t seen_left_of(std::int32_t a, std::int32_t b, Vec2 from, Vec2 p) const;
 
   /// The triangle at `node` in which the way to p begins, whatever must stay; kNone: there is none.
   std::int32_t triangle_towards(std::int32_t node, Vec2 p) const;
@@ -120,6 +129,7 @@ class Triangulation {
   std::optional<LoopConflict> force_edge(std::int32_t a, std::int32_t b);
   void mark(std::int32_t t, int k);
   void classify();
+  std::int32_t go_straight(Vec2 from, Vec2 p, std::int32_t t, int exit) const;
   std::int32_t find_edge(std::int32_t a, std::int32_t b, int& k) const;
   int neighbour_index(std::int32_t t, std::int32_t of) const {
     const PlaneTriangle& r = triangles[t];

@@ -131,6 +131,49 @@ TEST(RowBlocks, are_seen_by_new_nodes_under_no_obtuse_angle) {
   }
 }
 
+TEST(RowBlocks, leave_no_edge_that_must_stay_without_a_row_beside_it) {
+  const WallField field(0.1, 0, 1);
+  std::vector<Vec2> comb{{4.4, 0.5}};  // two needles come down into quadrilaterals beside each other
+  for (const double x : {4.62, 5.62}) comb.insert(comb.end(), {{x - 0.02, 0.5}, {x, 0.05}, {x + 0.02, 0.5}});
+  comb.insert(comb.end(), {{6, 0.5}, {6, 0.6}, {4.4, 0.6}});
+  std::reverse(comb.begin(), comb.end());
+  RowCase face({band(10, 10, {3}, {3}), comb}, field);
+  lay_row_blocks(face.work);
+  EXPECT_GT(face.n_laid(), 0);
+  const Triangulation& m = face.work.mesh;
+  for (const PlaneTriangle& t : m.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const bool is_own = t.state == kUnfinished && t.n[k] != kNone && m.triangles[t.n[k]].state == kUnfinished;
+      EXPECT_FALSE(is_own && (t.constrained >> k & 1)) << t.v[k] << " " << t.v[(k + 1) % 3];
+    }
+}
+
+/// Long along circles about the origin.
+class RingField : public WallField {
+ public:
+  RingField() : WallField(0.1, 0, 1) {}
+  LocalSize local(Vec3 x, int&) const override { return {0.1, 1, normalized(Vec3{-x.y, x.x, 0})}; }
+};
+
+/// Triangles laid inside a circle of 60 nodes, the first at `first`, a hole before the 30th.
+int laid_in_circle(int first) {
+  const auto at = [](double node, double radius) {
+    return radius * Vec2{std::cos(2 * M_PI * node / 60), std::sin(2 * M_PI * node / 60)};
+  };
+  std::vector<Vec2> loop;
+  for (int i = 0; i < 60; ++i) loop.push_back(at(first + i, 10));
+  const RingField field;
+  RowCase face({loop, {at(30.3, 9.42), at(30.3, 9), at(30.7, 9), at(30.7, 9.42)}}, field);
+  lay_row_blocks(face.work);
+  return face.n_laid();
+}
+
+TEST(RowBlocks, are_the_same_wherever_a_closed_loop_begins) {
+  const int n = laid_in_circle(0);
+  EXPECT_GT(n, 700);
+  for (int first = 26; first < 36; ++first) EXPECT_EQ(laid_in_circle(first), n) << first;
+}
+
 TEST(RowBlocks, are_none_where_lengths_are_equal) {
   const WallField field(0.5, 0, 0.5);
   RowCase face({band(20, 10, {5}, {5})}, field);

@@ -395,6 +395,46 @@ TEST(Triangulation, forces_a_side_inside_that_no_swap_takes_away) {
   EXPECT_EQ(m.left_of(0, 2).first == kNone, m.left_of(2, 0).first == kNone);
 }
 
+TEST(Triangulation, releases_a_side_that_had_to_stay) {
+  Triangulation m = with_nodes({{0, 0}, {4, 0}, {4, 3}, {0, 3}, {1, 1}, {3, 2.1}, {2, 2}, {2.1, 1}});
+  ASSERT_TRUE(m.build(ring(0, 4)).empty());
+  ASSERT_TRUE(m.force_side(4, 5));
+  EXPECT_TRUE(m.is_fixed(4, 5) && m.is_fixed(5, 4));
+  m.release_side(4, 5);
+  EXPECT_FALSE(m.is_fixed(4, 5) || m.is_fixed(5, 4));
+  EXPECT_TRUE(m.force_side(6, 7));
+  EXPECT_FALSE(m.is_fixed(4, 5));  // no edge at all
+}
+
+/// Does the way from a to b cross the hole of the square?
+bool crosses_hole(Vec2 a, Vec2 b) {
+  double first = 0, last = 1;
+  for (const auto& [from, by, low, high] :
+       {std::array{a.x, b.x - a.x, 1.0, 3.0}, std::array{a.y, b.y - a.y, 1.0, 2.0}}) {
+    first = std::max(first, std::min((low - from) / by, (high - from) / by));
+    last = std::min(last, std::max((low - from) / by, (high - from) / by));
+  }
+  return first < last;
+}
+
+TEST(Triangulation, finds_what_is_seen_straight_from_nodes_and_edges) {
+  Triangulation m = with_nodes(kSquareWithHole);
+  ASSERT_TRUE(m.build(joined(ring(0, 4), ring(4, 4))).empty());
+  insert_nodes(m, 40, 3, {Metric{}});
+  const auto expect_seen = [&](std::int32_t t, Vec2 from, Vec2 p) {
+    EXPECT_EQ(t != kNone, !crosses_hole(from, p)) << from.x << " " << from.y << ", " << p.x << " " << p.y;
+    for (int k = 0; k < 3 && t != kNone; ++k)
+      EXPECT_GE(orient2d(m.nodes[m.triangles[t].v[k]].p, m.nodes[m.triangles[t].v[(k + 1) % 3]].p, p), 0);
+  };
+  for (const Vec2 q : random_points(200, 7)) {
+    const Vec2 p{4 * q.x, 4 * q.y}, from{0.5 + 3 * q.y, 0};
+    if (p.x > 1 && p.x < 3 && p.y > 1 && p.y < 2) continue;
+    for (std::size_t n = 12; n < m.nodes.size(); ++n)
+      expect_seen(m.seen_from(static_cast<std::int32_t>(n), p), m.nodes[n].p, p);
+    expect_seen(m.seen_left_of(0, 1, from, p), from, p);
+  }
+}
+
 TEST(Triangulation, finds_the_triangle_in_which_a_way_begins) {
   Triangulation m = with_nodes({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {2, 2}});
   ASSERT_TRUE(m.build(ring(0, 4)).empty());
