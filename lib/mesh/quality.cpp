@@ -201,6 +201,7 @@ QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, c
   set_percentiles(mesh.triangle_group, quality, report.groups);
   set_percentiles(mesh.triangle_face, quality, report.faces);
   measure_jumps(mesh, edges, area, report);
+  if (corners.is_stretched()) report.rows = measure_rows(mesh, edges, quality);
   if (!quality.empty()) report.model.p1 = nth_smallest(quality, quality.size() / 100);
   return report;
 }

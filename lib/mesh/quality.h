@@ -10,6 +10,7 @@
 
 #include "base/local_size.h"
 #include "mesh/adjacency.h"
+#include "mesh/row_quality.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -76,6 +77,7 @@ struct QualityReport {
   std::vector<JumpStats> group_jumps, face_jumps;  ///< [n_groups], [n_faces]; a pair counts for the face of its first
                                                    ///< triangle
   std::vector<LargeJump> large_jumps;              ///< by the nodes of their common edge
+  RowStats rows;                                   ///< of stretched sizes
 };
 
 /// Local, linear, by threads. `edges`: edges_of(mesh). Shapes, growth and the smallest angles are those of `corners`,

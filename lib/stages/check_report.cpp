@@ -87,6 +87,14 @@ std::string group_table(const SurfaceMesh& mesh, const Findings& f) {
   return n_more ? text + fmt::format("  and {} more: see --json\n", n_more) : text;
 }
 
+std::string rows_line(const RowStats& r) {
+  return fmt::format(
+      "  {:<20} {} quadrilaterals, {:.1f} % with angles within {:g} to {:g} deg; the other triangles: mean {:.4f}, 1st "
+      "percentile {:.4f}; neighbours up to {:.2f} times as large, {} above {:g}\n",
+      "rows", r.n_quads, 100 * r.good_share(), kLeastRowAngleDeg, kMostRowAngleDeg, r.mean, r.p1, r.growth, r.n_grown,
+      kMostRowGrowth);
+}
+
 std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q, bool is_stretched) {
   const std::string worst =
       q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
@@ -97,7 +105,8 @@ std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q, bool 
              is_stretched ? "stretched quality" : "quality", q.model.mean, q.model.p1, q.model.min, worst,
              q.model.n_below_03, q.model.min_angle_deg, q.model.max_angle_deg, q.jump_p999) +
          (is_stretched ? fmt::format("  {:<20} {} triangles with an angle above {:g} deg in space\n", "obtuse",
-                                     q.model.n_above_150_deg, kLargeAngleDeg)
+                                     q.model.n_above_150_deg, kLargeAngleDeg) +
+                             rows_line(q.rows)
                        : "");
 }
 
@@ -229,6 +238,16 @@ json quality_json(const QualityStats& q, ReportDetail detail) {
          {"below_5_deg", q.n_below_5_deg}};
   if (detail == ReportDetail::kFull) j["histogram"] = q.histogram, j["angle_histogram"] = q.angle_histogram;
   return j;
+}
+
+json rows_json(const RowStats& r) {
+  return {{"quadrilaterals", r.n_quads},
+          {"good_share", r.good_share()},
+          {"others", r.n_others},
+          {"others_mean", r.mean},
+          {"others_p1", r.p1},
+          {"growth_max", r.growth},
+          {"growth_above_2.2", r.n_grown}};
 }
 
 json jump_json(const JumpStats& s, ReportDetail detail) {
@@ -411,6 +430,7 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
          {"faces", faces_json(mesh, f, detail)},
          {"seconds", seconds}};
   j["jumps"] = jump_json(f.quality.jumps, ReportDetail::kFull);
+  if (f.is_stretched) j["rows"] = rows_json(f.quality.rows);
   if (f.conformity) j["sizes"] = sizes_json(*f.conformity, detail);
   if (f.deviation) j["deviation"] = deviation_json(f.deviation->model, ReportDetail::kFull);
   if (!f.wings.empty()) j["lifting_surfaces"] = wing_measures_json(f.wings);
