@@ -1,10 +1,36 @@
 // Sorting of 64-bit keys by digits.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace st {
+
+/// Sorts ascending by key_of(item), a 64-bit number; items of one key end in any order. O(n) per digit that differs.
+/// `other` is overwritten: who sorts often keeps it.
+template <class Item, class KeyOf>
+void radix_sort(std::vector<Item>& items, std::vector<Item>& other, const KeyOf& key_of) {
+  constexpr int kDigitBits = 11;
+  constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
+  constexpr std::size_t kSmall = 2048;  // below, comparison sorting is faster than counting
+  if (items.size() < kSmall)
+    return std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); });
+  std::uint64_t varying = 0;
+  for (const Item& item : items) varying |= key_of(item) ^ key_of(items.front());
+  other.resize(items.size(), items.front());
+  for (int shift = 0; shift < 64 && varying >> shift != 0; shift += kDigitBits) {
+    if (((varying >> shift) & (kDigits - 1)) == 0) continue;
+    const auto digit_of = [&](const Item& item) { return (key_of(item) >> shift) & (kDigits - 1); };
+    std::array<std::size_t, kDigits + 1> start{};
+    for (const Item& item : items) ++start[digit_of(item) + 1];
+    for (std::size_t d = 0; d < kDigits; ++d) start[d + 1] += start[d];
+    for (const Item& item : items) other[start[digit_of(item)]++] = item;
+    items.swap(other);
+  }
+}
 
 /// Sorts ascending and removes duplicates. O(n) per digit that differs; needs a second array of the same size.
 void sort_unique(std::vector<std::uint64_t>& keys);

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "base/boxes.h"
 #include "base/limits.h"
 #include "base/predicates.h"
 #include "base/threads.h"
@@ -56,6 +57,7 @@ struct Piece {
   TriangleId triangle = kNone;
   ClippedTriangle polygon;
   Vec3 middle, area;  // area: towards the flow
+  Box3 box;           // of the polygon
 };
 
 /// What a thread needs for the cells at hand.
@@ -280,11 +282,13 @@ class Blanker {
   CellParts parts_of(std::int32_t i, std::vector<Piece>& pieces) const {
     const Cube cell = cube(cut_.leaf[i]);
     clip(i, cell, pieces);
-    const std::array<int, kSamples> group = connect_samples(cell, cut_.leaf[i]);
+    std::array<Vec3, kSamples> sample;
+    for (int s = 0; s < kSamples; ++s) sample[s] = cell.sample(s);
+    const std::array<int, kSamples> group = connect_samples(sample, cut_.leaf[i]);
     constexpr int kVotes = 3;  // of a group's samples: no triangle lies between them
     std::array<int, kSamples> vote{}, count{};
     for (int s = 0; s < kSamples; ++s)
-      if (++count[group[s]] <= kVotes) vote[group[s]] += sign_at(cell.sample(s), pieces);
+      if (++count[group[s]] <= kVotes) vote[group[s]] += sign_at(cell, sample[s], pieces);
     std::array<int, 2> largest{kNone, kNone};  // groups of flow
     for (int g = 0; g < kSamples; ++g) {
       if (count[g] == 0 || vote[g] <= 0) continue;
@@ -317,8 +321,12 @@ class Blanker {
 
   static const Piece* nearest_piece(Vec3 x, const std::vector<Piece>& pieces) {
     const Piece* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
     for (const Piece& piece : pieces)
-      if (!nearest || norm2(piece.middle - x) < norm2(nearest->middle - x)) nearest = &piece;
+      if (const double distance2 = norm2(piece.middle - x); !nearest || distance2 < least) {
+        nearest = &piece;
+        least = distance2;
+      }
     return nearest;
   }
 
@@ -332,6 +340,12 @@ class Blanker {
     return sum;
   }
 
+  static Box3 box_of(const ClippedTriangle& polygon) {
+    Box3 box;
+    for (int k = 0; k < polygon.n; ++k) box.add(polygon.corner[k]);
+    return box;
+  }
+
   /// Triangles of the cell, cut off at its sides.
   void clip(std::int32_t i, const Cube& cell, std::vector<Piece>& pieces) const {
     pieces.clear();
@@ -342,16 +356,17 @@ class Blanker {
       Vec3 area;
       for (int k = 1; k + 1 < polygon.n; ++k)
         area += 0.5 * cross(polygon.corner[k] - polygon.corner[0], polygon.corner[k + 1] - polygon.corner[0]);
-      if (norm2(area) > 0) pieces.push_back({t, polygon, polygon.middle(), flow_sign_ * area});
+      if (!(norm2(area) > 0)) continue;
+      pieces.push_back({t, polygon, polygon.middle(), flow_sign_ * area, box_of(polygon)});
     }
   }
 
   /// For each sample the lowest one that it is connected with along the cell's edges and diagonals.
-  std::array<int, kSamples> connect_samples(const Cube& cell, std::int32_t leaf) const {
+  std::array<int, kSamples> connect_samples(const std::array<Vec3, kSamples>& sample, std::int32_t leaf) const {
     std::array<int, kSamples> group;
     std::iota(group.begin(), group.end(), 0);
     const auto join = [&](int a, int b) {
-      if (group[a] == group[b] || !is_open(cell.sample(a), cell.sample(b), leaf)) return;
+      if (group[a] == group[b] || !is_open(sample[a], sample[b], leaf)) return;
       const auto [low, high] = std::minmax(group[a], group[b]);
       const int from = high, to = low;
       for (int& g : group)
@@ -366,12 +381,17 @@ class Blanker {
 
   /// 1: flow, -1: not, 0: nothing to tell it by. The first triangle on the way to the nearest piece of the surface
   /// decides.
-  int sign_at(Vec3 x, const std::vector<Piece>& pieces) const {
+  int sign_at(const Cube& cell, Vec3 x, const std::vector<Piece>& pieces) const {
+    constexpr double kRounded = 1e-6;  // half edges: far more than clipped corners are rounded by
     const Piece* nearest = nearest_piece(x, pieces);
     if (!nearest) return 0;
+    Box3 way;
+    way.add(x);
+    way.add(nearest->middle);
     double first = std::numeric_limits<double>::infinity();
     int sign = 0;
     for (const Piece& piece : pieces) {
+      if (&piece != nearest && !meet(way, piece.box, kRounded * cell.half)) continue;
       const Vec3 a = surface_.corner(piece.triangle, 0), b = surface_.corner(piece.triangle, 1),
                  c = surface_.corner(piece.triangle, 2);
       const double from = orient3d(a, b, c, x);
@@ -496,18 +516,20 @@ class Blanker {
 
   OpenLinks open_links(std::int32_t leaf, int part, LinkKind kind, Scratch& scratch) const {
     OpenLinks open;
-    std::uint64_t bit = 1;
     std::int32_t last = kNone;
-    std::array<bool, 2> last_open{};
-    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep& step) {
-      if (kind == LinkKind::kAll || step.is_across_face()) {
-        if (other != last) last_open = {passes(leaf, part, other, 0, scratch), passes(leaf, part, other, 1, scratch)};
-        last = other;
-        if (last_open[0]) open.to_first |= bit;
-        if (last_open[1]) open.to_second |= bit;
-      }
-      bit <<= 1;
-    });
+    std::array<std::uint64_t, 2> last_open{};
+    const auto add = [&](std::int32_t other, int n) {
+      if (other != last) last_open = {passes(leaf, part, other, 0, scratch), passes(leaf, part, other, 1, scratch)};
+      last = other;
+      open.to_first |= last_open[0] << n;
+      open.to_second |= last_open[1] << n;
+    };
+    int n = 0;
+    if (kind == LinkKind::kAll)
+      neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { add(other, n++); });
+    else
+      neighbours_.for_each_across_face_numbered(
+          leaf, [&](std::int32_t other, const CellStep&, int of_all) { add(other, of_all); });
     return open;
   }
 

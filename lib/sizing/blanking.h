@@ -90,4 +90,18 @@ void for_each_link(const Blanking* blanking, const Neighbours& neighbours, std::
                       });
 }
 
+/// Likewise, the links across faces of cells alone, in the same order.
+template <class F>
+void for_each_link_across_face(const Blanking& blanking, const Neighbours& neighbours, std::int32_t site, F&& f) {
+  const auto n_leaves = static_cast<std::int32_t>(blanking.colour.size());
+  const std::int32_t row = blanking.site_links[site];
+  const OpenLinks open = row == kNone ? OpenLinks{~std::uint64_t{0}, 0} : blanking.links[row];
+  neighbours.for_each_across_face_numbered(site < n_leaves ? site : blanking.split_leaf[site - n_leaves],
+                                           [&](std::int32_t other, const CellStep& step, int n) {
+                                             if (open.to_first >> n & 1) f(other, step);
+                                             if (open.to_second >> n & 1)
+                                               f(n_leaves + blanking.find_split(other), step);
+                                           });
+}
+
 }  // namespace st

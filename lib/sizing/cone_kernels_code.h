@@ -9,6 +9,22 @@
 namespace st {
 namespace {
 
+typedef float F4 __attribute__((vector_size(16)));
+typedef std::int32_t I4 __attribute__((vector_size(16)));
+typedef float F4Anywhere __attribute__((vector_size(16), aligned(4), may_alias));
+
+inline F4 load_four(const float* p) { return *reinterpret_cast<const F4Anywhere*>(p); }
+/// Without their signs.
+inline F4 magnitudes(const F4& v) { return v < 0 ? -v : v; }
+/// Bit k: the k-th is true.
+inline int signs(const I4& mask) {
+#if defined(__x86_64__)
+  return __builtin_ia32_movmskps(reinterpret_cast<F4>(mask));
+#else
+  return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+#endif
+}
+
 #if defined(ST_EIGHT_WIDE)
 typedef float F8 __attribute__((vector_size(32)));
 typedef std::int32_t I8 __attribute__((vector_size(32)));
@@ -28,20 +44,13 @@ inline F8 root(const F8& v) {
   return r;
 }
 inline I8 where(const I8& mask, std::int32_t a, const I8& b) { return mask ? a - I8{} : b; }
-inline bool is_any(const I8& mask) {
-  typedef std::int64_t I64x4 __attribute__((vector_size(32)));
-  const I64x4 v = reinterpret_cast<I64x4>(mask);
-  return ((v[0] | v[1]) | (v[2] | v[3])) != 0;
-}
+inline bool is_any(const I8& mask) { return __builtin_ia32_movmskps256(reinterpret_cast<F8>(mask)) != 0; }
 inline float least_of(const F8& v) {
   float l = v[0];
   for (int i = 1; i < 8; ++i) l = v[i] < l ? v[i] : l;
   return l;
 }
 #else
-typedef float F4 __attribute__((vector_size(16)));
-typedef std::int32_t I4 __attribute__((vector_size(16)));
-typedef float F4Anywhere __attribute__((vector_size(16), aligned(4), may_alias));
 typedef std::int32_t I4Anywhere __attribute__((vector_size(16), aligned(4), may_alias));
 struct F8 {
   F4 a, b;
@@ -90,12 +99,7 @@ inline F8 root(const F8& v) { return {root(v.a), root(v.b)}; }
 inline I8 where(const I8& mask, std::int32_t x, const I8& y) {
   return {mask.a ? x - I4{} : y.a, mask.b ? x - I4{} : y.b};
 }
-inline bool is_any(const I8& mask) {
-  typedef std::int64_t I64x2 __attribute__((vector_size(16)));
-  const I4 any = mask.a | mask.b;
-  const I64x2 v = reinterpret_cast<I64x2>(any);
-  return (v[0] | v[1]) != 0;
-}
+inline bool is_any(const I8& mask) { return signs(mask.a | mask.b) != 0; }
 inline float least_of(const F8& v) {
   const F4 four = least(v.a, v.b);
   float l = four[0];
@@ -214,13 +218,12 @@ std::int32_t sides_ahead(const float* cell, const float* cone, bool& is_near) {
   const ConeView of(cone);
   is_near = is_near_cell(cell, cone);
   const float half = kOnSide * in.half;
-  std::int32_t sides = 0;
-  for (int k = 0; k < 3; ++k) {
-    const float reach = __builtin_fabsf(of.side[0][k]) * of.half[0] + __builtin_fabsf(of.side[1][k]) * of.half[1],
-                from_center = of.x[k] - in.c[k];
-    sides |= (from_center + reach >= -half) << (2 * k) | (from_center - reach <= half) << (2 * k + 1);
-  }
-  return sides;
+  constexpr std::int8_t kEverySecond[8] = {0, 1, 4, 5, 16, 17, 20, 21};
+  // of four numbers the first three count
+  const F4 reach = magnitudes(load_four(of.side[0])) * of.half[0] + magnitudes(load_four(of.side[1])) * of.half[1],
+           from_center = load_four(of.x) - load_four(in.c);
+  return kEverySecond[signs(from_center + reach >= -half) & 7] | kEverySecond[signs(from_center - reach <= half) & 7]
+                                                                     << 1;
 }
 
 void cone_lengths(const float* cell, const float* cone, float* lengths) {

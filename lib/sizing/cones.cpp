@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/limits.h"
+#include "base/radix_sort.h"
 #include "sizing/cone_cell.h"
 
 namespace st {
@@ -170,7 +171,10 @@ class ConeSpread {
 
   /// Site by site: so those that are looked at lie beside each other in memory.
   void pass_on_in_order(std::vector<Event> events) {
-    std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.key < b.key; });
+    const int bits = std::bit_width(samples_.size());  // of a sample: fewer digits to sort by
+    radix_sort(events, sorting_, [bits](const Event& e) {
+      return static_cast<std::uint64_t>(e.site()) << bits | static_cast<std::uint64_t>(e.sample());
+    });
     for (std::size_t i = 0; i < events.size(); ++i) {
       if (i + 2 * kAhead < events.size()) fetch(events[i + 2 * kAhead]);
       if (i + kAhead < events.size()) fetch_beside(events[i + kAhead].site());
@@ -222,8 +226,8 @@ class ConeSpread {
         beside_.push_back({other, 1 << side});
       });
     else
-      for_each_link(blanking_, neighbours_, site, [&](std::int32_t other, const CellStep& step) {
-        if (step.is_across_face()) beside_.push_back({other, kAlways});
+      for_each_link_across_face(*blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) {
+        beside_.push_back({other, kAlways});
       });
     require_countable(beside_.size(), "cells beside cells");
     last = static_cast<std::int32_t>(beside_.size());
@@ -336,6 +340,7 @@ class ConeSpread {
   std::vector<Beside> beside_;
   std::vector<SampleLink> entries_;  // of sites with many samples
   std::vector<std::vector<Event>> buckets_;
+  std::vector<Event> sorting_;
   std::vector<std::int32_t> kept_, near_;
   std::size_t now_ = 0;
 };

@@ -30,22 +30,43 @@ class TriangleWalk {
   std::vector<std::pair<std::int32_t, TriangleId>> found;  // leaf, triangle
 
  private:
+  /// Halves of a cube that the triangle's box meets: a bit for each axis.
+  struct Halves {
+    int lower, upper;
+
+    bool is_one_child() const { return (lower ^ upper) == 7; }
+    bool has(int child) const { return ((child & upper) | (~child & lower)) == 7; }
+  };
+  Halves halves(Vec3 center, double q) const {
+    const double reach = (kTouching - 1) * q;
+    return {
+        (box_.lo.x <= center.x + reach) | (box_.lo.y <= center.y + reach) << 1 | (box_.lo.z <= center.z + reach) << 2,
+        (box_.hi.x >= center.x - reach) | (box_.hi.y >= center.y - reach) << 1 | (box_.hi.z >= center.z - reach) << 2};
+  }
+  std::int32_t child(std::int32_t node, int o) const {
+    return octree_.node_children[8 * static_cast<std::size_t>(node) + static_cast<std::size_t>(o)];
+  }
+  static Vec3 child_center(Vec3 center, double q, int o) {
+    return center + Vec3{o & 1 ? q : -q, o & 2 ? q : -q, o & 4 ? q : -q};
+  }
+
   /// Precondition: the triangle's box meets the cube.
   void descend(std::int32_t node, Vec3 center, double half) {
+    Halves met{};
+    for (; node >= 0; half *= 0.5) {  // large cubes have the triangle in one child
+      met = halves(center, 0.5 * half);
+      if (!met.is_one_child()) break;
+      node = child(node, met.upper);
+      center = child_center(center, 0.5 * half, met.upper);
+    }
     if (!meets_plane(center, kTouching * half)) return;
     if (node < 0) {
       if (!is_apart(center, kTouching * half)) found.emplace_back(~node, triangle_);
       return;
     }
-    const double q = 0.5 * half, reach = (kTouching - 1) * q;
-    const int lower = (box_.lo.x <= center.x + reach) | (box_.lo.y <= center.y + reach) << 1 |
-                      (box_.lo.z <= center.z + reach) << 2,
-              upper = (box_.hi.x >= center.x - reach) | (box_.hi.y >= center.y - reach) << 1 |
-                      (box_.hi.z >= center.z - reach) << 2;  // a bit for each axis: halves that the box meets
+    const double q = 0.5 * half;
     for (int o = 0; o < 8; ++o)
-      if (((o & upper) | (~o & lower)) == 7)
-        descend(octree_.node_children[8 * static_cast<std::size_t>(node) + static_cast<std::size_t>(o)],
-                center + Vec3{o & 1 ? q : -q, o & 2 ? q : -q, o & 4 ? q : -q}, q);
+      if (met.has(o)) descend(child(node, o), child_center(center, q, o), q);
   }
   bool meets_box(Vec3 c, double h) const {
     return box_.lo.x <= c.x + h && box_.hi.x >= c.x - h && box_.lo.y <= c.y + h && box_.hi.y >= c.y - h &&
@@ -115,9 +136,11 @@ ClippedTriangle clip_triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 center, double half) 
     const auto is_inside = [&](const Vec3& v) { return sign * component(v, axis) <= half; };
     if (std::all_of(polygon.corner, polygon.corner + polygon.n, is_inside)) continue;
     ClippedTriangle next;
+    double to_next = half - sign * component(polygon.corner[0], axis);
     for (int k = 0; k < polygon.n; ++k) {
-      const Vec3 p = polygon.corner[k], q = polygon.corner[(k + 1) % polygon.n];
-      const double dp = half - sign * component(p, axis), dq = half - sign * component(q, axis);
+      const Vec3 p = polygon.corner[k], q = polygon.corner[k + 1 < polygon.n ? k + 1 : 0];
+      const double dp = to_next, dq = half - sign * component(q, axis);
+      to_next = dq;
       if (dp >= 0) next.corner[next.n++] = p;
       if ((dp > 0 && dq < 0) || (dp < 0 && dq > 0)) next.corner[next.n++] = p + dp / (dp - dq) * (q - p);
     }

@@ -86,6 +86,20 @@ class Neighbours {
     for (const int d : kAcross) visit_direction(place, d, f);
   }
 
+  /// Likewise, calls f(leaf, step, n): it is the n-th that for_each() comes to, in its order.
+  template <class F>
+  void for_each_across_face_numbered(std::int32_t leaf, F&& f) const {
+    if (octree_.node_children.empty()) return;
+    const Place place(*this, leaf);
+    int n = 0;
+    for (int d = 0; d < 27; ++d) {
+      if (kIsAcross >> d & 1)
+        visit_direction(place, d, [&](std::int32_t other, const CellStep& step) { f(other, step, n++); });
+      else if (d != kOwn)
+        n += count_in_direction(place, d);
+    }
+  }
+
   /// Likewise, calls f(leaf, side): 2 * axis of the lower side, and one more of the upper.
   template <class F>
   void for_each_across_side(std::int32_t leaf, F&& f) const {
@@ -100,6 +114,7 @@ class Neighbours {
   static constexpr std::int32_t kOutside = std::numeric_limits<std::int32_t>::min();
   static constexpr int kOwn = 13;  // the direction of the cell itself
   static constexpr int kAcross[6] = {12, 10, 4, 14, 16, 22};
+  static constexpr std::uint32_t kIsAcross = 1u << 12 | 1u << 10 | 1u << 4 | 1u << 14 | 1u << 16 | 1u << 22;
   /// Of a leaf among the cells of its parent.
   struct Place {
     const std::int32_t* around;  // its parent
@@ -117,6 +132,13 @@ class Neighbours {
   }
   template <class F>
   void visit_direction(const Place& place, int direction, F&& f) const;
+  /// How often visit_direction() calls.
+  int count_in_direction(const Place& place, int direction) const {
+    const NeighbourSteps::Beside& beside = place.beside[direction];
+    const std::int32_t node = place.around[beside.direction];
+    if (node < 0) return node != kOutside;
+    return children(node)[beside.child] < 0 ? 1 : kNeighbourSteps.finer[direction].n;
+  }
 
   OctreeView octree_;
   std::vector<std::int32_t> node_neighbours_;  // [27*n_nodes] node, ~leaf or kOutside

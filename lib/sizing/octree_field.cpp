@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "base/threads.h"
+
 namespace st {
 namespace {
 
@@ -258,7 +260,10 @@ ProlongedLengths lengths_at_centers(OctreeFieldData data) {
   data.scale = 1;
   data.sources = nullptr;
   const OctreeField field(data, nullptr, std::numeric_limits<double>::min());
-  for (std::size_t i = 0; i < n; ++i) at.cells[i] = field.at_center(static_cast<std::int32_t>(i), at.cause[i]);
+  constexpr std::size_t kCellsPerPiece = 8'192;
+  parallel_for(n, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) at.cells[i] = field.at_center(static_cast<std::int32_t>(i), at.cause[i]);
+  });
   for (std::size_t k = 0; k < at.second_cells.size(); ++k) {
     at.second_cells[k] = field.at_center(static_cast<std::int32_t>(n + k), at.second_cause[k]);
     at.cells[data.split_leaf[k]].upper *= -1;  // says that there is a second part

@@ -35,7 +35,7 @@ class SiteVisitor {
  private:
   /// The parts of the leaf on whose surface the sample lies.
   void visit_parts(const LengthSample& s, std::int32_t leaf) const {
-    const std::int32_t k = blanking_.find_split(leaf);
+    const std::int32_t k = blanking_.colour[leaf] == CellColour::kCut ? blanking_.find_split(leaf) : kNone;
     if (k == kNone || concerns(s, blanking_, k, false)) f_(leaf);
     if (k != kNone && concerns(s, blanking_, k, true)) f_(octree_.n_leaves() + k);
   }

@@ -162,9 +162,7 @@ class StretchSpread {
     if (!blanking_ || blanking_->site_links[site] == kNone)
       neighbours_.for_each_across_face(site, [&](std::int32_t other, const CellStep&) { f(other); });
     else
-      for_each_link(blanking_, neighbours_, site, [&](std::int32_t other, const CellStep& step) {
-        if (step.is_across_face()) f(other);
-      });
+      for_each_link_across_face(*blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) { f(other); });
   }
 
   /// Whether it leads on.

@@ -33,6 +33,24 @@ TEST(RadixSort, sorts_keys_that_differ_in_few_digits) {
   expect_as_std(random_keys(5000, (std::uint64_t{1} << 63) | 0x7));
 }
 
+TEST(RadixSort, sorts_items_by_a_key_of_theirs) {
+  struct Item {
+    std::uint64_t key;
+    int n;
+  };
+  std::vector<Item> other;
+  for (const std::size_t n : {5000, 100, 3000}) {
+    std::vector<Item> items;
+    for (const std::uint64_t key : random_keys(n, 0xffff00ff)) items.push_back({key, static_cast<int>(key % 1000)});
+    radix_sort(items, other, [](const Item& item) { return item.key; });
+    ASSERT_EQ(items.size(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+      EXPECT_EQ(items[i].n, static_cast<int>(items[i].key % 1000));
+      EXPECT_TRUE(i == 0 || items[i - 1].key <= items[i].key);
+    }
+  }
+}
+
 TEST(RadixSort, keeps_one_of_equal_keys) {
   std::vector<std::uint64_t> keys(5000, 42);
   sort_unique(keys);

@@ -304,6 +304,10 @@ TEST(Blanking, finds_links_across_faces_alone) {
         has_others = true;
     });
     ASSERT_EQ(across_few, across) << site;
+    across_few.clear();
+    for_each_link_across_face(few, neighbours, site,
+                              [&](std::int32_t to, const CellStep&) { across_few.push_back(to); });
+    ASSERT_EQ(across_few, across) << site;
     n_faces += static_cast<int>(across.size());
     if (few.site_links[site] == kNone) continue;  // all are open
     ASSERT_EQ(has_others, across.empty() && !around.empty()) << site;

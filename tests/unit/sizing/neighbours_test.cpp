@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "unit/sizing/cases.h"
 
@@ -38,6 +40,22 @@ TEST(Neighbours, steps_lead_from_centre_to_centre) {
       ASSERT_LT(distance(to, octree.leaf_center(b)), 1e-9);
       ASSERT_EQ(step.length2, step.x * step.x + step.y * step.y + step.z * step.z);
     });
+}
+
+TEST(Neighbours, across_faces_are_numbered_as_among_all) {
+  const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(300));
+  const Neighbours neighbours(raster.shape.view());
+  for (std::int32_t a = 0; a < raster.shape.view().n_leaves(); ++a) {
+    std::vector<std::pair<std::int32_t, int>> found, expected;
+    neighbours.for_each_across_face_numbered(
+        a, [&](std::int32_t b, const CellStep& step, int n) { found.emplace_back(b, 100 * n + step.length2); });
+    int n = 0;
+    neighbours.for_each(a, [&](std::int32_t b, const CellStep& step) {
+      if (step.is_across_face()) expected.emplace_back(b, 100 * n + step.length2);
+      ++n;
+    });
+    ASSERT_EQ(found, expected) << "leaf " << a;
+  }
 }
 
 TEST(Neighbours, of_a_single_cell_are_none) {
