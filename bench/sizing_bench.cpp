@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "base/processor_time.h"
 #include "geometry/import/import.h"
 #include "geometry/model/model.h"
 #include "io/hdf5/artifact.h"
@@ -238,6 +239,33 @@ void bench_stretch(const SizingArtifact& sizing, const OctreeField& field, const
          static_cast<double>(sizing.cones.along_of_site.size()) / sizing.shape.view().n_leaves());
 }
 
+/// Lengths at the centres of cells that touch, in the flow and away from walls where these blank.
+void bench_neighbours(const SizingArtifact& sizing, const OctreeField& field) {
+  constexpr double kRounded = 1 + 1e-5;
+  const OctreeView octree = sizing.shape.view();
+  const std::vector<CellColour>& colour = sizing.blanking.colour;
+  const Neighbours neighbours(octree);
+  struct Steps {
+    std::int64_t n = 0, n_steep = 0;
+    double steepest = 0;
+  } across, others;  // faces; edges and corners
+  int hint = 0;
+  for (std::int32_t a = 0; a < octree.n_leaves(); ++a)
+    neighbours.for_each(a, [&](std::int32_t b, const CellStep& step) {
+      if (b < a || (!colour.empty() && (colour[a] != CellColour::kFlow || colour[b] != CellColour::kFlow))) return;
+      const Vec3 from = octree.leaf_center(a), to = octree.leaf_center(b);
+      const double change = std::abs(field.size(to, hint) - field.size(from, hint)),
+                   steepness = change / (sizing.slope * sizing.scale * distance(from, to));
+      Steps& of = step.is_across_face() ? across : others;
+      ++of.n;
+      of.n_steep += steepness > kRounded;
+      of.steepest = std::max(of.steepest, steepness);
+    });
+  for (const Steps* of : {&across, &others})
+    report("{} steps between cells across {}: {} steeper than the slope, at most {:.4f} times\n", of->n,
+           of == &across ? "faces" : "edges and corners", of->n_steep, of->steepest);
+}
+
 void bench_envelope(const std::string& raster_path, const std::string& sizing_path, const std::string& mesh_path) {
   constexpr int kPoints = 10'000, kSteps = 1'000'000;
   const RasterArtifact raster = read_raster(raster_path);
@@ -277,6 +305,7 @@ void bench_envelope(const std::string& raster_path, const std::string& sizing_pa
   const auto n_steep = std::count_if(steps.begin(), steps.end(), [](double s) { return s > 1.01; });
   report("steps of up to 1.7 lengths: {:.4f} % steeper than the slope by over 1 %, at most {:.3f} times\n",
          100.0 * static_cast<double>(n_steep) / kSteps, *std::max_element(steps.begin(), steps.end()));
+  bench_neighbours(sizing, field);
   report("cones: {} of {} samples, {:.2f} per cell\n", sizing.cones.cone.size(), raster.samples.size(),
          static_cast<double>(sizing.cones.of_site.size()) / octree.n_leaves());
   if (field.is_stretched()) bench_stretch(sizing, field, raster.samples, cones, mesh.node_xyz);
@@ -426,7 +455,7 @@ void share_sizing(const std::string& path, int n) {
   }
 }
 
-/// What the mesher's inner loop costs: best of five runs over all inner nodes.
+/// What the mesher's inner loop costs: processor time of the best of twenty runs over all inner nodes.
 void time_nodes(const std::string& sizing_path, const std::string& patches_path) {
   const MappedSizing sizing = map_sizing(sizing_path);
   std::vector<Vec3> nodes;
@@ -434,15 +463,16 @@ void time_nodes(const std::string& sizing_path, const std::string& patches_path)
     nodes.insert(nodes.end(), patch.inner_xyz.begin(), patch.inner_xyz.end());
   const auto time = [&](const char* what, const auto& length_at) {
     double best = 1e300, sum = 0;
-    for (int i = 0; i < 5; ++i) {
-      const Timer timer;
+    constexpr int kRuns = 20;
+    for (int i = 0; i < kRuns; ++i) {
+      const double start = thread_seconds();
       int hint = 0;
       for (const Vec3& x : nodes) sum += length_at(x, hint);
-      best = std::min(best, timer.seconds());
+      best = std::min(best, thread_seconds() - start);
     }
     report("nodes   {} of {} cells: {:.1f} ns per query of {} (mean {:.9g})\n", nodes.size(),
            sizing.field->data().octree.n_leaves(), 1e9 * best / static_cast<double>(nodes.size()), what,
-           sum / 5 / static_cast<double>(nodes.size()));
+           sum / kRuns / static_cast<double>(nodes.size()));
   };
   time("the length", [&](Vec3 x, int& hint) { return sizing.field->size(x, hint); });
   time("both lengths", [&](Vec3 x, int& hint) { return sizing.field->local(x, hint).along; });

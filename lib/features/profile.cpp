@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <unordered_set>
 #include <utility>
 
 #include "base/boxes.h"
@@ -154,9 +153,9 @@ std::optional<ProfileCutter::Segment> ProfileCutter::nearest_segment(Vec3 origin
 
 std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 normal, double reach) const {
   std::vector<Segment> part, todo;
-  std::unordered_set<std::int32_t> taken;
+  std::vector<bool> is_taken(facets_.triangle.size());
   if (const std::optional<Segment> first = nearest_segment(origin, normal, reach)) {
-    taken.insert(first->facet);
+    is_taken[first->facet] = true;
     todo.push_back(*first);
   }
   while (!todo.empty()) {
@@ -169,7 +168,8 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
       for (std::int32_t i = node_begin_[a]; i < node_begin_[a + 1]; ++i) {
         if (std::ranges::count(facets_.triangle[facet_[i]], b) == 0) continue;
         ++n_facets;
-        if (!taken.insert(facet_[i]).second) continue;
+        if (is_taken[facet_[i]]) continue;
+        is_taken[facet_[i]] = true;
         if (const std::optional<Segment> next = segment_of(facet_[i], origin, normal)) todo.push_back(*next);
       }
       if (ends_ && n_facets == 1) ends_->push_back({facets_.face[s.facet], s.end[k]});

@@ -66,20 +66,23 @@ CellArea make_cell(std::int32_t leaf, double area, Vec3 center, Vec3 normal) {
 }
 
 /// Sums parts of the same leaf, in the order in which they came, and scales the total to `face_area`.
-std::vector<CellArea> unite(std::vector<FacePart> parts, double face_area, Vec3 origin) {
-  std::stable_sort(parts.begin(), parts.end(), [](const FacePart& a, const FacePart& b) { return a.leaf < b.leaf; });
+std::vector<CellArea> unite(const std::vector<FacePart>& unsorted, double face_area, Vec3 origin) {
+  std::vector<std::pair<std::int32_t, std::size_t>> order;  // leaf, and which came when
+  for (const FacePart& p : unsorted) order.emplace_back(p.leaf, order.size());
+  std::sort(order.begin(), order.end());
   double total = 0;
-  for (const FacePart& p : parts) total += p.area;
+  for (const auto& [leaf, i] : order) total += unsorted[i].area;
   const double scale = face_area > 0 && total > 0 ? face_area / total : 1;
   std::vector<CellArea> cells;
-  for (std::size_t i = 0; i < parts.size();) {
-    const std::int32_t leaf = parts[i].leaf;
+  for (std::size_t i = 0; i < order.size();) {
+    const std::int32_t leaf = order[i].first;
     double area = 0;
     Vec3 moment, normal;
-    for (; i < parts.size() && parts[i].leaf == leaf; ++i) {
-      area += parts[i].area;
-      moment += parts[i].area * parts[i].center;
-      normal += (dot(normal, parts[i].normal) < 0 ? -1.0 : 1.0) * parts[i].normal;
+    for (; i < order.size() && order[i].first == leaf; ++i) {
+      const FacePart& p = unsorted[order[i].second];
+      area += p.area;
+      moment += p.area * p.center;
+      normal += (dot(normal, p.normal) < 0 ? -1.0 : 1.0) * p.normal;
     }
     if (area > 0) cells.push_back(make_cell(leaf, scale * area, moment / area - origin, normal));
   }

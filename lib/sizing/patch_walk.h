@@ -98,6 +98,19 @@ inline void add_clipped(Vec2 a, Vec2 b, const Box2& clip, Box2& box) {
 /// Between the probes, without further evaluations. Not of patches that must_split() splits.
 template <class Probe>
 PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
+  const auto widen = [](Vec3& half, Vec3 side) {
+    if (0.25 * norm2(side) > norm2(half)) half = 0.5 * side;
+  };
+  const auto is_half_way = [](const double(&x)[3]) { return 2 * (x[1] - x[0]) == x[2] - x[0]; };
+  if (patch.sides.empty() && is_half_way(patch.u) && is_half_way(patch.v)) {  // what follows, of the whole patch
+    const auto& p = patch.probe;
+    PatchPart part{p[4].x, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) {
+      widen(part.along_u, p[3 * k + 2].x - p[3 * k].x);
+      widen(part.along_v, p[k + 6].x - p[k].x);
+    }
+    return part;
+  }
   const Box2 whole{{patch.u[0], patch.v[0]}, {patch.u[2], patch.v[2]}};
   Box2 box;
   for (const std::int32_t s : patch.sides) add_clipped(loops.sides()[s].a, loops.sides()[s].b, whole, box);
@@ -114,9 +127,6 @@ PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
   };
   const Vec2 c = box.center();
   PatchPart part{at(c.x, c.y), {}, {}};
-  const auto widen = [](Vec3& half, Vec3 side) {
-    if (0.25 * norm2(side) > norm2(half)) half = 0.5 * side;
-  };
   for (const double v : {box.lo.y, c.y, box.hi.y}) widen(part.along_u, at(box.hi.x, v) - at(box.lo.x, v));
   for (const double u : {box.lo.x, c.x, box.hi.x}) widen(part.along_v, at(u, box.hi.y) - at(u, box.lo.y));
   return part;

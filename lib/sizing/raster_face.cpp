@@ -32,6 +32,95 @@ struct CurvatureProbe {
   double curvature = 0;  // largest absolute principal curvature; zero at a singular point
 };
 
+/// Pairs of a patch's probes: neighbours along rows, columns and both diagonals. Two that follow each other lie beside
+/// each other.
+struct ProbePairs {
+  static constexpr std::size_t n = 20;
+  std::array<std::uint8_t, n> first{}, second{};
+  std::array<std::array<std::uint8_t, 8>, 9> of_probe{};  // pairs with it
+  std::array<std::uint8_t, 9> n_of_probe{};
+
+  constexpr ProbePairs() {
+    constexpr std::uint8_t kFirst[] = {0, 3, 6, 0, 2, 4, 0, 3, 1, 4}, kSecond[] = {1, 4, 7, 3, 5, 7, 4, 7, 3, 6};
+    for (std::size_t i = 0; i < n; ++i) {
+      first[i] = static_cast<std::uint8_t>(kFirst[i / 2] + i % 2);
+      second[i] = static_cast<std::uint8_t>(kSecond[i / 2] + i % 2);
+      for (const std::size_t k : {first[i], second[i]}) of_probe[k][n_of_probe[k]++] = static_cast<std::uint8_t>(i);
+    }
+  }
+};
+constexpr ProbePairs kPairs;
+
+/// How the surface turns between probes inside the loops, by pair; zero where one is outside.
+struct PairTurning {
+  static constexpr std::size_t n = ProbePairs::n;
+  std::array<double, n> angle, rate;  // rate: angle per distance
+
+  /// `noise`: angles up to it say nothing of the rate. Loops are apart so that two pairs are computed at once.
+  PairTurning(const Patch<CurvatureProbe>& patch, double noise) {
+    std::array<double, n> half{}, length{};
+    add_squares(
+        patch, [](const CurvatureProbe& p) { return p.normal; }, half);
+    add_squares(
+        patch, [](const CurvatureProbe& p) { return p.x; }, length);
+    int n_large = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      half[i] = 0.5 * std::sqrt(half[i]);
+      angle[i] = small_angle(half[i]);
+    }
+    for (std::size_t i = 0; i < n; ++i) n_large += half[i] * half[i] < kSmall2 ? 0 : 1;
+    for (std::size_t i = 0; i < n && n_large > 0; ++i)
+      if (!(half[i] * half[i] < kSmall2))
+        angle[i] = large_angle(half[i], patch.probe[kPairs.first[i]], patch.probe[kPairs.second[i]]);
+    for (std::size_t i = 0; i < n; ++i) {
+      length[i] = std::sqrt(length[i]) * (1 + angle[i] * angle[i] / 24);  // arc from chord
+      const double own = angle[i] / length[i], told = length[i] > 0 ? own : 0;
+      rate[i] = angle[i] > noise ? told : 0;
+    }
+    if (patch.n_inside == 9) return;
+    for (std::size_t i = 0; i < n; ++i)
+      if (!patch.is_inside[kPairs.first[i]] || !patch.is_inside[kPairs.second[i]]) angle[i] = rate[i] = 0;
+  }
+  static double largest_at(std::size_t probe, const std::array<double, n>& of_pairs) {
+    double largest = 0;
+    for (std::size_t i = 0; i < kPairs.n_of_probe[probe]; ++i)
+      largest = std::max(largest, of_pairs[kPairs.of_probe[probe][i]]);
+    return largest;
+  }
+
+ private:
+  static constexpr double kSmall2 = 0.01;  // up to there the next term of the series is below rounding
+
+  /// Squared distances between what `of` gives for both probes of each pair.
+  template <class Of>
+  static void add_squares(const Patch<CurvatureProbe>& patch, const Of& of, std::array<double, n>& square) {
+    std::array<double, 9> value[3];
+    for (std::size_t k = 0; k < 9; ++k) {
+      const Vec3 v = of(patch.probe[k]);
+      value[0][k] = v.x, value[1][k] = v.y, value[2][k] = v.z;
+    }
+    for (const std::array<double, 9>& axis : value)
+      for (std::size_t i = 0; i < n; i += 2)
+        for (std::size_t k = 0; k < 2; ++k) {
+          const double d = axis[kPairs.second[i] + k] - axis[kPairs.first[i] + k];
+          square[i + k] += d * d;
+        }
+  }
+  /// From half the distance between unit normals: twice its arcsine.
+  static double small_angle(double half) {
+    constexpr double kTerm[] = {1 / 6.0,      3 / 40.0,        15 / 336.0,        105 / 3456.0,
+                                945 / 42240., 10395 / 599040., 135135 / 9676800., 2027025 / 175472640.};
+    const double square = half * half;
+    double sum = 0;
+    for (std::size_t i = std::size(kTerm); i-- > 0;) sum = square * (kTerm[i] + sum);
+    return 2 * half * (1 + sum);
+  }
+  static double large_angle(double half, const CurvatureProbe& a, const CurvatureProbe& b) {
+    if (a.normal == Vec3{} || b.normal == Vec3{}) return 0;
+    return 2 * std::asin(std::min(1.0, half));
+  }
+};
+
 class FaceRaster {
  public:
   using CurvaturePatch = Patch<CurvatureProbe>;
@@ -155,55 +244,22 @@ class FaceRaster {
   /// Largest curvature that the probes inside the loops show: the larger of curvature at a point and angle per distance
   /// between neighbours.
   double patch_curvature(const CurvaturePatch& patch, bool& is_doubtful) const {
-    std::array<double, 9> turning{}, steepest{};  // of the pairs at each probe: largest angle, largest angle per
-                                                  // distance
-    for_each_pair([&](std::size_t a, std::size_t b) {
-      if (!patch.is_inside[a] || !patch.is_inside[b]) return;
-      const double angle = probe_angle(patch.probe[a], patch.probe[b]);
-      const double d = distance(patch.probe[a].x, patch.probe[b].x) * (1 + angle * angle / 24);  // arc from chord
-      const double rate = angle > kAngleNoise * limits_.alpha && d > 0 ? angle / d : 0;
-      for (const std::size_t k : {a, b}) {
-        turning[k] = std::max(turning[k], angle);
-        steepest[k] = std::max(steepest[k], rate);
-      }
-    });
+    const PairTurning pairs(patch, kAngleNoise * limits_.alpha);
     double curvature = 0;
+    for (const double rate : pairs.rate) curvature = std::max(curvature, rate);
     for (std::size_t k = 0; k < 9; ++k) {
       if (!patch.is_inside[k]) continue;
       double own = patch.probe[k].curvature;
-      const double confirmed = kConfirmed * steepest[k];
-      if (is_free_ && own > confirmed && turning[k] < 0.5 * limits_.alpha && own * limits_.max_length > limits_.alpha) {
-        is_doubtful = true;
-        own = confirmed;
-      }
-      curvature = std::max({curvature, own, steepest[k]});
-    }
-    return curvature;
-  }
-
-  static double probe_angle(const CurvatureProbe& a, const CurvatureProbe& b) {
-    if (a.normal == Vec3{} || b.normal == Vec3{}) return 0;
-    const double half = 0.5 * distance(a.normal, b.normal), square = half * half;
-    constexpr double kSmall2 = 1e-4;  // up to there the next term of the series is below rounding
-    if (square < kSmall2)
-      return 2 * half *
-             (1 + square * (1 / 6.0 + square * (3 / 40.0 + square * (15 / 336.0 + square * (105 / 3456.0)))));
-    return 2 * std::asin(std::min(1.0, half));
-  }
-
-  /// Neighbours along rows, columns and both diagonals.
-  template <class F>
-  static void for_each_pair(F&& f) {
-    for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t column = 0; column < 3; ++column) {
-        const std::size_t k = 3 * row + column;
-        if (column < 2) f(k, k + 1);
-        if (row < 2) f(k, k + 3);
-        if (column < 2 && row < 2) {
-          f(k, k + 4);
-          f(k + 1, k + 3);
+      if (is_free_ && own * limits_.max_length > limits_.alpha) {
+        const double confirmed = kConfirmed * PairTurning::largest_at(k, pairs.rate);
+        if (own > confirmed && PairTurning::largest_at(k, pairs.angle) < 0.5 * limits_.alpha) {
+          is_doubtful = true;
+          own = confirmed;
         }
       }
+      curvature = std::max(curvature, own);
+    }
+    return curvature;
   }
 
   /// Largest curvature at the middles of the loop sides, for a patch without a probe inside the loops.
@@ -257,14 +313,15 @@ class FaceRaster {
   static double curvature_along(const CurvaturePatch& patch, Vec3 direction, const Curvature& own) {
     constexpr double kAligned = 0.5;  // cosine: pairs of probes that tell of the direction
     double curvature = std::abs(own.k2);
-    for_each_pair([&](std::size_t a, std::size_t b) {
+    for (std::size_t i = 0; i < ProbePairs::n; ++i) {
+      const std::size_t a = kPairs.first[i], b = kPairs.second[i];
       const CurvatureProbe &pa = patch.probe[a], &pb = patch.probe[b];
-      if (!patch.is_inside[a] || !patch.is_inside[b] || pa.normal == Vec3{} || pb.normal == Vec3{}) return;
+      if (!patch.is_inside[a] || !patch.is_inside[b] || pa.normal == Vec3{} || pb.normal == Vec3{}) continue;
       const Vec3 d = pb.x - pa.x;
       const double along = std::abs(dot(d, direction));
       if (along > kAligned * norm(d))
         curvature = std::max(curvature, std::abs(dot(pb.normal - pa.normal, direction)) / along);
-    });
+    }
     return curvature;
   }
 

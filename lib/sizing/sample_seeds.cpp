@@ -79,9 +79,22 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 
     return std::tuple(s.cause, s.xyz.x, s.xyz.y, s.xyz.z, s.length, s.stretch.along, s.reach.u[0], s.reach.u[1],
                       s.reach.u[2], s.reach.v[0], s.reach.v[1], s.reach.v[2]);
   };
-  std::sort(samples.begin(), samples.end(),
-            [&](const LengthSample& a, const LengthSample& b) { return key(a) < key(b); });
-  return samples;
+  struct Place {  // what tells most apart, and which sample it is
+    std::int32_t cause;
+    float x;
+    std::size_t i;
+  };
+  std::vector<Place> order;
+  order.reserve(samples.size());
+  for (const LengthSample& s : samples) order.push_back({s.cause, static_cast<float>(s.xyz.x), order.size()});
+  std::sort(order.begin(), order.end(), [&](const Place& a, const Place& b) {
+    if (a.cause != b.cause) return a.cause < b.cause;
+    return a.x != b.x ? a.x < b.x : key(samples[a.i]) < key(samples[b.i]);
+  });
+  std::vector<LengthSample> sorted;
+  sorted.reserve(samples.size());
+  for (const Place& p : order) sorted.push_back(samples[p.i]);
+  return sorted;
 }
 
 void forget_samples(RasterOctree& octree) {
