@@ -9,6 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
 
 BODY_IN_AIR = os.environ["ST_BODY_IN_AIR"]
+CUT_MODEL = Path(os.environ["ST_BIN"]).parent / "tests/support/cut_model"
 WING_MODELS = os.environ["ST_WING_MODELS"]
 ROOT = Path(__file__).resolve().parents[2]
 CORPUS = Path(os.environ.get("ST_CORPUS") or ROOT / "../shared/corpus")
@@ -75,6 +76,30 @@ class Domains(ToolTest):
             with self.subTest(variant=variant, suffix=suffix):
                 self.expect(self.make(body, "box", 10, variant, suffix), farfield=farfield, symmetry=0,
                             interface=interface)
+
+    def cut(self, path, seed, n_planes):
+        """All its faces, cut by random planes."""
+        own = self.folder / f"{path.stem}_cut.brep"
+        subprocess.run([CUT_MODEL, path, own, str(seed), str(n_planes)], check=True, capture_output=True, timeout=300)
+        return own
+
+    def test_whose_sides_are_cut_by_planes_are_recognised(self):
+        for seed, kind in enumerate(KINDS):
+            for variant in ("whole", "half"):
+                with self.subTest(kind=kind, variant=variant):
+                    path = self.cut(self.make(self.wing("elliptic_wing"), kind, 10, variant), seed, 8)
+                    domain = self.domain_of(path)
+                    self.assertIsNotNone(domain, f"{path.name} is not recognised")
+                    self.assertGreater(domain["farfield"], 1)
+                    self.assertEqual(domain["symmetry"] > 0, variant == "half")
+
+    def test_machine_parts_cut_by_planes_are_none(self):
+        parts = subprocess.run([BODY_IN_AIR, "parts"], check=True, capture_output=True, text=True).stdout.split()
+        for seed, part in enumerate(parts):
+            with self.subTest(part=part):
+                path = self.folder / f"{part}.brep"
+                subprocess.run([BODY_IN_AIR, "part", part, path], check=True, capture_output=True)
+                self.assertIsNone(self.domain_of(self.cut(path, seed, 6)))
 
     def wing(self, name):
         path = self.folder / f"{name}.brep"

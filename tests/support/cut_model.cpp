@@ -1,8 +1,9 @@
-// Cuts the faces of a CAD model by random planes: cut_model IN OUT.brep SEED N [N_EDGES]
+// Cuts the faces of a CAD model by random planes: cut_model IN OUT.brep SEED N [N_EDGES [SHARE]]
 //
 // The solids are left out, so that planes cut faces only; N = 0 writes the faces as they are. Every plane is an edge
 // between smooth neighbours, somewhere: it says nothing about the shape. N_EDGES random edges are cut at two places
-// which are 1e-5 of their length apart, so that between them is a short one.
+// which are 1e-5 of their length apart, so that between them is a short one. SHARE: planes pass the middle of the
+// model, of this share of its extents, 1 by default.
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBndLib.hxx>
@@ -81,7 +82,7 @@ TopoDS_Shape split(const TopoDS_Shape& surfaces, const TopTools_ListOfShape& too
   return splitter.Shape();
 }
 
-TopoDS_Shape cut(const TopoDS_Shape& surfaces, int n_planes, Random& random) {
+TopoDS_Shape cut(const TopoDS_Shape& surfaces, int n_planes, double share, Random& random) {
   Bnd_Box box;
   BRepBndLib::Add(surfaces, box);
   double lo[3], hi[3];
@@ -89,7 +90,12 @@ TopoDS_Shape cut(const TopoDS_Shape& surfaces, int n_planes, Random& random) {
   const double size = 2 * std::sqrt(box.SquareExtent());
   TopTools_ListOfShape tools;
   for (int i = 0; i < n_planes; ++i) {
-    const gp_Pnt at(random(lo[0], hi[0]), random(lo[1], hi[1]), random(lo[2], hi[2]));
+    const auto place = [&](int k) {
+      const double inner = 0.5 * (1 - share) * (hi[k] - lo[k]);
+      return random(lo[k] + inner, hi[k] - inner);
+    };
+    const double x = place(0), y = place(1), z = place(2);
+    const gp_Pnt at(x, y, z);
     const gp_Dir normal(random(-1, 1), random(-1, 1), random(-1, 1));
     tools.Append(BRepBuilderAPI_MakeFace(gp_Pln(at, normal), -size, size, -size, size).Face());
   }
@@ -114,15 +120,16 @@ TopoDS_Shape with_short_edges(const TopoDS_Shape& surfaces, int n_edges, Random&
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5 && argc != 6) {
-    std::fputs("usage: cut_model IN OUT.brep SEED N [N_EDGES]\n", stderr);
+  if (argc < 5 || argc > 7) {
+    std::fputs("usage: cut_model IN OUT.brep SEED N [N_EDGES [SHARE]]\n", stderr);
     return 2;
   }
   try {
     TopoDS_Shape surfaces = surfaces_of(read_model(argv[1]));
     Random random(std::strtoull(argv[3], nullptr, 10));
-    if (const int n = std::atoi(argv[4]); n > 0) surfaces = cut(surfaces, n, random);
-    if (argc == 6 && std::atoi(argv[5]) > 0) surfaces = with_short_edges(surfaces, std::atoi(argv[5]), random);
+    if (const int n = std::atoi(argv[4]); n > 0)
+      surfaces = cut(surfaces, n, argc == 7 ? std::atof(argv[6]) : 1, random);
+    if (argc > 5 && std::atoi(argv[5]) > 0) surfaces = with_short_edges(surfaces, std::atoi(argv[5]), random);
     if (!BRepTools::Write(surfaces, argv[2])) throw std::runtime_error(std::string("cannot write ") + argv[2]);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "cut_model: error: %s\n", e.what());

@@ -18,6 +18,7 @@
 
 #include "base/disjoint_sets.h"
 #include "geometry/model/sameness.h"
+#include "geometry/shape/surface.h"
 
 namespace st::occt {
 namespace {
@@ -27,8 +28,10 @@ constexpr int kGrid = 8;                 // samples of a face along u and along 
 constexpr double kInPlane = 1e-4;        // over the model's diagonal: edges have tolerances
 constexpr double kRounding = 1e-6;       // likewise: of places in a plane
 constexpr double kCell = 16;             // of the grid in which edges are looked for, over the rounding
+constexpr double kRough = 10;            // of that: of a plane through three points of a face
 constexpr double kAlong = 0.999;         // cosine between normals in a plane
-constexpr double kLargePlane = 0.25;     // diagonal of the box of a face that may be a symmetry plane, over the model's
+constexpr double kLargePlane = 0.25;     // diagonal of the box of faces that may be a symmetry plane, over the model's
+constexpr double kLargePiece = 0.02;     // likewise of the largest of its faces: twenty planes may have cut it
 constexpr double kStraight = 20;         // degrees
 constexpr std::size_t kMostPlanes = 12;  // that are looked at: a prism of 10 sides
 
@@ -39,31 +42,6 @@ Vec3 point_at(const BRepAdaptor_Surface& surface, double u, double v, Vec3& norm
   const gp_Vec n = du.Crossed(dv);
   normal = normalized(Vec3{n.X(), n.Y(), n.Z()});
   return vec(p);
-}
-
-/// From an edge of a face into it, square to the edge at its middle, once for each side of a seam; none where that
-/// cannot be told.
-std::vector<Vec3> directions_into(const TopoDS_Face& face, const TopoDS_Shape& edge) {
-  std::vector<Vec3> all;
-  for (TopExp_Explorer e(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next()) {
-    if (!e.Current().IsSame(edge)) continue;
-    const TopoDS_Edge own = TopoDS::Edge(e.Current());
-    double first = 0, last = 0;
-    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(own, face, first, last);
-    if (curve.IsNull()) return all;
-    gp_Pnt2d uv;
-    gp_Vec2d way;
-    curve->D1(0.5 * (first + last), uv, way);
-    const BRepAdaptor_Surface surface(face, false);
-    gp_Pnt p;
-    gp_Vec du, dv;
-    surface.D1(uv.X(), uv.Y(), p, du, dv);
-    gp_Vec along = way.X() * du + way.Y() * dv;
-    if (own.Orientation() == TopAbs_REVERSED) along.Reverse();
-    const gp_Vec into = du.Crossed(dv).Crossed(along);
-    all.push_back(normalized(Vec3{into.X(), into.Y(), into.Z()}));
-  }
-  return all;
 }
 
 Vec3 farthest(const std::vector<Vec3>& points, Vec3 from) {
@@ -195,13 +173,20 @@ std::vector<Vec3> AirPieces::edge_points(std::span<const FaceId> faces) const {
   return points;
 }
 
+bool AirPieces::has_edges_in(FaceId f, const HullPlane& plane, double tolerance) const {
+  for (const EdgeId e : t_.edges_of(f))
+    for (int k = 0; k < kPointsPerEdge; ++k)
+      if (std::abs(dot(edge_points_[static_cast<std::size_t>(kPointsPerEdge) * e + k] - plane.point, plane.normal)) >
+          tolerance)
+        return false;
+  return true;
+}
+
 bool AirPieces::is_in_plane(FaceId f, const HullPlane& plane) const {
   double tolerance = std::max(kRounding * diagonal_, t_.face_tolerance[f]);
   for (const EdgeId e : t_.edges_of(f)) tolerance = std::max(tolerance, t_.edge_tolerance[e]);
   const auto is_off = [&](Vec3 x) { return std::abs(dot(x - plane.point, plane.normal)) > tolerance; };
-  for (const EdgeId e : t_.edges_of(f))
-    for (int k = 0; k < kPointsPerEdge; ++k)
-      if (is_off(edge_points_[static_cast<std::size_t>(kPointsPerEdge) * e + k])) return false;
+  if (!has_edges_in(f, plane, tolerance)) return false;
   const std::vector<FaceSample> samples = sample_face(face(f));
   return std::none_of(
              samples.begin(), samples.end(),
@@ -209,19 +194,53 @@ bool AirPieces::is_in_plane(FaceId f, const HullPlane& plane) const {
          (!samples.empty() || t_.face_type[f] == SurfaceType::kPlane);
 }
 
+/// By its edges; the plane through the three points that are far apart.
+std::optional<HullPlane> AirPieces::rough_plane_of(FaceId f) const {
+  const std::vector<Vec3> points = edge_points({&f, 1});
+  if (points.empty()) return std::nullopt;
+  const Vec3 a = farthest(points, points[0]), along = farthest(points, a) - a;
+  Vec3 across;
+  for (const Vec3 x : points)
+    if (const Vec3 n = cross(along, x - a); norm2(n) > norm2(across)) across = n;
+  HullPlane plane{a, normalized(across), {}, 0};
+  return norm2(across) > 0 && has_edges_in(f, plane, kInPlane * diagonal_) ? std::optional(plane) : std::nullopt;
+}
+
 std::optional<HullPlane> AirPieces::hull_plane_of(FaceId f) const {
-  if (t_.face_box[f].diagonal() < kLargePlane * diagonal_) return std::nullopt;
+  if (t_.face_box[f].diagonal() < kLargePiece * diagonal_) return std::nullopt;
+  std::optional<HullPlane> plane = rough_plane_of(f);
+  if (!plane || !turn_outward(*plane, kRough * kInPlane * diagonal_)) return std::nullopt;
   const std::vector<FaceSample> samples = sample_face(face(f));
   if (samples.empty()) return std::nullopt;
-  HullPlane plane{samples[0].xyz, samples[0].normal, {}, 0};
+  plane->point = samples[0].xyz, plane->normal = samples[0].normal;
+  return turn_outward(*plane, kInPlane * diagonal_) && is_in_plane(f, *plane) ? plane : std::nullopt;
+}
+
+bool AirPieces::turn_outward(HullPlane& plane, double rounding) const {
   double below = 0, above = 0;
   for (const Vec3 x : t_.vertex_xyz) {
     const double height = dot(x - plane.point, plane.normal);
     below = std::max(below, -height), above = std::max(above, height);
-    if (std::min(below, above) > kInPlane * diagonal_) return std::nullopt;
+    if (std::min(below, above) > rounding) return false;
   }
   if (above > below) plane.normal = -plane.normal;
-  return is_in_plane(f, plane) ? std::optional(plane) : std::nullopt;
+  return true;
+}
+
+/// Whether some of its faces that hang together span much of the model.
+bool AirPieces::is_large(const HullPlane& plane) const {
+  std::map<EdgeId, std::int32_t> first;
+  DisjointSets sets(static_cast<std::int64_t>(plane.faces.size()));
+  for (std::size_t i = 0; i < plane.faces.size(); ++i)
+    for (const EdgeId e : t_.edges_of(plane.faces[i])) {
+      const auto [known, is_new] = first.emplace(first_edge_[e], static_cast<std::int32_t>(i));
+      if (!is_new) sets.join(static_cast<std::int32_t>(i), known->second);
+    }
+  return std::ranges::any_of(sets.groups(), [&](const std::vector<std::int32_t>& some) {
+    Box3 box;
+    for (const std::int32_t i : some) box.add(t_.face_box[plane.faces[static_cast<std::size_t>(i)]]);
+    return box.diagonal() >= kLargePlane * diagonal_;
+  });
 }
 
 std::vector<HullPlane> AirPieces::hull_planes() const {
@@ -237,12 +256,41 @@ std::vector<HullPlane> AirPieces::hull_planes() const {
         plane->faces.push_back(g);
         plane->area += t_.face_area[g];
       }
-    planes.push_back(std::move(*plane));
+    if (is_large(*plane)) planes.push_back(std::move(*plane));
   }
   std::stable_sort(planes.begin(), planes.end(),
                    [](const HullPlane& a, const HullPlane& b) { return a.area > b.area; });
   if (planes.size() > kMostPlanes) planes.resize(kMostPlanes);
   return planes;
+}
+
+std::vector<FaceRim> AirPieces::rims(FaceId f, EdgeId e) const {
+  std::vector<FaceRim> all;
+  const TopoDS_Face own_face = face(f);
+  for (TopExp_Explorer at(own_face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); at.More(); at.Next()) {
+    if (!at.Current().IsSame(edges_(e + 1))) continue;
+    const TopoDS_Edge own = TopoDS::Edge(at.Current());
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(own, own_face, first, last);
+    if (curve.IsNull()) return all;
+    gp_Pnt2d uv;
+    gp_Vec2d way;
+    curve->D1(0.5 * (first + last), uv, way);
+    gp_Pnt p;
+    gp_Vec du, dv, duu, dvv, duv;
+    BRepAdaptor_Surface(own_face, false).D2(uv.X(), uv.Y(), p, du, dv, duu, dvv, duv);
+    gp_Vec along = way.X() * du + way.Y() * dv;
+    if (own.Orientation() == TopAbs_REVERSED) along.Reverse();
+    const auto to_vec = [](const gp_Vec& v) { return Vec3{v.X(), v.Y(), v.Z()}; };
+    const Vec3 normal = normalized(to_vec(du.Crossed(dv)));
+    FaceRim rim{normalized(cross(normal, to_vec(along))), {}};
+    if (const auto step = tangent_step(to_vec(du), to_vec(dv), rim.into)) {
+      const gp_Vec bend = step->x * step->x * duu + 2 * step->x * step->y * duv + step->y * step->y * dvv;
+      rim.bend = dot(to_vec(bend), normal) * normal;
+    }
+    all.push_back(rim);
+  }
+  return all;
 }
 
 void AirPieces::find_ways() {
@@ -256,7 +304,7 @@ void AirPieces::find_ways() {
     for (Way& way : ways)
       for (const EdgeId own : t_.edges_of(way.face))
         if (first_edge_[own] == e)
-          for (const Vec3 into : directions_into(face(way.face), edges_(own + 1))) way.into = into;
+          for (const FaceRim& rim : rims(way.face, own)) way.into = rim.into;
     ways_.emplace(e, std::move(ways));
   }
 }
@@ -271,7 +319,7 @@ double AirPieces::least_angle(EdgeId e) const {
     for (const EdgeId k : t_.edges_of(f))
       if (first_edge_[k] == first_edge_[e] && std::ranges::count(own, k) == 0) own.push_back(k);
     for (const EdgeId k : own)
-      for (const Vec3 d : directions_into(face(f), edges_(k + 1))) into.push_back(d);
+      for (const FaceRim& rim : rims(f, k)) into.push_back(rim.into);
   }
   double least = kPi;
   for (std::size_t i = 0; i < into.size(); ++i)

@@ -22,6 +22,12 @@ struct FaceSample {
 /// Places inside the loops of a face, of a grid of (u,v); of a face that the grid misses, on its edges alone: none.
 std::vector<FaceSample> sample_face(const TopoDS_Face& face);
 
+/// Where a face begins at an edge, half way along it.
+struct FaceRim {
+  Vec3 into;  ///< from the edge into the face, square to it, unit
+  Vec3 bend;  ///< curvature vector of the face along `into`, 1 / model unit; 0 where it cannot be told
+};
+
 /// A plane that holds whole faces, with all of the model on one side.
 struct HullPlane {
   Vec3 point, normal;         ///< model unit; unit length, out of the model
@@ -48,6 +54,8 @@ class AirPieces {
   const Box3& box() const { return box_; }
   double diagonal() const { return diagonal_; }
   TopoDS_Face face(FaceId f) const;
+  /// Of all edges at one place.
+  EdgeId first_edge(EdgeId e) const { return first_edge_[e]; }
   /// Three faces or more meet there.
   bool is_crowded(EdgeId e) const { return ways_.count(first_edge_[e]) > 0; }
   /// Faces that use an edge, or another one at its place; one that uses it twice appears twice.
@@ -59,7 +67,10 @@ class AirPieces {
   /// Between the faces at an edge, or the two sides of a seam, radians in [0, pi]; pi where that cannot be told.
   double least_angle(EdgeId e) const;
 
-  /// Large flat faces on the hull, and all faces in their planes, the largest area first.
+  /// Of a face at one of its edges, once for each side of a seam; none where that cannot be told.
+  std::vector<FaceRim> rims(FaceId f, EdgeId e) const;
+
+  /// Large flat faces on the hull, in pieces or whole, and all faces in their planes, the largest area first.
   std::vector<HullPlane> hull_planes() const;
 
   /// Faces that are connected without those left out ([n_faces]), in the order of their first faces. An edge of three
@@ -73,8 +84,13 @@ class AirPieces {
   std::vector<Vec3> edge_points(std::span<const FaceId> faces) const;
 
  private:
+  bool has_edges_in(FaceId f, const HullPlane& plane, double tolerance) const;
   bool is_in_plane(FaceId f, const HullPlane& plane) const;
   std::optional<HullPlane> hull_plane_of(FaceId f) const;
+  std::optional<HullPlane> rough_plane_of(FaceId f) const;
+  /// False: the model is on both sides.
+  bool turn_outward(HullPlane& plane, double rounding) const;
+  bool is_large(const HullPlane& plane) const;
   struct Way {
     FaceId face = kNone;
     Vec3 into;  // from the edge into the face, unit

@@ -14,6 +14,7 @@
 
 #include "base/boxes.h"
 #include "geometry/import/air_pieces.h"
+#include "geometry/import/air_sides.h"
 
 namespace st::occt {
 namespace {
@@ -39,7 +40,8 @@ constexpr double kDeep = 0.5;            // height of a wing on its plane over i
 constexpr double kInnerBox = 0.5;        // a box in the air, over the air around it
 constexpr double kInInnerBox = 0.8;      // what is in it, over the box
 constexpr double kClearOfBox = 0.01;     // from it to the box, over its size: ribs end on their skin
-constexpr std::size_t kMostOuter = 100;  // faces: a domain has few
+constexpr std::size_t kMostOuter = 100;  // sides: a domain has few
+constexpr std::size_t kMostFaces = 1000;  // of them: twenty planes cut a box into 200 to 700
 
 /// The point that all normals pass at one distance: centre of a sphere, or of a circle in its plane.
 std::optional<Vec3> common_center(const std::vector<FaceSample>& samples) {
@@ -141,7 +143,7 @@ class AirFinder {
     take_sheets(pieces, split);
     take_inner_boxes(pieces, split);
     for (const AirPiece& piece : pieces) split.body.insert(split.body.end(), piece.faces.begin(), piece.faces.end());
-    if (split.body.empty() || split.outer.size() > kMostOuter) return std::nullopt;
+    if (split.body.empty() || split.outer.size() > kMostFaces) return std::nullopt;
     for (const HullPlane* plane : planes)
       if (!touches(plane->faces, split.body) && !touches(plane->faces, split.interface)) return std::nullopt;
     return split;
@@ -196,7 +198,7 @@ class AirFinder {
   }
 
   bool is_inner_box(const std::vector<AirPiece>& same, const std::vector<AirPiece>& others, const Split& split) const {
-    if (others.empty() || same[0].faces.size() > kMostOuter) return false;
+    if (others.empty() || !has_few_sides(same[0].faces)) return false;
     std::vector<FaceId> inside;
     for (const AirPiece& p : others) {
       if (!encloses(same[0].box, p.box)) return false;
@@ -238,6 +240,7 @@ class AirFinder {
                             outer = pieces_.edge_points(split.outer_and_planes());
     const double body_size = size_of(body), share = body_size / size_of(outer);
     if (!(share > 0) || share > kAskedBody) return false;
+    if (!has_few_sides(split.outer)) return false;
     if (is_asked_) return true;
     const bool is_between = stands_between_planes(split);
     if (share > 2 * kLargestBody && !has_free_form(split.body)) return false;
@@ -297,16 +300,22 @@ class AirFinder {
     return t_.face_type[f] == SurfaceType::kPlane || std::min({extent.x, extent.y, extent.z}) <= kFlat * norm(extent);
   }
 
+  bool has_few_sides(const std::vector<FaceId>& faces) const {
+    return faces.size() <= kMostFaces && (faces.size() <= kMostOuter || sides_of(pieces_, faces).size() <= kMostOuter);
+  }
+
   bool has_roundings(const std::vector<FaceId>& faces) const {
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](FaceId f) { return !is_flat(f) && t_.face_width[f] < length(kRounding); });
+    return std::ranges::any_of(sides_of(pieces_, faces), [&](const AirSide& side) {
+      return side.width < length(kRounding) && !is_flat(side.faces.front());
+    });
   }
 
   /// Between two planes near each other all faces are narrow: their length along the planes counts.
   bool has_roundings_across(const Split& split) const {
     const double height = std::abs(dot(split.planes[1]->point - split.planes[0]->point, split.planes[0]->normal));
-    return std::any_of(split.outer.begin(), split.outer.end(),
-                       [&](FaceId f) { return !is_flat(f) && t_.face_area[f] < length(kRounding) * height; });
+    return std::ranges::any_of(sides_of(pieces_, split.outer), [&](const AirSide& side) {
+      return side.area < length(kRounding) * height && !is_flat(side.faces.front());
+    });
   }
 
   bool has_free_form(const std::vector<FaceId>& faces) const {
@@ -343,13 +352,15 @@ class AirFinder {
       for (const FaceSample& s : sample_face(pieces_.face(f)))
         if (std::abs(dot(s.normal, normal)) > kTaper) return false;
       bool has_corners = t_.face_area[f] < kNarrowBase * chord * height;
+      int n_along = 0;
       for (const EdgeId e : t_.edges_of(f)) {
         if (!is_along(e, normal)) continue;
+        ++n_along;
         const double angle = pieces_.least_angle(e);
         has_corners = has_corners && angle < kBaseCorner;
         has_tail = has_tail || angle < kSharpTail;
       }
-      has_tail = has_tail || has_corners;
+      has_tail = has_tail || (has_corners && n_along > 1);
     }
     return has_tail;
   }

@@ -178,13 +178,6 @@ class TableWriter {
     measures_.crossing.push_back(find_loop_crossing(domain, 2 * tolerance));
   }
 
-  /// Width of the rectangle of this area and perimeter: of a strip its width, of anything rounder than a square the
-  /// square's side.
-  static double rectangle_width(double area, double perimeter) {
-    const double half = 0.5 * perimeter, d = half * half - 4 * area;
-    return d > 0 ? 2 * area / (half + std::sqrt(d)) : std::sqrt(area);
-  }
-
   static Box3 common_box(const Box3& a, const Box3& b) {
     if (b.is_empty() || a.is_empty()) return a;
     return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
@@ -267,6 +260,11 @@ class TableWriter {
 };
 
 }  // namespace
+
+double rectangle_width(double area, double perimeter) {
+  const double half = 0.5 * perimeter, d = half * half - 4 * area;
+  return d > 0 ? 2 * area / (half + std::sqrt(d)) : std::sqrt(area);
+}
 
 ModelOfFile make_tables(const ImportedShape& model, const std::string& path) { return TableWriter(model, path).run(); }
 

@@ -2,8 +2,14 @@
 #include "geometry/import/air_pieces.h"
 
 #include <gtest/gtest.h>
+#include <BRepAlgoAPI_Splitter.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCylinder.hxx>
 #include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_ListOfShape.hxx>
+#include <gp_Pln.hxx>
 
 #include <numeric>
 
@@ -49,6 +55,41 @@ TEST(AirPieces, of_boxes_that_touch_are_the_outside_and_the_wall_between_them) {
   std::size_t n_crowded = 0;
   for (EdgeId e = 0; e < two.tables.n_edges(); ++e) n_crowded += all.is_crowded(e);
   EXPECT_EQ(n_crowded, 8u) << "four edges, each twice";
+}
+
+/// The shells of a shape, cut by the plane across x and planes beside it.
+TopoDS_Shape cut_across_x(const TopoDS_Shape& shape, std::initializer_list<double> places) {
+  BRepAlgoAPI_Splitter splitter;
+  TopTools_ListOfShape shells, planes;
+  for (TopExp_Explorer e(shape, TopAbs_SHELL); e.More(); e.Next()) shells.Append(e.Current());
+  for (const double x : places)
+    planes.Append(BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(x, 0.1, 0.2), gp_Dir(1, 0.1, 0.2)), -9, 9, -9, 9).Face());
+  splitter.SetArguments(shells);
+  splitter.SetTools(planes);
+  splitter.Build();
+  return splitter.Shape();
+}
+
+TEST(AirPieces, find_a_hull_plane_whose_faces_are_all_small) {
+  const Pieces cut(cut_across_x(box(0, 1), {0.1, 0.3, 0.5, 0.7, 0.9}));
+  EXPECT_GT(cut.tables.n_faces(), 20);
+  const std::vector<HullPlane> planes = cut.pieces().hull_planes();
+  ASSERT_EQ(planes.size(), 6u);
+  for (const HullPlane& plane : planes) EXPECT_NEAR(plane.area, 1, 1e-9);
+}
+
+TEST(AirPieces, know_which_way_a_face_goes_from_its_edge_and_how_it_bends) {
+  const Pieces one(BRepPrimAPI_MakeCylinder(2, 3).Shape());
+  const AirPieces all = one.pieces();
+  int n_bent = 0;
+  for (FaceId f = 0; f < one.tables.n_faces(); ++f)
+    for (const EdgeId e : one.tables.edges_of(f))
+      for (const FaceRim& rim : all.rims(f, e)) {
+        EXPECT_NEAR(norm(rim.into), 1, 1e-9);
+        n_bent += norm(rim.bend) > 0;
+        EXPECT_NEAR(norm(rim.bend), norm(rim.bend) > 0 ? 0.5 : 0, 1e-9) << "across the seam";
+      }
+  EXPECT_EQ(n_bent, 4) << "both sides of the seam, seen once from each of its uses";
 }
 
 TEST(AirPieces, have_samples_in_the_face_and_a_size_that_does_not_depend_on_axes) {
