@@ -18,6 +18,7 @@
 #include "features/own_faces.h"
 #include "features/profile.h"
 #include "features/profile_facets.h"
+#include "features/station_gaps.h"
 #include "features/thin_surface.h"
 #include "geometry/shape/projection.h"
 
@@ -32,12 +33,17 @@ constexpr double kLongBlade = 0.05;            // of the reference diagonal: ext
 constexpr double kStraightBlade = 0.7;         // the same over their length
 constexpr double kLeastNoseWay = 0.25;         // of the way along the trailing edge: way along the noses
 constexpr double kOnPlane = 1e-6;              // of the reference diagonal: from a plane of symmetry
-constexpr double kAlongChord = 0.9;            // cosine between a rim and the chord at least
+constexpr double kAcrossSpan = 0.7;            // cosine between the normal of a tip or a root and the chain
 constexpr double kParallelSides = radians(1);  // of a base, from square to it
 constexpr double kShortest = 0.2;              // span over the median chord: pylons, blades of impellers
 constexpr double kSmallPart = 0.01;            // of the reference diagonal: a shorter one has to be half a chord long
 constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
+constexpr double kNarrowStrip = 0.05;          // width of a strip of the skin over the length of its edge, at most
+constexpr double kSameDirection = 0.998;       // cosine: 4 degrees
 constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
+
+constexpr const char *kRimOfEnd = "they are rims of a tip or a root",
+                     *kRimOfPlate = "its base is square to both sides: the rim of a plate";
 
 /// Trailing edges that hang together at vertices or across their base.
 std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::span<const WingEdge> edges) {
@@ -87,6 +93,14 @@ bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
   return 2 * n_near > n;
 }
 
+/// Whether an edge runs along the chord of the nearest station: a rim of the tip or the root, in a chain because it
+/// looks like a blunt trailing edge where the profile is thin.
+bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
+  const auto curve = model.curve(e);
+  const Vec3 begin = curve->point(curve->t_min()), end = curve->point(curve->t_max()), middle = 0.5 * (begin + end);
+  return is_along_chord(surface, e, middle, normalized(end - begin));
+}
+
 /// Why there is no lifting surface.
 struct Reason {
   std::string text;
@@ -106,6 +120,8 @@ using TriedChains = std::map<std::vector<EdgeId>, ExactSurface>;
 /// How a chain is cut; lengths in the model unit.
 struct CutRules {
   std::vector<Vec3> normals;  // of the planes: the first of equally good ones
+  Vec3 along;                 // from end to end of the chain, unit
+  std::vector<EdgeId> rims;   // sharp edges of the chain on planes across that
   double reach = 0;           // how far from a place the cut may begin
   double diagonal = 0;        // reference diagonal
 };
@@ -113,7 +129,13 @@ struct CutRules {
 class SurfaceMeasurer {
  public:
   SurfaceMeasurer(const Model& model, const ProfileCutter& cutter, const CutRules& rules)
-      : model_(model), cutter_(cutter), normals_(rules.normals), reach_(rules.reach), diagonal_(rules.diagonal) {}
+      : model_(model),
+        cutter_(cutter),
+        normals_(rules.normals),
+        along_(rules.along),
+        rims_(rules.rims),
+        reach_(rules.reach),
+        diagonal_(rules.diagonal) {}
 
   /// What profiles show; stations and faces may reach into other bodies yet. Where they show too little along the whole
   /// chain, that of its edges with profiles: others may be the rims of a thin tip or root. Else why there is none.
@@ -131,10 +153,15 @@ class SurfaceMeasurer {
       why = {fmt::format("planes cut the profile of a wing on {:.0f} % of its length, half is needed", 100 * share)};
       return find_part(measured_edges(chain, places, profiles));
     }
+    try_other_cuts(places, profiles);
     LiftingSurface surface = assemble(chain, places, profiles);
     if (!is_measured(surface)) return std::nullopt;
     if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
       why = {fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase), false};
+      return find_part(part);
+    }
+    if (const std::vector<WingEdge> part = without_rims(chain, surface); part.size() < chain.size()) {
+      why = {kRimOfEnd, false};
       return find_part(part);
     }
     why = {why_no_wing(surface), false};
@@ -144,12 +171,17 @@ class SurfaceMeasurer {
 
   /// Leaves out what is not the wing's own, goes on to the ends of its profiles, and fills in the rest. None where
   /// nothing of it is its own.
-  std::optional<LiftingSurface> finish(SurfaceDraft&& draft, std::span<const std::uint8_t> is_concave) const {
+  std::optional<LiftingSurface> finish(SurfaceDraft&& draft, std::span<const std::uint8_t> is_concave,
+                                       std::span<const std::uint8_t> is_wall) const {
     LiftingSurface& surface = draft.surface;
     keep_own(model_.tables(), is_concave, surface);
     if (!is_measured(surface)) return std::nullopt;
-    for (std::size_t k = 0; k < surface.trailing.size(); ++k)
+    const std::vector<std::uint8_t> is_own = find_body_faces(model_.tables(), is_concave, is_wall, surface);
+    for (std::size_t k = 0; k < surface.trailing.size(); ++k) {
       reach_ends(draft.axis[k], surface.faces, surface.trailing[k]);
+      close_gaps({model_, cutter_, reach_, is_own}, draft.axis[k], surface.trailing[k]);
+    }
+    for (ChordEdge& edge : surface.trailing) hide_tip(model_, surface, edge);
     measure_chords(surface);
     fill_in(surface);
     return std::move(surface);
@@ -178,6 +210,14 @@ class SurfaceMeasurer {
     for (std::size_t k = 0; k < chain.size(); ++k)
       if (surface.trailing[k].base_width <= kWidestBase * surface.median_chord) part.push_back(chain[k]);
     return part;
+  }
+
+  /// Without rims of planes across the span that run along the chord: skins that meet a tip or a root at a small angle.
+  std::vector<WingEdge> without_rims(const std::vector<WingEdge>& chain, const LiftingSurface& surface) const {
+    std::vector<WingEdge> part;
+    for (const WingEdge& w : chain)
+      if (std::ranges::count(rims_, w.edge) == 0 || !is_rim(model_, w.edge, surface)) part.push_back(w);
+    return part.empty() ? chain : part;
   }
 
   /// Empty for a wing.
@@ -259,6 +299,7 @@ class SurfaceMeasurer {
       longest = way;
       best_axis = axis;
       best = std::move(own);
+      if (std::ranges::all_of(best, [](const auto& p) { return p.has_value(); })) break;  // none shows more
     }
     return best;
   }
@@ -280,6 +321,33 @@ class SurfaceMeasurer {
     for (const std::size_t i : outliers) profiles[i].reset();
     for (const std::size_t i : outliers) readmit(i, 1, all_profiles[i], profiles);
     for (std::size_t k = outliers.size(); k-- > 0;) readmit(outliers[k], -1, all_profiles[outliers[k]], profiles);
+  }
+
+  static bool is_between(std::span<const std::optional<Profile>> of_edge, std::size_t i) {
+    const auto is_there = [](const std::optional<Profile>& p) { return p.has_value(); };
+    return std::ranges::any_of(of_edge.first(i), is_there) && std::ranges::any_of(of_edge.subspan(i + 1), is_there);
+  }
+
+  /// Square to any axis, and half way from the chain to the edge, where cuts square to the best axis show nothing: at
+  /// tips, and along edges around them.
+  void try_other_cuts(const std::vector<EdgePlace>& places, std::vector<std::optional<Profile>>& profiles) const {
+    std::vector<double> all;
+    for (const auto& p : profiles)
+      if (p) all.push_back(p->chord);
+    const double of_all = median(all);
+    for (std::size_t i = 0; i < profiles.size(); ++i) {
+      const auto of_edge = std::span(std::as_const(profiles)).subspan(places[i].edge * kStations, kStations);
+      const std::vector<double> around = chords_around(of_edge, i % kStations);
+      if (is_between(of_edge, i % kStations)) continue;  // the nose's surface tells more: close_gaps()
+      const double usual = around.empty() ? of_all : median(around);
+      std::vector<Vec3> normals = normals_;
+      const Vec3 tangent = places[i].tangent;
+      normals.push_back(normalized(dot(tangent, along_) < 0 ? along_ - tangent : along_ + tangent));
+      for (std::size_t k = 0; k < normals.size() && !profiles[i]; ++k) {
+        profiles[i] = profile_at(places[i], &normals[k]);
+        if (profiles[i] && is_outlier(profiles[i]->chord, usual)) profiles[i].reset();
+      }
+    }
   }
 
   /// Where an edge's chord goes on as it did at two places before: a tip that becomes short fast. `step`: away from
@@ -403,8 +471,11 @@ class SurfaceMeasurer {
         if (s.is_measured) measured.push_back(s);
     for (ChordEdge& edge : surface.trailing) {
       const auto curve = model_.curve(edge.edge);
-      edge.stations.insert(edge.stations.begin(), {0, curve->point(curve->t_min())});
-      edge.stations.push_back({1, curve->point(curve->t_max())});
+      ChordStation begin{0, curve->point(curve->t_min())}, end{1, curve->point(curve->t_max())};
+      begin.is_hidden = edge.stations.front().is_hidden;
+      end.is_hidden = edge.stations.back().is_hidden;
+      edge.stations.insert(edge.stations.begin(), begin);
+      edge.stations.push_back(end);
       for (ChordStation& s : edge.stations) {
         if (s.is_measured) continue;
         const auto nearest = std::min_element(measured.begin(), measured.end(), [&](const auto& a, const auto& b) {
@@ -418,6 +489,8 @@ class SurfaceMeasurer {
   const Model& model_;
   const ProfileCutter& cutter_;
   const std::vector<Vec3> normals_;
+  const Vec3 along_;
+  const std::vector<EdgeId> rims_;
   const double reach_, diagonal_;
   mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
   mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
@@ -492,15 +565,6 @@ bool has_wall_facets(const FaceRoles& roles, double deflection) {
          std::ranges::all_of(roles.role, [](FaceRole role) { return role == FaceRole::kWall; });
 }
 
-/// Whether an edge runs along the chord of the nearest station: a rim of the tip or the root, in a chain because it
-/// looks like a blunt trailing edge where the profile is thin.
-bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
-  const auto curve = model.curve(e);
-  const Vec3 begin = curve->point(curve->t_min()), end = curve->point(curve->t_max()), middle = 0.5 * (begin + end);
-  const ChordStation* nearest = surface.nearest_station(middle);
-  return nearest && std::abs(dot(normalized(end - begin), normalized(nearest->nose - nearest->trailing))) > kAlongChord;
-}
-
 /// Edges of a chain that are no part of a surface with noses.
 struct Rest {
   std::vector<WingEdge> edges;
@@ -510,7 +574,7 @@ struct Rest {
 /// Edges of the chain that are none of the surface's trailing edges.
 void note_rest(const Model& model, const std::vector<WingEdge>& chain, const std::optional<LiftingSurface>& surface,
                const Reason& why, std::vector<Rest>& rest) {
-  Rest own{{}, why}, rims{{}, {"they are rims of a tip or a root", false}};
+  Rest own{{}, why}, rims{{}, {kRimOfEnd, false}};
   for (const WingEdge& w : chain) {
     const auto is_same = [&](const ChordEdge& edge) { return edge.edge == w.edge; };
     if (surface && std::any_of(surface->trailing.begin(), surface->trailing.end(), is_same)) continue;
@@ -574,6 +638,7 @@ class SurfaceFinder {
                 std::vector<CutEnd>& ends, TriedChains& tried)
       : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends), tried_(tried) {
     model.tables().edge_faces(offsets_, edge_faces_);
+    for (const FaceRole role : roles.role) is_wall_.push_back(role == FaceRole::kWall);
   }
 
   std::vector<LiftingSurface> run(Noseless noseless, std::vector<UnusedTrailing>* unused) {
@@ -611,7 +676,15 @@ class SurfaceFinder {
     if (std::ranges::all_of(rest.edges, is_at_nose))
       rest.why = {"they are at the nose of a lifting surface", false};
     else if (std::ranges::all_of(rest.edges, [&](const WingEdge& w) { return is_rim_of_plate(w); }))
-      rest.why = {"its base is square to both sides: the rim of a plate", false};
+      rest.why = {kRimOfPlate, false};
+  }
+
+  /// Plane sides, parallel at all of its edges: what stands on a plate may make it look like a profile.
+  bool is_plate(const std::vector<WingEdge>& chain, const LiftingSurface& surface) const {
+    const auto is_own = [&](const WingEdge& w) {
+      return std::ranges::any_of(surface.trailing, [&](const ChordEdge& edge) { return edge.edge == w.edge; });
+    };
+    return std::ranges::all_of(chain, [&](const WingEdge& w) { return !is_own(w) || is_rim_of_plate(w); });
   }
 
   /// Between sides that are parallel, and plane, or a disc's or a tube's.
@@ -662,8 +735,24 @@ class SurfaceFinder {
     });
   }
 
+  /// From end to end: a blade's; zero where a chain comes back.
+  Vec3 direction_of(const std::vector<WingEdge>& chain) const {
+    std::vector<Vec3> ends;
+    for (const WingEdge& w : chain) {
+      const auto curve = model_.curve(w.edge);
+      ends.push_back(curve->point(curve->t_min()));
+      ends.push_back(curve->point(curve->t_max()));
+    }
+    const auto furthest = [&](Vec3 x) {
+      return *std::ranges::max_element(ends, {}, [&](Vec3 end) { return norm2(end - x); });
+    };
+    const Vec3 a = furthest(ends.front()), b = furthest(a);
+    return norm2(b - a) > 0 ? normalized(b - a) : Vec3{};
+  }
+
   /// The model's axes, and before them the normals of plane faces in which a chain ends, as tips and roots are, where
-  /// no axis is near: those of a delta may run along its nose.
+  /// no axis is near: those of a delta may run along its nose. After them the line along the chain: blades stand around
+  /// a hub at any angle.
   std::vector<Vec3> cut_normals(const std::vector<WingEdge>& chain) {
     std::vector<Vec3> normals;
     const auto is_near = [](Vec3 a, Vec3 b) { return std::abs(dot(a, b)) > kNearAxis; };
@@ -674,7 +763,28 @@ class SurfaceFinder {
     for (const FaceId f : planes_at_ends(chain))
       if (const Vec3 n = MirrorPlane(model_, f).normal; !is_known(n)) normals.push_back(n);
     normals.insert(normals.end(), roles_.own.axis.begin(), roles_.own.axis.end());
+    const Vec3 along = direction_of(chain);
+    const auto is_same = [&](Vec3 n) { return std::abs(dot(n, along)) > kSameDirection; };
+    if (norm2(along) > 0 && std::ranges::none_of(normals, is_same)) normals.push_back(along);
     return normals;
+  }
+
+  std::vector<EdgeId> rims_of(const std::vector<WingEdge>& chain) const {
+    const Vec3 along = direction_of(chain);
+    std::vector<EdgeId> rims;
+    for (const WingEdge& w : chain) {
+      const auto is_across = [&](FaceId f) {
+        return model_.tables().face_type[f] == SurfaceType::kPlane &&
+               std::abs(dot(MirrorPlane(model_, f).normal, along)) > kAcrossSpan;
+      };
+      if (w.base == kNone && !w.is_declared && std::ranges::any_of(faces_at(w.edge), is_across)) rims.push_back(w.edge);
+    }
+    return rims;
+  }
+
+  std::span<const FaceId> faces_at(EdgeId e) const {
+    return std::span(edge_faces_)
+        .subspan(static_cast<std::size_t>(offsets_[e]), static_cast<std::size_t>(offsets_[e + 1] - offsets_[e]));
   }
 
   /// Plane faces at which an edge of a chain ends, and on which none lies, ascending.
@@ -718,6 +828,10 @@ class SurfaceFinder {
     std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), reach(), why);
     if (why.is_inexact || (surface ? surface->covered() < kSeen : why.may_be_wing))
       try_exact_facets(chain, surface, why);
+    if (surface && is_plate(chain, *surface)) {
+      surface.reset();
+      why = {kRimOfPlate, false};
+    }
     note_rest(model_, chain, surface, why, rest_);
     if (!surface) return;
     surfaces_.push_back(std::move(*surface));
@@ -726,12 +840,13 @@ class SurfaceFinder {
 
   std::optional<LiftingSurface> surface_at(const std::vector<WingEdge>& chain, const ProfileCutter& cutter,
                                            double reach, Reason& why) {
-    const SurfaceMeasurer measurer(model_, cutter, {cut_normals(chain), reach, roles_.reference_diagonal});
+    const SurfaceMeasurer measurer(
+        model_, cutter, {cut_normals(chain), direction_of(chain), rims_of(chain), reach, roles_.reference_diagonal});
     std::optional<SurfaceDraft> draft = measurer.find(chain, why);
     std::optional<LiftingSurface> surface;
     if (draft) {
       if (is_concave_.empty()) is_concave_ = find_concave_edges(model_, roles_);
-      surface = measurer.finish(std::move(*draft), is_concave_);
+      surface = measurer.finish(std::move(*draft), is_concave_, is_wall_);
       if (!surface) why = {"its profiles reach into other bodies"};
     }
     why.is_inexact = measurer.is_off();
@@ -776,11 +891,16 @@ class SurfaceFinder {
     return found;
   }
 
+  /// Splines at its edges, or beyond narrow faces there, as strips of the skin that are plane are.
   bool is_of_spline(const std::vector<WingEdge>& chain) const {
     const ModelTables& t = model_.tables();
-    return std::any_of(chain.begin(), chain.end(), [&](const WingEdge& w) {
-      return std::any_of(edge_faces_.begin() + offsets_[w.edge], edge_faces_.begin() + offsets_[w.edge + 1],
-                         [&](FaceId f) { return t.face_type[f] == SurfaceType::kBspline; });
+    const auto is_spline = [&](FaceId f) { return t.face_type[f] == SurfaceType::kBspline; };
+    const auto is_beyond = [&](FaceId f, double length) {
+      return t.face_width[f] < kNarrowStrip * length &&
+             std::ranges::any_of(t.edges_of(f), [&](EdgeId e) { return std::ranges::any_of(faces_at(e), is_spline); });
+    };
+    return std::ranges::any_of(chain, [&](const WingEdge& w) {
+      return std::ranges::any_of(faces_at(w.edge), [&](FaceId f) { return is_spline(f) || is_beyond(f, w.length); });
     });
   }
 
@@ -827,8 +947,8 @@ class SurfaceFinder {
   std::map<FaceId, Facets> whole_;     // by symmetry plane
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
-  std::vector<std::vector<FaceId>> planes_at_;  // by vertex; empty: not known yet
-  std::vector<std::uint8_t> is_concave_;
+  std::vector<std::vector<FaceId>> planes_at_;      // by vertex; empty: not known yet
+  std::vector<std::uint8_t> is_concave_, is_wall_;  // by edge; by face
   std::vector<LiftingSurface> surfaces_;
   std::vector<Rest> rest_;
 };
@@ -874,9 +994,11 @@ double LiftingSurface::covered() const {
   for (const ChordEdge& edge : trailing)
     for (std::size_t i = 1; i < edge.stations.size(); ++i) {
       const ChordStation &a = edge.stations[i - 1], &b = edge.stations[i];
-      const double way = distance(a.trailing, b.trailing);
-      all += way;
-      covered += 0.5 * way * (static_cast<int>(a.is_measured) + static_cast<int>(b.is_measured));
+      const double half = 0.5 * distance(a.trailing, b.trailing);
+      for (const ChordStation* s : {&a, &b}) {
+        all += s->is_hidden ? 0 : half;
+        covered += s->is_measured ? half : 0;
+      }
     }
   return all > 0 ? covered / all : 0;
 }

@@ -15,6 +15,7 @@ struct ChordStation {
   Vec3 trailing = {};        ///< on the edge, model unit
   double chord = 0;          ///< from there to the nose, model unit, > 0
   bool is_measured = false;  ///< false: taken over from stations around, where the profile ends in something else
+  bool is_hidden = false;    ///< has no nose of its own: that is in another body, or what is there is too thick a root
   Vec3 nose = {};            ///< on the CAD within the facets' deflection; of measured stations only
   FaceId nose_face = kNone;
   FaceId tail_face = kNone;  ///< of a trailing edge inside faces: the one there
@@ -66,7 +67,8 @@ struct LiftingSurface {
   const std::vector<ChordEdge>& edges() const { return trailing.empty() ? declared_leading : trailing; }
   /// Least, median and largest of those measured. Precondition: there are any.
   void set_chords(const std::vector<double>& chords);
-  /// Share of the trailing edges' length with noses: of the way between two stations each of them has half.
+  /// Share of the trailing edges' length with noses, without stretches that have none of their own: of the way between
+  /// two stations each of them has half.
   double covered() const;
   /// Its chord, and how far away it runs; of the nearest station where none is measured.
   NearestChord nearest_chord(Vec3 x) const;

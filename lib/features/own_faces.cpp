@@ -1,19 +1,17 @@
 #include "features/own_faces.h"
 
-#include <vector>
-
 namespace st {
 
-void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, LiftingSurface& surface) {
+std::vector<std::uint8_t> find_own_faces(const ModelTables& t, std::span<const std::uint8_t> is_concave,
+                                         std::span<const std::uint8_t> is_allowed, const LiftingSurface& surface) {
   std::vector<std::int32_t> offsets;
   std::vector<FaceId> edge_faces, todo;
   t.edge_faces(offsets, edge_faces);
-  std::vector<std::uint8_t> is_crossed(static_cast<std::size_t>(t.n_faces()), 0), is_own = is_crossed;
-  for (const FaceId f : surface.faces) is_crossed[f] = 1;
+  std::vector<std::uint8_t> is_own(static_cast<std::size_t>(t.n_faces()), 0);
   const auto take_faces_at = [&](EdgeId e) {
     for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) {
       const FaceId f = edge_faces[k];
-      if (!is_crossed[f] || is_own[f]) continue;
+      if (!is_allowed[f] || is_own[f]) continue;
       is_own[f] = 1;
       todo.push_back(f);
     }
@@ -25,6 +23,26 @@ void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, Li
     for (const EdgeId e : t.edges_of(f))
       if (!is_concave[e] && !t.edge_is_degenerate[e]) take_faces_at(e);
   }
+  return is_own;
+}
+
+std::vector<std::uint8_t> find_body_faces(const ModelTables& t, std::span<const std::uint8_t> is_concave,
+                                          std::span<const std::uint8_t> is_wall, const LiftingSurface& surface) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> edge_faces;
+  t.edge_faces(offsets, edge_faces);
+  std::vector<std::uint8_t> is_allowed(is_wall.begin(), is_wall.end());
+  for (const FaceId f : surface.faces)
+    for (const EdgeId e : t.edges_of(f))
+      for (std::int32_t k = offsets[e]; is_concave[e] && k < offsets[e + 1]; ++k) is_allowed[edge_faces[k]] = 0;
+  for (const FaceId f : surface.faces) is_allowed[f] = 1;
+  return find_own_faces(t, is_concave, is_allowed, surface);
+}
+
+void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, LiftingSurface& surface) {
+  std::vector<std::uint8_t> is_crossed(static_cast<std::size_t>(t.n_faces()), 0);
+  for (const FaceId f : surface.faces) is_crossed[f] = 1;
+  const std::vector<std::uint8_t> is_own = find_own_faces(t, is_concave, is_crossed, surface);
   std::erase_if(surface.faces, [&](FaceId f) { return !is_own[f]; });
   for (ChordEdge& edge : surface.trailing)
     for (ChordStation& s : edge.stations)

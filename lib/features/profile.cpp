@@ -21,6 +21,7 @@ constexpr double kSharpNose = 0.03, kFlatNose = 0.85;  // thickness at the first
                                                        // 1
 constexpr double kThickEnd = 0.6;                      // thickness at the last place, at most
 constexpr double kFirstThickest = 0.1, kLastThickest = 0.8;
+constexpr double kStraightSides = 0.01;  // of a wedge: its thickness over the way from its edge differs by less
 constexpr std::size_t kFacetsPerBlock = 8;
 constexpr double kThinFor = 5;      // largest over smallest distance from the edge at which a thin part is thin
 constexpr double kThinStep = 1.05;  // between two distances that are tried
@@ -39,6 +40,14 @@ std::optional<double> thickness_at(const Segments& segments, Vec3 trailing_edge,
   }
   if (heights.size() != 2) return std::nullopt;
   return std::abs(heights[1] - heights[0]);
+}
+
+/// Whether the sides are straight from the edge to a corner near the other end: a wedge, cut off there.
+bool is_wedge(const std::array<double, kPlaces.size()>& thickness) {
+  const double slope = thickness[1] / (1 - kPlaces[1]);
+  for (std::size_t i = 2; i < kPlaces.size(); ++i)
+    if (std::abs(thickness[i] - slope * (1 - kPlaces[i])) > kStraightSides * thickness[1]) return false;
+  return true;
 }
 
 /// How far apart the two sides of a cut are at a distance from a point on it; nullopt: it has not two sides there.
@@ -215,7 +224,8 @@ std::optional<Profile> ProfileCutter::profile_of(const std::vector<Segment>& par
   profile.thickness = *thickest / profile.chord;
   const double nose = thickness.front() / *thickest, end = thickness.back() / *thickest;
   if (!(profile.thickness >= kThinnest && profile.thickness <= kThickest && at >= kFirstThickest &&
-        at <= kLastThickest && nose >= kSharpNose && nose <= kFlatNose && end <= kThickEnd))
+        at <= kLastThickest && nose >= kSharpNose && nose <= kFlatNose && end <= kThickEnd) ||
+      is_wedge(thickness))
     return std::nullopt;
   sort_once(profile.faces);
   return profile;
@@ -261,6 +271,29 @@ std::optional<ThinPart> ProfileCutter::whole(Vec3 at, Vec3 normal, double reach)
   const Vec3 forward = (b - a) / way;
   const std::optional<double> width = thickness_at(part, a, forward, cross(normal, forward), 0.5 * way);
   return width ? std::optional(ThinPart{way, *width}) : std::nullopt;
+}
+
+std::optional<WholeCut> ProfileCutter::whole_cut(Vec3 edge, Vec3 normal, double reach,
+                                                 std::span<const std::uint8_t> is_own) const {
+  const std::vector<Segment> part = part_at(edge, normal, reach);
+  if (part.empty()) return std::nullopt;
+  const End end = furthest_end(part, edge);
+  WholeCut cut{.is_own = is_own[end.face] != 0};
+  for (const Segment& s : part)
+    for (const Vec3& x : s.end)
+      if (is_own[facets_.face[s.facet]]) cut.chord = std::max(cut.chord, distance(x, edge));
+  const double furthest = distance(end.x, edge);
+  if (!(furthest > 0)) return std::nullopt;
+  const Vec3 forward = (end.x - edge) / furthest, across = cross(normal, forward);
+  for (const double place : kPlaces)
+    if (const auto own = thickness_at(part, edge, forward, across, place * furthest))
+      cut.thickness = std::max(cut.thickness, *own / furthest);
+  return cut;
+}
+
+FaceId ProfileCutter::nearest_face(Vec3 at, Vec3 normal, double reach) const {
+  const std::optional<Segment> nearest = nearest_segment(at, normal, reach);
+  return nearest ? facets_.face[nearest->facet] : kNone;
 }
 
 std::optional<ThinPart> ProfileCutter::thin_part(Vec3 edge, Vec3 normal, double reach, double thickest) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/model/facets.h"
@@ -42,6 +43,13 @@ struct ThinPart {
   double middle = 0;  ///< how far they are apart half way, model unit
 };
 
+/// A cut that may be no profile.
+struct WholeCut {
+  double chord = 0;      ///< from the edge to the furthest end on own faces, model unit
+  double thickness = 0;  ///< largest, over the chord, where the cut has two sides
+  bool is_own = true;    ///< the end furthest from the edge is on an own face, too
+};
+
 /// Where a cut ends: no further facet is there.
 struct CutEnd {
   FaceId face;  ///< whose facet is the last one
@@ -71,6 +79,12 @@ class ProfileCutter {
   /// The part of the same cut that is thin; `thickest`: distance of its sides over that from the edge at most. nullopt:
   /// it is so for less than a factor of five in the distance from the edge. Same cost.
   std::optional<ThinPart> thin_part(Vec3 edge, Vec3 normal, double reach, double thickest = kThickestPart) const;
+
+  /// The same cut whatever its shape; nullopt: there is none. `is_own`: [n_faces].
+  std::optional<WholeCut> whole_cut(Vec3 edge, Vec3 normal, double reach, std::span<const std::uint8_t> is_own) const;
+
+  /// The face of the facet that the plane cuts nearest to `at`; kNone: none within reach.
+  FaceId nearest_face(Vec3 at, Vec3 normal, double reach) const;
 
   /// Notes the ends of the same cut.
   void note_ends(Vec3 edge, Vec3 normal, double reach) const { part_at(edge, normal, reach); }

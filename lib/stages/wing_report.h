@@ -14,7 +14,7 @@ namespace st {
 inline constexpr double kLongTrailing = 0.05;
 
 /// Share of a trailing edge with noses below which that is said: tips and roots may lack some stations.
-inline constexpr double kCovered = 0.9;
+inline constexpr double kCovered = 0.95;
 
 /// One line for each, the longest first, `most` at most, and one for the others.
 std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most);

@@ -31,5 +31,22 @@ TEST(OwnFaces, end_at_concave_edges) {
   EXPECT_FALSE(on_body.is_measured) << "its nose lies on the body";
 }
 
+TEST(OwnFaces, of_a_body_are_no_faces_beyond_a_concave_edge_even_where_others_lead_there) {
+  const Model model = test::make_model("wing_on_body");
+  const FaceRoles roles = face_roles(model.tables());
+  const std::vector<LiftingSurface> wings =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)));
+  ASSERT_EQ(wings.size(), 1u);
+  const std::vector<std::uint8_t> walls(static_cast<std::size_t>(model.tables().n_faces()), 1);
+  std::vector<std::uint8_t> is_concave = find_concave_edges(model, roles);
+  const auto count = [&] {
+    return std::ranges::count(find_body_faces(model.tables(), is_concave, walls, wings[0]), std::uint8_t{1});
+  };
+  const auto n_own = count();
+  EXPECT_LT(n_own, model.tables().n_faces());
+  *std::ranges::find(is_concave, std::uint8_t{1}) = 0;  // as where the wing's root passes an end of the body
+  EXPECT_EQ(count(), n_own);
+}
+
 }  // namespace
 }  // namespace st

@@ -23,6 +23,25 @@ TEST(Profile, of_a_wing_is_as_thick_as_its_aerofoil) {
   EXPECT_FALSE(ProfileCutter(facets).cut({20, 0, 15}, {0, 0, 1}, 0.02)) << "off the wing";
 }
 
+TEST(Profile, as_a_whole_cut_says_how_thick_it_is_and_whose_its_end_is) {
+  const Model model = test::make_model("sharp_wing");
+  std::vector<std::uint8_t> own(static_cast<std::size_t>(model.tables().n_faces()), 1);
+  const Facets facets = make_facets(model, own, {.deflection = 0.01});
+  const ProfileCutter cutter(facets);
+  const auto cut = cutter.whole_cut({10, 0, 15}, {0, 0, 1}, 0.02, own);
+  ASSERT_TRUE(cut);
+  EXPECT_NEAR(cut->chord, 10, 0.01);
+  EXPECT_NEAR(cut->thickness, 0.12, 0.003);
+  EXPECT_TRUE(cut->is_own);
+  const FaceId upper = cutter.nearest_face({5, 0.6, 15}, {0, 0, 1}, 0.1);
+  ASSERT_NE(upper, kNone);
+  EXPECT_EQ(cutter.nearest_face({5, 5, 15}, {0, 0, 1}, 0.1), kNone);
+  std::ranges::fill(own, std::uint8_t{0});
+  EXPECT_FALSE(cutter.whole_cut({10, 0, 15}, {0, 0, 1}, 0.02, own)->is_own);
+  EXPECT_EQ(cutter.whole_cut({10, 0, 15}, {0, 0, 1}, 0.02, own)->chord, 0);
+  EXPECT_FALSE(cutter.whole_cut({20, 0, 15}, {0, 0, 1}, 0.02, own)) << "off the wing";
+}
+
 TEST(Profile, has_its_nose_on_the_surface_itself) {
   const Model model = test::make_model("cylinder");
   const ModelTables& t = model.tables();

@@ -1,0 +1,103 @@
+#include "features/station_gaps.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/arc_table.h"
+#include "features/edge_places.h"
+#include "geometry/shape/projection.h"
+
+namespace st {
+namespace {
+
+constexpr double kNearGuess = 0.05;  // of the chord: from a nose between or beside others to that on the surface
+
+class GapCloser {
+ public:
+  GapCloser(const GapSearch& search, const Vec3* axis, ChordEdge& edge)
+      : search_(search), axis_(axis), edge_(edge), curve_(search.model.curve(edge.edge)), arc_(*curve_) {}
+
+  void run() {
+    const std::size_t n = edge_.stations.size();
+    for (std::size_t i = 0; i < n; ++i) close(i, -1);
+    for (std::size_t i = n; i-- > 0;) close(i, 1);
+  }
+
+ private:
+  using Station = ChordStation;
+
+  /// The nearest measured one from `i` on, that one left out; nullptr: there is none.
+  const Station* next(std::size_t i, int step) const {
+    for (auto k = static_cast<std::ptrdiff_t>(i) + step; k >= 0 && k < std::ssize(edge_.stations); k += step)
+      if (edge_.stations[static_cast<std::size_t>(k)].is_measured) return &edge_.stations[static_cast<std::size_t>(k)];
+    return nullptr;
+  }
+
+  /// `towards`: -1 or 1, where measured ones are.
+  void close(std::size_t i, int towards) {
+    Station& s = edge_.stations[i];
+    if (s.is_measured || s.is_hidden) return;
+    const Vec3 normal = axis_ ? *axis_ : normalized(curve_->evaluate(arc_.parameter_at(s.share)).d1);
+    const Station *a = next(i, towards), *b = next(i, -towards);
+    if (!a) return;
+    s.is_hidden = has_no_nose(s, a->chord, normal);
+    if (!b) b = next(static_cast<std::size_t>(a - edge_.stations.data()), towards);
+    if (!s.is_hidden && b) measure(s, *a, *b, normal);
+  }
+
+  /// On the line through the noses of two others.
+  void measure(Station& s, const Station& a, const Station& b, Vec3 normal) const {
+    const double part = (s.share - a.share) / (b.share - a.share);
+    if (!(std::abs(part) <= 1)) return;  // further beside them than they are apart
+    const Vec3 nose = a.nose + part * (b.nose - a.nose);
+    Profile guess{.normal = normal, .nose = nose, .nose_face = a.nose_face, .chord = distance(nose, s.trailing)};
+    for (const FaceId f :
+         {a.nose_face, b.nose_face, search_.cutter.nearest_face(nose, normal, kNearGuess * guess.chord)}) {
+      if (f == kNone || !search_.is_own[f]) continue;
+      const auto surface = search_.model.surface(f);
+      std::optional<Vec2> uv = closest_point(*surface, nose).uv;
+      const auto x = exact_nose(*surface, s.trailing, guess, kNearGuess * guess.chord, uv);
+      if (!x || is_outlier(distance(*x, s.trailing), a.chord) ||
+          search_.cutter.nearest_face(*x, normal, search_.reach) != f)
+        continue;
+      s.nose = *x, s.nose_face = f, s.chord = distance(*x, s.trailing), s.is_measured = true;
+      return;
+    }
+  }
+
+  /// What is longer than the chord beside it, as a cut along a tip, says nothing.
+  bool has_no_nose(const Station& s, double usual, Vec3 normal) const {
+    const auto cut = search_.cutter.whole_cut(s.trailing, normal, search_.reach, search_.is_own);
+    return cut && cut->chord <= kOutlier * usual && (!cut->is_own || cut->thickness > ProfileCutter::kThickestPart);
+  }
+
+  const GapSearch& search_;
+  const Vec3* axis_;
+  ChordEdge& edge_;
+  std::unique_ptr<Curve> curve_;
+  ArcTable arc_;
+};
+
+}  // namespace
+
+bool is_along_chord(const LiftingSurface& surface, EdgeId edge, Vec3 x, Vec3 tangent) {
+  LiftingSurface others;
+  for (const ChordEdge& other : surface.trailing)
+    if (other.edge != edge) others.trailing.push_back(other);
+  const ChordStation* nearest = others.nearest_station(x);
+  if (!nearest) nearest = surface.nearest_station(x);
+  return nearest && std::abs(dot(tangent, normalized(nearest->nose - nearest->trailing))) > kAlongChord;
+}
+
+void hide_tip(const Model& model, const LiftingSurface& surface, ChordEdge& edge) {
+  const auto curve = model.curve(edge.edge);
+  const ArcTable arc(*curve);
+  for (ChordStation& s : edge.stations)
+    if (!s.is_measured && !s.is_hidden)
+      s.is_hidden =
+          is_along_chord(surface, edge.edge, s.trailing, normalized(curve->evaluate(arc.parameter_at(s.share)).d1));
+}
+
+void close_gaps(const GapSearch& search, const Vec3* axis, ChordEdge& edge) { GapCloser(search, axis, edge).run(); }
+
+}  // namespace st

@@ -1,0 +1,88 @@
+// Stations without a profile: the nose's surface goes on there, or they have none of their own.
+#include "features/station_gaps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "features/strip.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+/// A sharp wing of chord 10 along z, its stations, and what cuts it.
+struct GapModel {
+  Model model = test::make_model("sharp_wing");
+  FaceRoles roles = face_roles(model.tables());
+  std::vector<LiftingSurface> wings =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)));
+  std::vector<std::uint8_t> all = std::vector<std::uint8_t>(static_cast<std::size_t>(model.tables().n_faces()), 1);
+  Facets facets = make_facets(model, all, {.deflection = 0.01});
+  ProfileCutter cutter = ProfileCutter(facets);
+  Vec3 along = {0, 0, 1};
+
+  ChordEdge edge_without(std::size_t from, std::size_t to) const {
+    ChordEdge edge = wings.at(0).trailing.at(0);
+    for (std::size_t i = from; i < to; ++i) edge.stations[i] = {edge.stations[i].share, edge.stations[i].trailing};
+    return edge;
+  }
+};
+
+TEST(StationGaps, are_closed_on_the_surface_of_the_noses_around) {
+  const GapModel m;
+  ChordEdge edge = m.edge_without(8, 12);
+  close_gaps({m.model, m.cutter, 0.02, m.all}, &m.along, edge);
+  for (std::size_t i = 8; i < 12; ++i) {
+    EXPECT_TRUE(edge.stations[i].is_measured);
+    EXPECT_FALSE(edge.stations[i].is_hidden);
+    EXPECT_NEAR(edge.stations[i].nose.x, 0, 1e-6);
+    EXPECT_NEAR(edge.stations[i].chord, 10, 1e-6);
+  }
+}
+
+TEST(StationGaps, have_no_nose_where_the_cut_ends_in_another_body) {
+  GapModel m;
+  const ChordEdge whole = m.edge_without(0, 0);
+  m.all[static_cast<std::size_t>(whole.stations[10].nose_face)] = 0;
+  const FaceId other = m.wings[0].faces[0] == whole.stations[10].nose_face ? m.wings[0].faces[1] : m.wings[0].faces[0];
+  m.all[static_cast<std::size_t>(other)] = 0;
+  ChordEdge edge = m.edge_without(8, 12);
+  close_gaps({m.model, m.cutter, 0.02, m.all}, &m.along, edge);
+  for (std::size_t i = 8; i < 12; ++i) {
+    EXPECT_FALSE(edge.stations[i].is_measured);
+    EXPECT_TRUE(edge.stations[i].is_hidden);
+  }
+  LiftingSurface surface = m.wings[0];
+  surface.trailing[0] = edge;
+  EXPECT_NEAR(surface.covered(), m.wings[0].covered(), 0.01) << "what has no nose of its own does not count";
+}
+
+TEST(StationGaps, stay_gaps_where_cuts_say_nothing) {
+  const GapModel m;
+  ChordEdge edge = m.edge_without(8, 12);
+  const Vec3 across = {1, 0, 0};
+  close_gaps({m.model, m.cutter, 1e-9, m.all}, &across, edge);
+  for (std::size_t i = 8; i < 12; ++i) EXPECT_FALSE(edge.stations[i].is_measured || edge.stations[i].is_hidden);
+}
+
+TEST(StationGaps, around_a_tip_run_along_the_chord) {
+  const GapModel m;
+  LiftingSurface surface = m.wings[0];
+  ChordEdge along_span = m.edge_without(8, 12);
+  hide_tip(m.model, surface, along_span);
+  EXPECT_FALSE(std::ranges::any_of(along_span.stations, &ChordStation::is_hidden));
+  EdgeId rim = kNone;  // of the tip, from nose to tail
+  for (const EdgeId e : m.model.tables().edges_of(m.wings[0].faces[0])) {
+    const auto curve = m.model.curve(e);
+    if (std::abs(curve->point(curve->t_max()).z - curve->point(curve->t_min()).z) < 1) rim = e;
+  }
+  ASSERT_NE(rim, kNone);
+  const auto curve = m.model.curve(rim);
+  ChordEdge tip{.edge = rim, .stations = {{0.5, curve->point(0.5 * (curve->t_min() + curve->t_max()))}}};
+  hide_tip(m.model, surface, tip);
+  EXPECT_TRUE(tip.stations[0].is_hidden);
+}
+
+}  // namespace
+}  // namespace st
