@@ -15,7 +15,7 @@ namespace st {
 /// per thread.
 class CornerPoints {
  public:
-  CornerPoints() : corners_(kSlots), sides_(kSlots) {}
+  CornerPoints() : corners_(kSlots), sides_(kSideSlots) {}
 
   /// `surface` is that of `face`, the node lies at (u,v) there.
   const SurfacePoint& corner(const Surface& surface, FaceId face, NodeId node, Vec2 uv) {
@@ -28,15 +28,16 @@ class CornerPoints {
   template <typename Make>
   Vec3 side(FaceId face, NodeId a, NodeId b, Vec2 uv_a, Vec2 uv_b, const Make& make) {
     if (b < a) std::swap(a, b), std::swap(uv_a, uv_b);
-    const auto hash = static_cast<std::size_t>(a) * 31 + static_cast<std::size_t>(b);
-    Side& s = sides_[hash % kSlots];
+    const auto hash = static_cast<std::size_t>(a) * 3 + static_cast<std::size_t>(b) * 1021;
+    Side& s = sides_[hash % kSideSlots];
     if (s.face != face || s.a != a || s.b != b || !(s.uv_a == uv_a) || !(s.uv_b == uv_b))
       s = {face, a, b, uv_a, uv_b, make()};
     return s.foot;
   }
 
  private:
-  static constexpr std::size_t kSlots = 4096;  // 0.7 MB: the rows at hand of a face of a million triangles
+  // 1.6 MB: the rows at hand of a face of a million triangles, which have three sides for each node
+  static constexpr std::size_t kSlots = 4096, kSideSlots = 4 * kSlots;
 
   struct Corner {
     FaceId face = kNone;

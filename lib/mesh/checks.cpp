@@ -247,10 +247,12 @@ ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges) {
 
 CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad) {
   CrossingReport r;
-  std::int32_t n_components = 0;
-  const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   bool was_ended = false;
-  for (const TrianglePair& p : find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended)) {
+  const std::vector<TrianglePair> pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended);
+  std::int32_t n_components = 0;
+  std::vector<std::int32_t> component;
+  if (!pairs.empty()) component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
+  for (const TrianglePair& p : pairs) {
     const bool is_between = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
     const bool is_contact = is_between && !(cad.is_one_body && cad.is_one_body(p));
     const bool is_own = !is_contact && cad.touches_itself && cad.touches_itself(p);

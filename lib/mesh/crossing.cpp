@@ -169,9 +169,10 @@ bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Tria
     for (int j = 0; j < 3; ++j)
       if (a.n[i] == b.n[j]) corner_a[n_shared] = i, corner_b[n_shared++] = j;
   if (n_shared > 2) return false;
+  constexpr int kCorner[] = {0, 1, 2, 0, 1};
   const int i = corner_a[0], j = corner_b[0], k = corner_a[1];
-  const auto at_a = [&](int corner) -> const Vec3& { return points[a.n[corner % 3]]; };
-  const auto at_b = [&](int corner) -> const Vec3& { return points[b.n[corner % 3]]; };
+  const auto at_a = [&](int corner) -> const Vec3& { return points[a.n[kCorner[corner]]]; };
+  const auto at_b = [&](int corner) -> const Vec3& { return points[b.n[kCorner[corner]]]; };
   if (n_shared == 2) {
     const Vec3 &u = at_a(i), &v = at_a(k), &p = at_a(3 - i - k), &q = at_b(3 - j - corner_b[1]);
     return !are_surely_opened(u, v, p, q) && two_nodes_cross(u, v, p, q);
