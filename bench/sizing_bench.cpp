@@ -256,7 +256,7 @@ void bench_neighbours(const SizingArtifact& sizing, const OctreeField& field) {
       const Vec3 from = octree.leaf_center(a), to = octree.leaf_center(b);
       const double change = std::abs(field.size(to, hint) - field.size(from, hint)),
                    steepness = change / (sizing.slope * sizing.scale * distance(from, to));
-      Steps& of = step.is_across_face() ? across : others;
+      Steps& of = step.length2 == 4 || step.length2 == 11 ? across : others;
       ++of.n;
       of.n_steep += steepness > kRounded;
       of.steepest = std::max(of.steepest, steepness);

@@ -12,11 +12,8 @@ namespace st {
 /// +-1 or +-3 between a cell and one of half its size.
 struct CellStep {
   std::int8_t x, y, z;
-  std::int8_t length2;      ///< x*x + y*y + z*z: one of 4 8 12 (equals), 11 19 27
+  std::int8_t length2;      ///< x*x + y*y + z*z: one of 4 8 12 (equals), 11 19 27; across faces 4 and 11
   std::uint8_t fine_level;  ///< level of the smaller cell
-
-  /// Otherwise they touch at an edge or a corner.
-  bool is_across_face() const { return length2 == 4 || length2 == 11; }
 };
 
 /// Where the neighbours of a cell are found, by its octant and direction ((x + 1) + 3 * (y + 1) + 9 * (z + 1)), and how

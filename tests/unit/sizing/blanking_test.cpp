@@ -294,11 +294,11 @@ TEST(Blanking, finds_links_across_faces_alone) {
   for (std::int32_t site = 0; site < all.n_sites(); ++site) {
     std::vector<std::int32_t> across, across_few, around;
     for_each_link(&all, neighbours, site, [&](std::int32_t to, const CellStep& step) {
-      (step.is_across_face() ? across : around).push_back(to);
+      (test::is_across_face(step) ? across : around).push_back(to);
     });
     bool has_others = false;
     for_each_link(&few, neighbours, site, [&](std::int32_t to, const CellStep& step) {
-      if (step.is_across_face())
+      if (test::is_across_face(step))
         across_few.push_back(to);
       else
         has_others = true;

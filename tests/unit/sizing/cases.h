@@ -4,11 +4,15 @@
 #include <random>
 #include <vector>
 
+#include "sizing/neighbours.h"
 #include "sizing/octree.h"
 
 namespace st::test {
 
 inline const Box3 kUnitBox{{0, 0, 0}, {1, 1, 1}};
+
+/// Otherwise two cells touch at an edge or a corner.
+inline bool is_across_face(const CellStep& step) { return step.length2 == 4 || step.length2 == 11; }
 
 /// Random raster boxes on a sphere in the unit box, lengths 0.001 .. 0.04: finer towards its top.
 inline std::vector<RasterBox> sphere_boxes(int n, unsigned seed = 1) {

@@ -51,7 +51,7 @@ TEST(Neighbours, across_faces_are_numbered_as_among_all) {
         a, [&](std::int32_t b, const CellStep& step, int n) { found.emplace_back(b, 100 * n + step.length2); });
     int n = 0;
     neighbours.for_each(a, [&](std::int32_t b, const CellStep& step) {
-      if (step.is_across_face()) expected.emplace_back(b, 100 * n + step.length2);
+      if (test::is_across_face(step)) expected.emplace_back(b, 100 * n + step.length2);
       ++n;
     });
     ASSERT_EQ(found, expected) << "leaf " << a;
