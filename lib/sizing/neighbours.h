@@ -83,7 +83,7 @@ class Neighbours {
     for (const int d : kAcross) visit_direction(place, d, f);
   }
 
-  /// Likewise, calls f(leaf, step, n): it is the n-th that for_each() comes to, in its order.
+  /// Likewise, each once: calls f(leaf, step, n), where it is the n-th that for_each() comes to, in its order.
   template <class F>
   void for_each_across_face_numbered(std::int32_t leaf, F&& f) const {
     if (octree_.node_children.empty()) return;

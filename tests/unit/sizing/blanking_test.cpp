@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
 
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
@@ -303,11 +304,14 @@ TEST(Blanking, finds_links_across_faces_alone) {
       else
         has_others = true;
     });
-    ASSERT_EQ(across_few, across) << site;
+    // a larger cell comes once, though there are links to it in several directions
+    const std::set<std::int32_t> expected(across.begin(), across.end());
+    ASSERT_EQ(std::set<std::int32_t>(across_few.begin(), across_few.end()), expected) << site;
     across_few.clear();
     for_each_link_across_face(few, neighbours, site,
                               [&](std::int32_t to, const CellStep&) { across_few.push_back(to); });
-    ASSERT_EQ(across_few, across) << site;
+    ASSERT_EQ(std::set<std::int32_t>(across_few.begin(), across_few.end()), expected) << site;
+    ASSERT_EQ(across_few.size(), expected.size()) << site;
     n_faces += static_cast<int>(across.size());
     if (few.site_links[site] == kNone) continue;  // all are open
     ASSERT_EQ(has_others, across.empty() && !around.empty()) << site;
