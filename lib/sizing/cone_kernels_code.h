@@ -15,7 +15,7 @@ typedef float F4Anywhere __attribute__((vector_size(16), aligned(4), may_alias))
 
 inline F4 load_four(const float* p) { return *reinterpret_cast<const F4Anywhere*>(p); }
 /// Without their signs.
-inline F4 magnitudes(const F4& v) { return v < 0 ? -v : v; }
+inline F4 magnitudes(const F4& v) { return v < 0.0F ? -v : v; }
 /// Bit k: the k-th is true.
 inline int signs(const I4& mask) {
 #if defined(__x86_64__)
