@@ -43,7 +43,8 @@ WINGS = {
 # and edges that get two vertices, a hundred-thousandth of their length apart.
 CUT_WINGS = {
     "aero_d150_wing_body_half.brep": ([16.02], ((1, 0, 20), (3, 5, 20), (4, 12, 40))),
-    "aero_onera_m6_sharpte.brep": ([1.533], ((1, 0, 20), (2, 0, 60), (1, 5), (2, 20), (4, 12, 20, 0.3))),  # and its domain
+    # its domain is cut, too
+    "aero_onera_m6_sharpte.brep": ([1.533], ((1, 0, 20), (2, 0, 60), (1, 5), (2, 20), (4, 12, 20, 0.3))),
     "aero_tigl_simplewing.brep": ([2.0], ((1, 0, 20), (2, 0, 60), (3, 5, 20))),
 }
 
