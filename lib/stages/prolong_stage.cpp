@@ -266,7 +266,7 @@ ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Pr
       o.sources, o.background, parse_similarity(o.transform, "--transform").then(sizing.frame.inverse()),
       octree_options["slope"].get<double>(), {sizing.numbers.diagonal * sizing.frame.scale, sizing.header.unit_in_m},
       sizing.numbers.max_aspect > 1);
-  warn_of_places(input, sizing.shape.view(), sizing.numbers.far_length);
+  warn_of_places(input, sizing.shape.view(), sizing.numbers.far_length, sizing.header.unit);
   sizing.sources = std::move(input.set);
   sizing.names.source = std::move(input.names);
   progress.step("expected triangles", 0.8);
@@ -339,8 +339,9 @@ ProlongedSizes change_sources(ProlongStageOptions o, Progress& progress) {
 void report_undercuts(const SizingArtifact& sizing) {
   if (sizing.undercuts.empty()) return;
   const double scale = sizing.scale * sizing.frame.scale;
-  log_report(fmt::format("  {} places on faces are below the lmin given for them, down to {:.4g}, because of {}",
-                         count(sizing.undercuts), scale * least_of(sizing.undercuts),
+  const std::string in_unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit;
+  log_report(fmt::format("  {} places on faces are below the lmin given for them, down to {:.4g}{}, because of {}",
+                         count(sizing.undercuts), scale * least_of(sizing.undercuts), in_unit,
                          undercut_text(sizing.undercuts, sizing.names, scale)));
 }
 
@@ -362,9 +363,9 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
                                              : fmt::format(" ({} blanked, {} cut, {} of these split)", n_blanked, n_cut,
                                                            sizing.blanking.split.size());
   StageSummary summary;
-  summary.line =
-      fmt::format("{}: {} cells{}{}{}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
-                  sizing.lengths.cells.size(), blanked, sources, range_text(groups), scaled, o.slope, n, seconds);
+  summary.line = fmt::format("{}: {} cells{}{}{}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
+                             sizing.lengths.cells.size(), blanked, sources, range_text(groups, sizing.header.unit),
+                             scaled, o.slope, n, seconds);
   summary.json = json_text(Json{{"tool", "st-prolong"},
                                 {"output", o.output},
                                 {"cells", sizing.lengths.cells.size()},
@@ -424,7 +425,8 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
     sample_sizes(*sizing.field(sizing.frame), sizing.names, o.sample, o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
-  for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups)) log_report(line);
+  for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups, sizing.header.unit))
+    log_report(line);
   report_undercuts(sizing);
   const StageSummary summary = summarize(o, sizing, sizes.groups, timer.seconds());
   const double scale = sizing.scale;

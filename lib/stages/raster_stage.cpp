@@ -682,14 +682,14 @@ void report_unused(const RasterStageOptions& o, const Model& model, const FaceRo
 }
 
 /// One line for each lifting surface, or one that there is none.
-void report_wings(const RasterStageOptions& o, const Wings& wings) {
+void report_wings(const RasterStageOptions& o, const Wings& wings, const std::string& unit) {
   const std::size_t n = wings.aircraft.wings.size();
   if (const std::string set = wing_options(o); n == 0 && !set.empty())
     log_report("  no lifting surface found: without effect are " + set);
   else if (n == 0)
     log_info("no lifting surface found: --edge-size has no effect");
   for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i)
-    log_report(wing_line(wings.aircraft.wings[i], o.edge_size));
+    log_report(wing_line(wings.aircraft.wings[i], o.edge_size, unit));
   if (n > kMostGroups) log_report(fmt::format("  and {} more lifting surfaces", n - kMostGroups));
 }
 
@@ -737,7 +737,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
   summary.code = code_of(o, counts);
   summary.line = fmt::format(
       "{}: {} samples, {} cells{}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes, n_cells,
-      range_text(groups), wings.aircraft.wings.size(),
+      range_text(groups, a.header.unit), wings.aircraft.wings.size(),
       counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
   summary.json = json_text(nlohmann::ordered_json{{"tool", "st-raster"},
                                                   {"output", o.output},
@@ -881,10 +881,11 @@ class RasterRun {
   }
 
   StageSummary report() const {
-    report_wings(o_, wings_);
+    report_wings(o_, wings_, artifact_.header.unit);
     report_unused(o_, model_, roles_, wings_);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
-    for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups)) log_report(line);
+    for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups, artifact_.header.unit))
+      log_report(line);
     report_undercuts(artifact_);
     return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, times_);
   }

@@ -19,8 +19,9 @@ using Json = nlohmann::ordered_json;
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
 std::vector<std::string> table_of(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
-                                  bool has_triangles) {
-  std::vector<TableRow> rows{{"group", "triangles", "least length", "median", "most because of"}};
+                                  bool has_triangles, const std::string& unit) {
+  const std::string in_unit = unit.empty() ? "" : ", " + unit;
+  std::vector<TableRow> rows{{"group", "triangles", "least length" + in_unit, "median" + in_unit, "most because of"}};
   for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
     const GroupSizes& g = groups[i];
     rows.push_back({g.name, fmt::format("{:.0f}", g.triangles), fmt::format("{:.4g}", g.least),
@@ -93,17 +94,19 @@ SizeTally tally_by_group(const FaceLabels& labels, std::int32_t n_faces) {
   return {{name}, std::vector<std::int32_t>(static_cast<std::size_t>(n_faces), 0)};
 }
 
-std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most) {
-  return table_of(groups, names, most, true);
+std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
+                                     const std::string& unit) {
+  return table_of(groups, names, most, true, unit);
 }
 
-std::string range_text(const std::vector<GroupSizes>& groups) {
+std::string range_text(const std::vector<GroupSizes>& groups, const std::string& unit) {
   if (groups.empty()) return "";
   const auto least = std::min_element(groups.begin(), groups.end(),
                                       [](const GroupSizes& a, const GroupSizes& b) { return a.least < b.least; });
   const auto largest = std::max_element(groups.begin(), groups.end(),
                                         [](const GroupSizes& a, const GroupSizes& b) { return a.largest < b.largest; });
-  return fmt::format(", lengths {:.4g} to {:.4g} on the faces", least->least, largest->largest);
+  return fmt::format(", lengths {:.4g} to {:.4g}{}{} on the faces", least->least, largest->largest,
+                     unit.empty() ? "" : " ", unit);
 }
 
 std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster) {
@@ -119,9 +122,9 @@ std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster) {
   return tally.groups(1, 1);
 }
 
-std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, const CauseNames& names,
-                                       std::size_t most) {
-  return table_of(groups, names, most, false);
+std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
+                                       const std::string& unit) {
+  return table_of(groups, names, most, false, unit);
 }
 
 Json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names) {

@@ -68,18 +68,19 @@ inline constexpr std::size_t kMostGroups = 12;
 SizeTally tally_by_group(const FaceLabels& labels, std::int32_t n_faces);
 
 /// One line per group, aligned, below a heading; at most `most` of them, then how many more there are.
-std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most);
+std::vector<std::string> group_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
+                                     const std::string& unit = "");
 
 /// What the samples of the raster require of its main groups, in the cells that their faces pass through and that hold
 /// a sample. Growth is not limited yet, so the triangles are none that a mesh would have.
 std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster);
 
 /// ", lengths 0.87 to 6.59 on the faces", of all groups; empty without one.
-std::string range_text(const std::vector<GroupSizes>& groups);
+std::string range_text(const std::vector<GroupSizes>& groups, const std::string& unit = "");
 
 /// The same lines without triangles, for sampled_groups().
-std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, const CauseNames& names,
-                                       std::size_t most);
+std::vector<std::string> sampled_lines(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
+                                       const std::string& unit = "");
 
 /// Every group with its numbers and the cause of most of its triangles.
 nlohmann::ordered_json groups_json(const std::vector<GroupSizes>& groups, const CauseNames& names);

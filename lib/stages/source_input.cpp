@@ -93,18 +93,19 @@ double distance_between(const Box3& a, Vec3 lo, Vec3 hi) {
 }
 
 /// What is to be said of something outside: how far it is away, and what of it is felt inside.
-std::string outside_text(double away, double least_inside, double far_length) {
+std::string outside_text(double away, double least_inside, double far_length, const std::string& unit) {
+  const std::string in_unit = unit.empty() ? "" : " " + unit;
   return fmt::format(
-      "lies {:.4g} outside the octree, which holds the model alone: {}; is it in the model's unit and "
+      "lies {:.4g}{} outside the octree, which holds the model alone: {}; is it in the model's unit and "
       "place (--transform)?",
-      away,
-      least_inside < far_length ? fmt::format("only its growth reaches in, as {:.4g} or more", least_inside)
+      away, in_unit,
+      least_inside < far_length ? fmt::format("only its growth reaches in, as {:.4g}{} or more", least_inside, in_unit)
                                 : "it has no effect");
 }
 
 }  // namespace
 
-void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length) {
+void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length, const std::string& unit) {
   const Vec3 lo = octree.lo, hi = octree.lo + octree.edge * Vec3{1, 1, 1};
   const auto least_inside = [&](const SizeSource& source, const Box3& core) {
     double least = source.size(clamped(core.center(), lo, hi));
@@ -123,7 +124,7 @@ void warn_of_places(const SourceInput& input, const OctreeView& octree, double f
     const Box3 core{growth.core.lo - reach, growth.core.hi + reach};
     const double away = distance_between(core, lo, hi);
     if (away > 0)
-      log_warning(label_of(spec.name, s) + " " + outside_text(away, least_inside(*source, core), far_length));
+      log_warning(label_of(spec.name, s) + " " + outside_text(away, least_inside(*source, core), far_length, unit));
   }
   Box3 background;
   for (const Vec3 x : input.set.background.node_xyz) background.add(x);
@@ -131,7 +132,7 @@ void warn_of_places(const SourceInput& input, const OctreeView& octree, double f
   const double away = distance_between(background, lo, hi);
   log_warning("the background mesh " +
               outside_text(away, least_inside(*make_background(input.set.background, input.set.slope), background),
-                           far_length));
+                           far_length, unit));
 }
 
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,

@@ -27,7 +27,7 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
                          double slope, const ModelScale& scale, bool is_stretched);
 
 /// Warns of each source whose core lies outside the root cube of the octree, and of a background mesh that does: there
-/// is nothing to mesh. `far_length`: longer lengths are of no interest.
-void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length);
+/// is nothing to mesh. `far_length`: longer lengths are of no interest; `unit` of all lengths, as messages have it.
+void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length, const std::string& unit);
 
 }  // namespace st

@@ -121,17 +121,18 @@ nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
   return list;
 }
 
-std::string wing_line(const LiftingSurface& wing, const std::string& edge_size) {
+std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, const std::string& unit) {
+  const std::string in_unit = unit.empty() ? "" : " " + unit;
   const std::vector<ChordEdge>& edges = wing.edges();
   const char* kind = wing.trailing.empty() ? "leading edges" : "trailing edges";
   return fmt::format(
-      "  lifting surface{}: {} {} from edge {} on, {}, span {:.4g}, chord {:.4g} to {:.4g}; {} along {}",
+      "  lifting surface{}: {} {} from edge {} on, {}, span {:.4g}{}, chord {:.4g} to {:.4g}{}; {} along {}",
       wing.is_declared ? " by a rule" : "", edges.size(),
       edges.front().is_inside ? "trailing edges inside faces, beside edges" : kind, edges.front().edge + 1,
       wing.is_round   ? "round"
       : wing.is_blunt ? "blunt"
                       : "sharp",
-      wing.span, wing.least_chord, wing.largest_chord, edge_size,
+      wing.span, in_unit, wing.least_chord, wing.largest_chord, in_unit, edge_size,
       wing.has_noses ? wing.covered() < kCovered
                            ? fmt::format("edge and nose, which is seen on {:.0f} %", 100 * wing.covered())
                            : "edge and nose"

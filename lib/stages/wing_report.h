@@ -26,7 +26,7 @@ std::string declared_warning(const UnusedTrailing& declared);
 std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal);
 
 /// One line on a lifting surface.
-std::string wing_line(const LiftingSurface& wing, const std::string& edge_size);
+std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, const std::string& unit = "");
 
 /// Surfaces whose noses are not seen, or not everywhere, and what to do; empty: there are none.
 std::string noseless_warning(std::span<const LiftingSurface> wings);

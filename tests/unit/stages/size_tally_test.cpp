@@ -72,6 +72,8 @@ TEST(SizeTally, shows_the_groups_with_most_triangles_and_counts_the_others) {
                                       "  WING         241           0.1       1  edge 5 \"TE\" (96 %)",
                                       "  BODY           2             3       3  face 1 \"wing\" (100 %)"}));
   EXPECT_EQ(group_lines(groups, kNames, 1).back(), "  and 1 more");
+  EXPECT_NE(group_lines(groups, kNames, 1, "mm")[0].find("least length, mm  median, mm"), std::string::npos);
+  EXPECT_NE(range_text(groups, "mm").find(" mm on the faces"), std::string::npos);
   EXPECT_EQ(groups_json(groups, kNames)[0]["cause"], "edge 5 \"TE\"");
 }
 

@@ -54,6 +54,7 @@ TEST(WingReport, says_where_no_nose_is_seen) {
   wing.is_declared = true;
   EXPECT_EQ(noseless_warning({&wing, 1}), "") << "the user knows";
   std::swap(wing.trailing, wing.declared_leading);
+  EXPECT_NE(wing_line(wing, "1", "m").find(" m, chord "), std::string::npos);
   EXPECT_NE(wing_line(wing, "1").find("lifting surface by a rule: 1 leading edges from edge 5 on"), std::string::npos);
 }
 
