@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Man pages and completions of bash, zsh and fish from what the tools' own --help says.
+"""Man pages and completions of bash, zsh and fish from what the tools' own --help-all says.
 
 usage: command_pages.py BIN_DIR OUT_DIR [PAGE...]      writes OUT_DIR/{man1/*.1.gz, bash/*, zsh/_*, fish/*.fish}
        PAGE: a man page that is there already
@@ -19,7 +19,7 @@ class Tool:
 
     def __init__(self, program):
         self.name = program.name
-        text = self.ask(program, "--help")
+        text = self.ask(program, "--help-all")
         self.version = self.ask(program, "--version").split()[-1]
         head, _, rest = text.partition("\nUsage: ")
         self.description = " ".join(head.split())
@@ -29,7 +29,7 @@ class Tool:
         for line in rest.splitlines():
             if line == "Positionals:":
                 section = self.positionals
-            elif line == "Options:":
+            elif line == "Options:" or line.startswith("Options of "):
                 section = self.options
             elif line == "Examples:":
                 section = self.examples

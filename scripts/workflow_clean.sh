@@ -24,7 +24,7 @@ if [ ! -f "$out/model.ref" ] && [ ${#option_files[@]} -eq 0 ]; then
 fi
 
 # Ours by their names; and those that are ours only where no one else wrote them.
-files=(model.ref blank.ref preset.ref base.ref log/fresh log/lock .st-written)
+files=(model.ref blank.ref preset.ref base.ref log/fresh log/lock log/adopted .st-written)
 for stage in import raster prolong mesh merge check remesh export info; do
   files+=("log/st-$stage".{ref,log,seconds})
 done

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Writes what a stage depends on besides artifacts to OUT/log/<stage>.ref: hashes of its tool, of its option file and
-# of each file that its options name. Makes option files that are missing, with every option at its default; st-export
-# and st-info have none.
+# of each file that its options name. Makes option files that are missing, with every option at its default, or as
+# st-run had them where it made OUT (--keep); st-export and st-info have none.
 # usage: scripts/workflow_inputs.sh OUT BIN_DIR STAGE...
 # exit codes: 2 a bad option file, 3 it names a file that is missing
 set -eu -o pipefail
@@ -31,6 +31,9 @@ named_files() {
   done <<< "$files"
 }
 
+# The table of a stage in what st-run has left.
+kept_options() { awk -v table="[$1]" '/^\[/ { is_own = $0 == table; next } is_own && NF' "$out/st-run.toml"; }
+
 mkdir -p "$out/log"
 stages=() kinds=() files=()  # what is hashed
 add() { stages+=("$1") kinds+=("$2") files+=("$3"); }
@@ -40,6 +43,7 @@ for stage in "$@"; do
   options=$out/$stage.toml
   if [ ! -f "$options" ]; then
     "$bin/$stage" --print-options > "$options.tmp.$$"
+    [ ! -f "$out/st-run.toml" ] || kept_options "$stage" >> "$options.tmp.$$"
     mv "$options.tmp.$$" "$options"
   fi
   add "$stage" options "$options"

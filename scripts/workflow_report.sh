@@ -11,7 +11,7 @@ own=$(dirname "$0")/workflow_own.sh
 check() {
   local out=$1 bin=$2 status=0 said=$results/check.tmp.$$
   rm -f "$results/check.tmp."* "$results/report.tmp."*  # of runs that were killed
-  "$bin/st-check" "$results/mesh.hdf" --options "$out/st-check.toml" \
+  "$bin/st-check" "$results/mesh.hdf" -v --options "$out/st-check.toml" \
     --geometry "$out/geometry.hdf" --sizing "$results/sizing.hdf" > "$said" || status=$?
   if [ $status -ne 0 ] && [ $status -ne 5 ]; then
     rm -f "$said"

@@ -66,6 +66,9 @@ class HeldSignals {
     for (const int signal : kPassedOn) sigaddset(&held, signal);
     sigprocmask(SIG_BLOCK, &held, &before_);
   }
+  ~HeldSignals() { release(); }
+  HeldSignals(const HeldSignals&) = delete;
+  HeldSignals& operator=(const HeldSignals&) = delete;
   void release() const { sigprocmask(SIG_SETMASK, &before_, nullptr); }
 
  private:
@@ -187,6 +190,27 @@ void require_started(int failure, const std::string& program) {
   if (n == sizeof error) throw Error(ExitCode::kUsage, program + " cannot be started (" + std::strerror(error) + ")");
 }
 
+/// Its status, as waitpid() says it.
+int wait_for_end(pid_t process) {
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  return status;
+}
+
+/// In both processes.
+pid_t fork_or_throw() {
+  const pid_t child = fork();
+  if (child < 0)
+    throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
+  return child;
+}
+
+ProgramEnd end_of(int status, bool was_deaf) {
+  return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), WIFSIGNALED(status), was_deaf,
+          g_passed_signal};
+}
+
 }  // namespace
 
 std::string signal_text(int signal) { return "signal " + std::to_string(signal) + " (" + strsignal(signal) + ")"; }
@@ -196,23 +220,41 @@ ProgramEnd run_supervised(const std::vector<std::string>& words,
   Pipe errors, failure;
   std::fflush(nullptr);
   const HeldSignals signals;
-  const pid_t self = getpid(), program = fork();
-  if (program <= 0) signals.release();
-  if (program < 0)
-    throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
-  if (program == 0) become(words, self, errors.ends[1], failure.ends[1]);
+  const pid_t self = getpid(), program = fork_or_throw();
+  if (program == 0) {
+    signals.release();
+    become(words, self, errors.ends[1], failure.ends[1]);
+  }
   const SignalPassing passing(program);
   signals.release();
   errors.close_end(1);
   failure.close_end(1);
   Watcher watcher(program, watch);
   read_lines(errors.ends[0], on_error_line, watcher);
-  int status = 0;
-  while (waitpid(program, &status, 0) < 0 && errno == EINTR) {
-  }
+  const int status = wait_for_end(program);
   require_started(failure.ends[0], words[0]);
-  return {WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status), WIFSIGNALED(status), watcher.was_deaf(),
-          g_passed_signal};
+  return end_of(status, watcher.was_deaf());
+}
+
+ProgramEnd run_forked(const std::function<int()>& work) {
+  std::fflush(nullptr);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  const HeldSignals signals;
+  const pid_t self = getpid(), child = fork_or_throw();
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != self) _exit(128 + SIGTERM);
+    signals.release();
+    const int code = work();
+    std::fflush(nullptr);
+    _exit(code);
+  }
+  const SignalPassing passing(child);
+  signals.release();
+  const int status = wait_for_end(child);
+  while (waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {  // children that it had, ended as it ended
+  }
+  return end_of(status, false);
 }
 
 }  // namespace st

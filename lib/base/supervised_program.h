@@ -31,6 +31,11 @@ ProgramEnd run_supervised(const std::vector<std::string>& words,
                           const std::function<void(const std::string& line)>& on_error_line,
                           const StopWatch& watch = {});
 
+/// Runs `work` in a fork of this process and waits for its end, and for that of the processes it leaves; what it
+/// returns is its exit code. Signals as in run_supervised(). Throws Error(kInternal) when there can be no more
+/// processes. Precondition: this process has no other threads.
+ProgramEnd run_forked(const std::function<int()>& work);
+
 /// "signal 9 (Killed)"
 std::string signal_text(int signal);
 

@@ -64,7 +64,7 @@ std::string group_table(const SurfaceMesh& mesh, const Findings& f) {
   const std::vector<DeviationStats> deviation = deviation_by_group(f);
   std::vector<TableRow> rows{{"group", "triangles", "mean quality", "least", "below 0.3", "angles, deg"}};
   if (f.conformity) rows[0].emplace_back("of the size asked");
-  if (f.deviation) rows[0].emplace_back("off the surface");
+  if (f.deviation) rows[0].push_back("off the surface" + (f.unit.empty() ? "" : ", " + f.unit));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const QualityStats& q = groups[g];
     if (q.n_triangles == 0) continue;
@@ -124,13 +124,19 @@ std::string conformity_lines(const ConformityReport& c) {
       c.p1, c.p99);
 }
 
-std::string deviation_line(const SurfaceMesh& mesh, const SurfaceDeviation& d) {
-  const auto in_face = [&](FaceId f) { return f == kNone ? "" : " in " + face_label(mesh, f); };
+/// "0.25 mm"
+std::string length_text(double length, const std::string& unit) {
+  return fmt::format("{:.3g}{}{}", length, unit.empty() ? "" : " ", unit);
+}
+
+std::string in_face(const SurfaceMesh& mesh, FaceId f) { return f == kNone ? "" : " in " + face_label(mesh, f); }
+
+std::string deviation_line(const SurfaceMesh& mesh, const SurfaceDeviation& d, const std::string& unit) {
   return fmt::format(
-      "  {:<20} midpoints off the surface by {:.3g} at most{}, mean {:.3g}; normals by {:.1f} deg at most{}, mean "
-      "{:.2f}\n",
-      "deviation", d.model.max_distance, in_face(d.worst_distance), d.model.mean_distance(), d.model.max_angle_deg,
-      in_face(d.worst_angle), d.model.mean_angle_deg());
+      "  {:<20} midpoints off the surface by {} at most{}, mean {}; normals by {:.1f} deg at most{}, mean {:.2f} deg\n",
+      "deviation", length_text(d.model.max_distance, unit), in_face(mesh, d.worst_distance),
+      length_text(d.model.mean_distance(), unit), d.model.max_angle_deg, in_face(mesh, d.worst_angle),
+      d.model.mean_angle_deg());
 }
 
 /// "  sharp  5 with an angle below 10 deg: 3 corner, 2 free; worst: 4.5 at ..., ...": free places before those that the
@@ -388,8 +394,39 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
   text += wing_table(f.wings, f.is_stretched);
   text += quality_lines(mesh, f.quality, f.is_stretched);
   if (f.conformity) text += conformity_lines(*f.conformity);
-  if (f.deviation) text += deviation_line(mesh, *f.deviation);
+  if (f.deviation) text += deviation_line(mesh, *f.deviation, f.unit);
   if (f.causes) text += cause_lines(mesh, *f.causes, f.conformity.has_value());
+  return text + verdict_line(path, mesh, f, seconds);
+}
+
+std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
+                             CheckText detail) {
+  std::string text;
+  std::int64_t n_notes = 0;
+  for (const Check& c : f.checks) {
+    if (c.fails()) text += check_line(mesh, c);
+    n_notes += !c.fails() && c.defects.count > 0;
+  }
+  const QualityStats& q = f.quality.model;
+  std::string worst;
+  if (q.worst != kNone) {
+    const auto& n = mesh.triangles[q.worst].n;
+    const Vec3 middle = (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3;
+    worst = " at " + place_text(mesh, {middle, mesh.triangle_face[q.worst], kNone});
+  }
+  text += fmt::format("  {:<20} mean {:.4f}, least {:.4f}{}\n", f.is_stretched ? "stretched quality" : "quality",
+                      q.mean, q.min, worst);
+  text += fmt::format("  {:<20} {:.2f} to {:.2f} deg\n", "angles", q.min_angle_deg, q.max_angle_deg);
+  text += fmt::format("  {:<20} {:.2f} from one triangle to its neighbour (99.9 %)\n", "growth", f.quality.jump_p999);
+  if (f.conformity)
+    text += fmt::format("  {:<20} {:.1f} % of edges within {} to {} of the requested length\n", "sizes",
+                        100 * f.conformity->free.share(), kConformityMin, kConformityMax);
+  if (f.deviation)
+    text +=
+        fmt::format("  {:<20} {} off the CAD at most{}\n", "deviation",
+                    length_text(f.deviation->model.max_distance, f.unit), in_face(mesh, f.deviation->worst_distance));
+  if (detail == CheckText::kWithWings) text += wing_lines(f.wings);
+  if (n_notes > 0) text += fmt::format("  {:<20} of {} more checks: st-check -v\n", "notes", n_notes);
   return text + verdict_line(path, mesh, f, seconds);
 }
 

@@ -12,6 +12,7 @@
 #include "judge/surface_deviation.h"
 #include "mesh/checks.h"
 #include "mesh/quality.h"
+#include "stages/check_stage.h"
 #include "stages/wing_measure.h"
 
 namespace st {
@@ -47,6 +48,7 @@ struct Findings {
                                                              ///< geometry, volume where both have one
   std::vector<WingMeasure> wings;                            ///< with a sizing
   std::vector<Check> checks;
+  std::string unit = {};  ///< of lengths; empty: unknown
 
   bool passes() const;
   /// The count of the check of this name; 0 where it was not made.
@@ -58,6 +60,10 @@ std::string face_label(const SurfaceMesh& mesh, FaceId f);
 
 /// One line per check, quality, sizes, deviation; the last line is the verdict. `path`: the mesh's, for the verdict.
 std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds);
+
+/// What fails, six figures, the verdict, and lifting surfaces where `detail` has them.
+std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
+                             CheckText detail);
 
 enum class ReportDetail { kSummary, kFull };
 

@@ -748,6 +748,7 @@ StageSummary run_check(const CheckStageOptions& options, std::string* report) {
   const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, field.get());
   const TriangleCorners corners(artifact.mesh, squeeze);
   Findings f;
+  f.unit = artifact.header.unit;
   progress.step("measuring", 0.1);
   measure(artifact.mesh, corners, cad.get(), field.get(), progress, f);
   if (checked.turned.count > 0) f.topology.misoriented_edges = checked.turned;
@@ -760,7 +761,8 @@ StageSummary run_check(const CheckStageOptions& options, std::string* report) {
     full = check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kFull) + "\n";
   for (const std::string& path : options.reports) write_text_file(path, full);
   if (report) *report = std::move(full);
-  return {check_report_text(options.mesh, artifact.mesh, f, seconds),
+  return {options.text == CheckText::kWhole ? check_report_text(options.mesh, artifact.mesh, f, seconds)
+                                            : check_brief_text(options.mesh, artifact.mesh, f, seconds, options.text),
           check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kSummary),
           f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};
 }

@@ -52,6 +52,10 @@ struct CheckThresholds {
       "largest angle accepted between a triangle and its surface, in degrees; needs --geometry; default: not checked"};
 };
 
+/// How much the summary says. kBrief: the verdict, what fails, and six figures; kWithWings: and a line for each of the
+/// first lifting surfaces; kWhole: all checks, tables and causes.
+enum class CheckText { kBrief, kWithWings, kWhole };
+
 struct CheckStageOptions {
   std::string mesh;      ///< mesh artifact
   std::string geometry;  ///< optional: areas per face, open edges allowed only where the CAD has free edges, deviation
@@ -67,6 +71,8 @@ struct CheckStageOptions {
   static constexpr NumberOption kListBelow{
       "--list-below", "DEG", "(0, 60]",
       "triangles with an angle below this, in degrees, are listed by cause; needs --geometry"};
+
+  CheckText text = CheckText::kWhole;
 
   /// Throws Error(kUsage) for a threshold whose geometry or sizing is not given, and for layers that say nothing.
   void validate() const;

@@ -108,16 +108,6 @@ void require_complete(const MergeParts& parts, const MergeStageOptions& options)
           options.patches[0], missing.size(), missing.empty() ? "" : ": ", list_faces(missing), cause));
 }
 
-/// Everything that could stop the outputs is found before the work, so that none is left without the others.
-void require_outputs(const MergeStageOptions& options) {
-  require_writable(options.output);
-  for (const std::string& path : options.exports) {
-    require_export_format(path, {});
-    require_writable(path);
-    require_derived_outputs(files_beside(path, {}));
-  }
-}
-
 /// Without triangles, and of nodes those on boundaries.
 MeshArtifact make_artifact(MergeParts& parts, const MergeStageOptions& options, const MergeOrder& order) {
   MeshArtifact artifact;
@@ -167,9 +157,18 @@ StageSummary summarize(const MergeStageOptions& options, const MeshColumns& mesh
 
 }  // namespace
 
+void require_merge_outputs(const MergeStageOptions& options) {
+  require_writable(options.output);
+  for (const std::string& path : options.exports) {
+    require_export_format(path, {});
+    require_writable(path);
+    require_derived_outputs(files_beside(path, {}));
+  }
+}
+
 StageSummary run_merge(const MergeStageOptions& options) {
   const Timer timer;
-  require_outputs(options);
+  require_merge_outputs(options);
   Progress progress("merging", 1);
   progress.step("reading", 0);
   MergeParts parts = open_parts(options.patches);

@@ -15,6 +15,10 @@ struct MergeStageOptions {
   bool allow_incomplete = false;     ///< merge although faces are missing
 };
 
+/// Everything that could stop the outputs is found before the work, so that none is left without the others. Throws
+/// Error.
+void require_merge_outputs(const MergeStageOptions& options);
+
 /// Local. Throws Error; Error(kIncomplete) for incomplete patches without allow_incomplete.
 StageSummary run_merge(const MergeStageOptions& options);
 

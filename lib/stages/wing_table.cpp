@@ -74,6 +74,23 @@ std::string wing_table(std::span<const WingMeasure> wings, bool is_stretched) {
   return n_more ? text + fmt::format("  and {} more: see --json\n", n_more) : text;
 }
 
+std::string wing_lines(std::span<const WingMeasure> wings) {
+  constexpr std::size_t kMostLines = 5;
+  std::string text;
+  for (const WingMeasure& w : wings.first(std::min(kMostLines, wings.size()))) {
+    const auto of_chord = [&w](LengthsAt WingStationMeasure::*where) {
+      return at_stations(w, "{:.2g}", [where](const auto& s) { return 100 * (s.*where).normal / s.chord; });
+    };
+    text +=
+        fmt::format("  {:<20} nose {} % of the chord, trailing edge {} %; asked {} %, held on {:.0f} % of the span\n",
+                    fmt::format("wing at edge {}", w.first_edge + 1), of_chord(&WingStationMeasure::nose),
+                    of_chord(&WingStationMeasure::trailing),
+                    at_stations(w, "{:.2g}", [](const auto& s) { return 100 * s.asked / s.chord; }), 100 * w.held);
+  }
+  if (wings.size() > kMostLines) text += fmt::format("  and {} more lifting surfaces\n", wings.size() - kMostLines);
+  return text;
+}
+
 json wing_measures_json(std::span<const WingMeasure> wings) {
   json list = json::array();
   for (const WingMeasure& w : wings) {

@@ -13,6 +13,9 @@ namespace st {
 /// where sizes are stretched. Empty: there is none.
 std::string wing_table(std::span<const WingMeasure> wings, bool is_stretched);
 
+/// A line for each of the first surfaces: what is at noses and trailing edges, and what was asked for.
+std::string wing_lines(std::span<const WingMeasure> wings);
+
 /// Lengths in model unit.
 nlohmann::json wing_measures_json(std::span<const WingMeasure> wings);
 

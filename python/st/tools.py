@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 _WHEEL = Path(__file__).parent / "bin"  # where a wheel has the tools
@@ -17,7 +18,7 @@ class ToolError(RuntimeError):
         self.tool, self.code, self.message = tool, code, message
 
 
-def _program(tool):
+def program(tool):
     """In the folder ST_BIN, else in the wheel that this module came with, else in PATH."""
     folder = os.environ.get("ST_BIN") or (str(_WHEEL) if _WHEEL.is_dir() else None)
     found = shutil.which(str(Path(folder) / tool) if folder else tool)
@@ -28,7 +29,7 @@ def _program(tool):
 
 def command():
     """The tool of the name under which this was started: a command that a wheel installs."""
-    tool = _program(Path(sys.argv[0]).name)
+    tool = program(Path(sys.argv[0]).name)
     os.execv(tool, [tool, *sys.argv[1:]])
 
 
@@ -46,7 +47,7 @@ def _arguments(options):
 def run(tool, *inputs, allow=(), **options):
     """Runs a tool and returns what it says with --json. `allow`: exit codes that are no errors, such as 5 of st-check
     (the dictionary then has it as "exit_code"). Raises ToolError."""
-    command = [_program(tool), *map(str, inputs), *_arguments(options), "--json"]
+    command = [program(tool), *map(str, inputs), *_arguments(options), "--json"]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     lines = done.stdout.strip().splitlines()
     try:
@@ -60,22 +61,36 @@ def run(tool, *inputs, allow=(), **options):
     return result
 
 
+def _toml(value):
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    return json.dumps(str(value))
+
+
+def _option_file(tables):
+    """A table for each tool: {"st-raster": {"lmax": "2%"}}."""
+    lines = []
+    for tool, options in tables.items():
+        lines.append(f"[{tool}]")
+        lines += [f"{name.replace('_', '-')} = {_toml(value)}" for name, value in options.items() if value is not None]
+    return "\n".join(lines) + "\n"
+
+
 def mesh(model, out, ranks=1, **options):
-    """From a CAD file to out/mesh.hdf, all artifacts beside it. `options`: of each tool by its name, as in
-    mesh("wing.step", "out", **{"st-raster": {"lmax": "2%"}}). Returns what each tool said, by tool."""
-    folder = Path(out)
-    folder.mkdir(parents=True, exist_ok=True)
-    at = {name: folder / f"{name}.hdf" for name in ("geometry", "raster", "sizing", "patches", "mesh")}
-    chain = [("st-import", [model], "geometry"), ("st-raster", [at["geometry"]], "raster"),
-             ("st-prolong", [at["raster"]], "sizing"), ("st-mesh", [at["geometry"], at["sizing"]], "patches"),
-             ("st-merge", [at["patches"]], "mesh")]
-    unknown = set(options) - {tool for tool, _, _ in chain}
-    if unknown:
-        raise TypeError(f"no tool of the chain: {', '.join(sorted(unknown))}")
-    said = {}
-    for tool, inputs, output in chain:
-        given = dict(options.get(tool, {}))
-        if ranks > 1 and tool in ("st-raster", "st-mesh"):
-            given.setdefault("np", ranks)
-        said[tool] = run(tool, *inputs, output=at[output], **given)
-    return said
+    """From a CAD file to out/mesh.hdf, all artifacts beside it, by st-run. `options`: those of st-run, and those of a
+    stage by its tool's name, as in mesh("wing.step", "out", preset="rans", **{"st-raster": {"lmax": "2%"}}). Returns
+    what each tool said, by tool; a mesh that does not pass its checks is no error, st-check says so."""
+    stages = {name: value for name, value in options.items() if name.startswith("st-")}
+    own = {name: value for name, value in options.items() if name not in stages}
+    if ranks > 1:
+        own.setdefault("np", ranks)
+    with tempfile.NamedTemporaryFile("w", suffix=".toml", encoding="utf-8") as file:
+        file.write(_option_file(stages))
+        file.flush()
+        own.setdefault("options", file.name)
+        said = run("st-run", model, keep=out, allow=(5,), **own)
+    if not said.get("stages"):
+        raise ToolError("st-run", 5, said.get("error", "incomplete"))
+    return said["stages"]

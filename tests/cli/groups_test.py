@@ -505,7 +505,7 @@ class Tolerances(ToolTest):
             check = self.meshed(lengths=("--lmax", "0.1"))
             self.assertEqual(check.code, OK, check)
             self.assertGreater(check.json()["volume_difference"], 0.008, "the top is 0.02 above the sides")
-            text = must("st-check", self.folder / "mesh.hdf", "--geometry", self.folder / "geometry.hdf").out
+            text = must("st-check", self.folder / "mesh.hdf", "--geometry", self.folder / "geometry.hdf", "-v").out
             explained = re.search(r"mesh volume / CAD volume .* (\S+) %", text)
             self.assertLess(float(explained[1]), 3, "no more than the gaps leave open")
 

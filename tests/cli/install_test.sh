@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/prefix" > "$work/install.log" || { cat "$work/install.log"; exit 1; }
 for tool in st-import st-edit st-raster st-prolong st-mesh st-remesh st-merge st-check st-info st-diff st-export \
-  st-report; do
+  st-report st-run; do
   (cd / && env -i PATH=/usr/bin:/bin "$work/prefix/bin/$tool" --version > /dev/null) \
     || { echo "FAILED: $tool does not run"; exit 1; }
   if readelf -d "$work/prefix/bin/$tool" \
@@ -18,4 +18,6 @@ export PATH=$work/prefix/bin:$PATH
 st-import "$models/box.step" -q
 st-raster geometry.hdf --np 2 -q  # starts itself again under mpirun, from its installed place
 [ -s raster.hdf ] || { echo "FAILED: no raster"; exit 1; }
+st-run "$models/box.step" -q --np 2 -o run.hdf  # which starts st-raster and st-mesh beside itself
+[ -s run.hdf ] || { echo "FAILED: no mesh"; exit 1; }
 echo "the installed tools run"

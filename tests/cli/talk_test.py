@@ -82,10 +82,22 @@ class Check(ToolTest):
         self.assertEqual([line for line in lines[1:-1] if "FAILS" in line], [])
         self.assertIn("FAILS", lines[-1])
 
+    def test_it_says_six_figures_and_verbose_all_checks(self):
+        made = artifacts_of("assembly")
+        words = [made / "mesh.hdf", "--geometry", made / "geometry.hdf", "--sizing", made / "sizing.hdf"]
+        brief, whole = (must("st-check", *words, *more).out.rstrip("\n").split("\n") for more in ([], ["-v"]))
+        names = [line.split()[0] for line in brief[:-1]]
+        self.assertEqual([n for n in names if n != "notes"], ["quality", "angles", "growth", "sizes", "deviation"])
+        self.assertRegex(brief[4], r"deviation +\S+ mm off the CAD at most")
+        self.assertRegex(brief[-1], r"mesh.hdf: passes; \d+ triangles, \d+ nodes")
+        self.assertGreater(len(whole), 20)
+        self.assertIn("folds", [line.split()[0] for line in whole])
+        self.assertTrue(any(re.match("  group .* off the surface, mm", line) for line in whole), whole)
+
     def test_groups_have_a_line_each(self):
         made = artifacts_of("assembly")
         groups = must("st-check", made / "mesh.hdf", "--json").json()["groups"]
-        out = must("st-check", made / "mesh.hdf", "--geometry", made / "geometry.hdf").out
+        out = must("st-check", made / "mesh.hdf", "--geometry", made / "geometry.hdf", "-v").out
         self.assertRegex(out, r"(?m)^  group +triangles +mean quality")
         for group in groups:
             self.assertRegex(out, rf"(?m)^  {re.escape(group['name'])} +{group['quality']['triangles']} ")
@@ -121,7 +133,7 @@ class Misspelt(ToolTest):
 
 class Sizes(ToolTest):
     def range_of(self, tool, *arguments):
-        low, high = re.search(r", lengths (\S+) to (\S+) on the faces", must(tool, *arguments).out).groups()
+        low, high = re.search(r", lengths (\S+) to (\S+) mm on the faces", must(tool, *arguments).out).groups()
         return float(low), float(high)
 
     def test_ranges_of_raster_and_sizing_mean_the_lengths_on_the_faces(self):

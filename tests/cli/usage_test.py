@@ -11,10 +11,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import BIN, INPUT, MODELS, OUTPUT, TOOLS, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
 N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1,
-            "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1}
+            "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1, "st-run": 1}
 # Options of all tools, which the pages describe in words.
-COMMON = {"--help", "--version", "--options", "--print-options", "--print-inputs", "--quiet", "--verbose", "--json",
-          "--wall-limit", "--replace-own"}
+COMMON = {"--help", "--help-all", "--version", "--options", "--print-options", "--print-inputs", "--quiet",
+          "--verbose", "--json", "--wall-limit", "--replace-own"}
 HELP_COLUMN = 34  # where the texts of --help start
 # Values that each option with a bounded value refuses.
 REFUSED = {
@@ -71,6 +71,8 @@ REFUSED = {
         "--list-below": ["0", "61", "x"],
         "--max-free-sharp": ["-1", "1.5"],
     },
+    "st-run": {"--jobs": ["0", "1.5", "x"], "--np": ["0", "x"], "--threads": ["0", "x"], "--lmax": ["0", "x"],
+               "--slope": ["0", "2.1"], "--preset": ["ranz"]},
     "st-diff": {"--tolerance": ["-1", "2", "x"]},
     "st-export": {"--tolerance": ["0", "-1%", "x"], "--feature-angle": ["0", "181", "x"], "--unit": ["parsec"]},
 }
@@ -84,7 +86,8 @@ def inputs(tool):
 
 def options_in_help(tool):
     """Option -> (its head, such as "--alpha DEG:(0, 90]=10", its text)."""
-    lines = must(tool, "--help").out.split("\n")
+    own = must(tool, "--help-all").out.partition("\nOptions of ")[0]  # of st-run: without those of the stages
+    lines = own.split("\n")
     options = {}
     for line, following in zip(lines, lines[1:]):
         if line.startswith("  -"):
@@ -108,6 +111,15 @@ class Help(ToolTest):
             self.assertEqual(run.err, "")
             self.assertEqual(must(tool, "-h").out, run.out)
             self.assertLess(COMMON, set(options_in_help(tool)), tool)
+
+    def test_help_shows_at_most_ten_options_and_says_how_many_more_there_are(self):
+        for tool in TOOLS:
+            first, whole = (re.findall(r"(?m)^  (-\S+)", must(tool, option).out) for option in ("--help", "--help-all"))
+            self.assertLessEqual(set(first), set(whole), tool)
+            shown = set(first) - {"-h,--help", "--help-all", "-o,--output"}
+            self.assertLessEqual(len(shown), 10, tool)
+            more = re.search(r"(?m)^(\d+) more options: " + tool + " --help-all$", must(tool, "--help").out)
+            self.assertEqual(int(more[1]), len(whole) - len(first), tool)
 
     def test_page_of_a_tool_has_the_options_defaults_and_ranges_of_help(self):
         for tool in TOOLS:
@@ -161,7 +173,7 @@ class Usage(ToolTest):
         self.expect_error(USAGE, "st-export", "mesh.hdf", says="--output")
 
     def test_surplus_argument_is_2(self):
-        for tool in set(TOOLS) - {"st-merge", "st-edit"}:
+        for tool in set(TOOLS) - {"st-merge", "st-edit", "st-run"}:
             self.expect_error(USAGE, tool, *inputs(tool), "surplus", says="'surplus'", cwd=self.folder)
 
     def test_unknown_option_is_2(self):
@@ -171,7 +183,7 @@ class Usage(ToolTest):
     def test_misspelt_option_names_the_one_that_was_meant(self):
         for tool, wrong, meant in (("st-raster", "--lmn", "--lmin"), ("st-check", "--max_folds", "--max-folds"),
                                    ("st-mesh", "--enhance-round=2", "--enhance-rounds"),
-                                   ("st-import", "--verbos", "--verbose")):
+                                   ("st-run", "--lmx", "--lmax"), ("st-import", "--verbos", "--verbose")):
             self.expect_error(USAGE, tool, *inputs(tool), wrong, says=[wrong, f"did you mean '{meant}'"],
                               cwd=self.folder)
         run = Run("st-raster", "g.hdf", "--quite-another")
@@ -286,7 +298,8 @@ class OptionFile(ToolTest):
         for tool, table in tables.items():
             for text in (f"[[{table}]]\n", f"[[{tool}.{table}]]\n"):
                 self.assertEqual(self.inputs_of(tool, text), ["o.toml"])
-            for other in set(TOOLS) - {tool}:
+            self.assertEqual(self.inputs_of("st-run", f"[[{table}]]\n"), ["o.toml"])
+            for other in set(TOOLS) - {tool, "st-run"}:
                 self.assertEqual(self.inputs_of(other, f"[[{table}]]\n"), [], other)
         self.assertEqual(self.inputs_of("st-prolong", 'sources = "s.toml"\n[[source]]\n'), ["s.toml", "o.toml"])
 
@@ -325,6 +338,7 @@ class Summary(ToolTest):
             "st-info": [a / "mesh.hdf"],
             "st-diff": [a / "mesh.hdf", a / "mesh.hdf"],
             "st-export": [a / "mesh.hdf", "-o", "mesh.stl"],
+            "st-run": [MODELS / "box.step"],
         }
 
     def test_last_line_of_json_is_one_object(self):
@@ -336,9 +350,9 @@ class Summary(ToolTest):
         for tool, arguments in self.stages().items():
             run = must(tool, *arguments, cwd=self.folder)
             self.assertGreaterEqual(run.out.count("\n"), 1, run)
-            if tool not in ("st-info", "st-check", "st-diff"):
+            if tool not in ("st-info", "st-check", "st-diff", "st-run"):
                 self.assertEqual(run.out.count("\n"), 1, run)
-            if tool not in ("st-raster", "st-prolong"):
+            if tool not in ("st-raster", "st-prolong", "st-run"):
                 self.assertEqual(run.err, "", run)
 
     def test_stages_of_sizes_show_their_table_of_groups_on_stderr(self):

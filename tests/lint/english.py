@@ -95,7 +95,7 @@ def update(root):
 
 
 def help_paragraphs(text):
-    """The texts of a --help: what it says of each option or argument, and its free lines."""
+    """The texts of a --help-all: what it says of each option or argument, and its free lines."""
     entry = None
     for line in text.splitlines():
         named = re.match(r"^  (-|\S)[^ ].*?(?:  +(.*))?$", line)
@@ -111,9 +111,9 @@ def help_paragraphs(text):
 
 def long_help(folder):
     for tool in sorted(Path(folder).glob("st-*")):
-        text = subprocess.run([tool, "--help"], capture_output=True, text=True, check=True).stdout
+        text = subprocess.run([tool, "--help-all"], capture_output=True, text=True, check=True).stdout
         for paragraph in help_paragraphs(text):
-            yield from long_in(f"{tool.name} --help", 0, paragraph)
+            yield from long_in(f"{tool.name} --help-all", 0, paragraph)
 
 
 LONG = " ".join(["word"] * (MAX_WORDS + 1)) + ".\n"

@@ -18,7 +18,7 @@ for tool in "$prefix"/bin/st-*; do
   [ -s "$page" ] || failed "no man page of $name"
   [ "$name" != st-workflow ] || continue
   zcat "$page" | sed 's/\\-/-/g' > "$work/page"
-  for flag in $("$tool" --help | grep -oE '^  (-[a-z],)?--[a-z0-9-]+' | grep -oE -- '--[a-z0-9-]+'); do
+  for flag in $("$tool" --help-all | grep -oE '^  (-[a-z],)?--[a-z0-9-]+' | grep -oE -- '--[a-z0-9-]+'); do
     grep -q -- "^\.B .*$flag" "$work/page" || failed "the man page of $name has no $flag"
     for file in bash-completion/completions/$name zsh/vendor-completions/_$name; do
       grep -q -- "$flag" "$prefix/share/$file" || failed "$file has no $flag"

@@ -66,6 +66,15 @@ class Module(unittest.TestCase):
         shutil.rmtree(WORK, ignore_errors=True)
         cls.said = st.mesh(MODELS / "assembly.step", WORK)
 
+    def test_options_of_stages_and_of_all_reach_them(self):
+        out = WORK / "options"
+        said = st.mesh(MODELS / "box.step", out, preset="preview", max_folds=2, export=[out / "m.stl"],
+                       **{"st-raster": {"lmax": "6%", "allow_incomplete": True}})
+        options = st.read(out / "raster.hdf").options
+        self.assertEqual((options["lmax"], options["alpha"], options["base_cells"]), ("6%", 20, 1))
+        self.assertEqual(said["st-check"]["checks"]["folds"]["allowed"], 2)
+        self.assertTrue((out / "m.stl").exists())
+
     def test_every_kind_is_read_as_what_it_is(self):
         kinds = {"geometry": st.Geometry, "raster": st.Raster, "sizing": st.Sizing, "patches": st.Patches,
                  "mesh": st.Mesh}
@@ -164,8 +173,12 @@ class Module(unittest.TestCase):
         self.assertEqual(caught.exception.code, 3)
         self.assertIn("mesh.hdf", str(caught.exception))
         self.assertEqual(st.run("st-diff", WORK / "mesh.hdf", WORK / "mesh.hdf")["equal"], True)
-        with self.assertRaises(TypeError):
-            st.mesh(MODELS / "box.step", WORK / "x", **{"st-rastr": {}})
+        for options, says in (({"st-rastr": {}}, "did you mean 'st-raster'"), ({"st-raster": {"lmx": 3}}, "lmx"),
+                              ({"st-raster": {"lmax": "x"}}, "lmax"), ({"lmx": 3}, "--lmx")):
+            with self.assertRaises(st.ToolError) as caught:
+                st.mesh(MODELS / "box.step", WORK / "x", **options)
+            self.assertEqual(caught.exception.code, 2)
+            self.assertIn(says, caught.exception.message)
         (WORK / "no.hdf").write_text("no artifact")
         self.assertRaises(OSError, st.read, WORK / "no.hdf")
 

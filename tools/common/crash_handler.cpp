@@ -26,11 +26,12 @@ constexpr int kLate = SIGUSR1;
 constexpr std::size_t kAltStack = 65'536;
 
 const char* g_tool = "st";
+const char* g_part = "";
 std::atomic_flag g_is_crashing = ATOMIC_FLAG_INIT;
 char g_alt_stack[kAltStack];  // of the main thread: its own may be what overflowed
 
 // What the handler needs to start again, made ready ahead: it may not allocate.
-bool g_may_restart = false;
+bool g_may_restart = false, g_parent_restarts = false;
 char g_program[4096];
 std::string g_tries;  // an entry of the environment
 char** g_argv = nullptr;
@@ -41,13 +42,17 @@ void print(const char* text) {
 }
 
 void print_line(const char* kind, const char* work, const char* end) {
-  for (const char* text : {g_tool, kind, work, end}) print(text);
+  for (const char* text : {g_tool, kind, g_part, work, end}) print(text);
+}
+
+void say_again(const char* work, int signal) {
+  print_line(": warning: ", work, signal == kLate ? kDidNotEnd : kCrashed);
+  print("; again without it\n");
 }
 
 /// Does not come back where it succeeds. `work`: "face 12".
 void start_again(const char* work, int signal) {
-  print_line(": warning: ", work, signal == kLate ? kDidNotEnd : kCrashed);
-  print("; again without it\n");
+  say_again(work, signal);
   sigset_t crash;
   sigemptyset(&crash);
   sigaddset(&crash, signal);
@@ -65,6 +70,10 @@ extern "C" void end_on_crash(int signal) {
   if (describe_current_work(work, sizeof work)) {
     const bool is_noted = std::strncmp(work, "face ", 5) == 0 && note_crash(std::atoi(work + 5) - 1, signal);
     if (is_noted && g_may_restart) start_again(work, signal);
+    if (is_noted && g_parent_restarts) {
+      say_again(work, signal);
+      _exit(kAgain);
+    }
     print_line(": error: ", work, is_late ? kDidNotEnd : kCrashed);
     print("\n");
   }
@@ -118,6 +127,10 @@ void restart_after_crashes(char** argv) {
   g_argv = argv;
   g_may_restart = true;
 }
+
+void leave_restart_to_parent() { g_parent_restarts = true; }
+
+void name_part(const char* text) { g_part = text; }
 
 int n_tries() {
   const char* text = std::getenv(kVariable);

@@ -15,6 +15,13 @@ void watch_late_work();
 /// others would wait.
 void restart_after_crashes(char** argv);
 
+/// The same where this process is a fork of one that starts another: a crash at such a face ends it with code kAgain.
+void leave_restart_to_parent();
+inline constexpr int kAgain = 75;  ///< EX_TEMPFAIL of sysexits.h
+
+/// What this process is at, "st-mesh: ": messages of crashes begin with it. `text` outlives the process.
+void name_part(const char* text);
+
 /// How often the program was started again; a new try by who started it has to count with count_try().
 int n_tries();
 inline constexpr int kMostTries = 8;

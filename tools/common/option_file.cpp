@@ -19,8 +19,9 @@
 namespace st {
 namespace {
 
-const std::set<std::string> kTools = {"st-import", "st-edit",  "st-raster", "st-prolong", "st-mesh",   "st-remesh",
-                                      "st-merge",  "st-check", "st-info",   "st-diff",    "st-export", "st-report"};
+const std::set<std::string> kTools = {"st-import", "st-edit",   "st-raster", "st-prolong", "st-mesh",
+                                      "st-remesh", "st-merge",  "st-check",  "st-info",    "st-diff",
+                                      "st-export", "st-report", "st-run"};
 /// Options that a file cannot set: they say where the options come from, or what to do instead of running.
 const std::set<std::string> kCommandLineOnly = {"help", "version", "options", "print-options", "print-inputs"};
 
@@ -113,12 +114,31 @@ void apply(const std::string& key, const toml::node& node, const std::string& pa
   }
 }
 
-/// A default as TOML: numbers and booleans bare, text quoted.
-std::string toml_default(const CLI::Option& option) {
-  const std::string text = option.get_default_str();
+bool is_flag(const CLI::Option& option) { return option.get_expected_max() == 0; }
+
+/// A value as TOML: numbers bare where they read back as the same text, all else quoted.
+std::string toml_value(const std::string& text) {
   double number = 0;
-  if (option.get_expected_max() == 0) return "false";  // a flag
-  return CLI::detail::lexical_cast(text, number) ? text : '"' + text + '"';
+  if (CLI::detail::lexical_cast(text, number)) {
+    try {
+      const toml::table read = toml::parse("x = " + text);
+      if (scalar_text(*read.get("x")) == text) return text;
+    } catch (const toml::parse_error&) {
+    }
+  }
+  const auto is_plain = [](unsigned char c) { return c >= ' ' && c != '"' && c != '\\' && c < 0x7f; };
+  if (std::all_of(text.begin(), text.end(), is_plain)) return '"' + text + '"';
+  std::ostringstream quoted;
+  quoted << toml::value<std::string>(text);
+  return quoted.str();
+}
+
+/// A value or a list of values.
+std::string toml_values(const std::vector<std::string>& values) {
+  if (values.size() == 1) return toml_value(values[0]);
+  std::string list;
+  for (const std::string& value : values) list += (list.empty() ? "" : ", ") + toml_value(value);
+  return "[" + list + "]";
 }
 
 /// What a file says to one tool, by key.
@@ -127,25 +147,27 @@ struct Settings {
   std::map<std::string, const toml::node*> lists;  ///< tables such as [[size]]
 };
 
-void collect(const toml::table& table, Settings& settings) {
+void collect(const toml::table& table, OptionFileTop values, Settings& settings) {
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
-    const bool is_list = option_file_lists().contains(name) && node.is_array_of_tables();
-    if (is_list || !node.is_table()) (is_list ? settings.lists : settings.values)[name] = &node;
+    if (option_file_lists().contains(name) && node.is_array_of_tables())
+      settings.lists[name] = &node;
+    else if (!node.is_table() && values == OptionFileTop::kHolds)
+      settings.values[name] = &node;
   }
 }
 
 /// The keys at the top, then those in the tool's own table, which win.
-Settings settings_for(const std::string& tool, const toml::table& file, const std::string& path) {
+Settings settings_for(const std::string& tool, const toml::table& file, const std::string& path, OptionFileTop top) {
   Settings settings;
-  collect(file, settings);
+  collect(file, top, settings);
   const std::vector<std::string> tools(kTools.begin(), kTools.end());
   for (const auto& [key, node] : file)
     if (const std::string name(key.str()); node.is_table() && !kTools.contains(name))
       fail(position(path, node.source()), "unknown table [" + name + "]" + did_you_mean(name, tools) +
                                               "; a table is named after a tool, such as [" + tool + "]");
   if (const toml::table* own = file[tool].as_table()) {
-    collect(*own, settings);
+    collect(*own, OptionFileTop::kHolds, settings);
     for (const auto& [key, node] : *own)
       if (node.is_table()) settings.values[std::string(key.str())] = &node;
   }
@@ -173,18 +195,29 @@ std::string option_file_template(const std::string& tool, const std::vector<cons
   std::string text = "# Options of " + tool + ": remove the # before a line to change it.\n";
   for (const CLI::Option* option : options) {
     text += "\n# " + option->get_description() + "\n";
-    text += "# " + option->get_lnames().front() + " = " + toml_default(*option) + "\n";
+    text += "# " + option->get_lnames().front() + " = " +
+            (is_flag(*option) ? "false" : toml_value(option->get_default_str())) + "\n";
   }
   return text;
 }
 
-void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app) {
-  apply_option_text(read_text(path), path, tool, app);
+std::string option_file_settings(const std::vector<const CLI::Option*>& options) {
+  std::string text;
+  for (const CLI::Option* option : options)
+    if (option->count() > 0)
+      text +=
+          option->get_lnames().front() + " = " + (is_flag(*option) ? "true" : toml_values(option->results())) + "\n";
+  return text;
 }
 
-void apply_option_text(const std::string& text, const std::string& path, const std::string& tool, CLI::App& app) {
+void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app, OptionFileTop top) {
+  apply_option_text(read_text(path), path, tool, app, top);
+}
+
+void apply_option_text(const std::string& text, const std::string& path, const std::string& tool, CLI::App& app,
+                       OptionFileTop top) {
   const toml::table file = parse_text(text, path);
-  const Settings settings = settings_for(tool, file, path);
+  const Settings settings = settings_for(tool, file, path, top);
   std::vector<std::pair<const toml::node*, CLI::Option*>> lists;
   for (const auto& [key, node] : settings.lists)
     if (CLI::Option* option = open_list_option(key, app)) lists.emplace_back(node, option);

@@ -7,6 +7,9 @@
 
 namespace st {
 
+/// Whether keys above all tables are meant for this tool, too. Tables such as [[size]] always are.
+enum class OptionFileTop { kHolds, kIsOfAnother };
+
 /// An option file of `tool` that changes nothing: every option at its default, commented out, with its help.
 std::string option_file_template(const std::string& tool, const std::vector<const CLI::Option*>& options);
 
@@ -16,9 +19,13 @@ std::string option_file_template(const std::string& tool, const std::vector<cons
 /// stand in it: it is then one of the files that --sizes, --sources or --groups name. Call after app.parse(). Throws
 /// Error(kUsage) with file and line for an unreadable file, bad TOML, an unknown key or table, tables together with a
 /// file of them, and a value that the option does not take.
-void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app);
+void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app, OptionFileTop top);
 
 /// The same for the text of an option file; `path` is what messages name.
-void apply_option_text(const std::string& text, const std::string& path, const std::string& tool, CLI::App& app);
+void apply_option_text(const std::string& text, const std::string& path, const std::string& tool, CLI::App& app,
+                       OptionFileTop top);
+
+/// The options that have a value by now, one line for each: `lmax = "2%"`.
+std::string option_file_settings(const std::vector<const CLI::Option*>& options);
 
 }  // namespace st

@@ -112,10 +112,7 @@ std::optional<int> ToolMain::start_ranks(const std::vector<std::string>& argumen
 
 int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage) {
   begin(argc, argv);
-  app_.add_option("--np", n_ranks_,
-                  "number of MPI ranks; the tool starts itself under mpirun; same result for every number")
-      ->type_name("N")
-      ->capture_default_str();
+  ranks();
   threads();
   std::optional<std::string> text;
   std::optional<int> job_code;  // of ranks that were started here

@@ -13,17 +13,17 @@
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
-#include "base/length.h"
 #include "base/log.h"
 #include "base/mapped_file.h"
 #include "base/nearest_name.h"
+#include "base/supervised_program.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "common/crash_handler.h"
 #include "common/option_file.h"
-#include "common/presets.h"
 #include "common/wall_limit.h"
 #include "io/file/journal.h"
 #include "io/file/json_text.h"
@@ -39,6 +39,7 @@ constexpr const char* kFooter =
     "Lengths: 3 (model unit), 0.25mm, 2in, 0.1% (of the model's diagonal).\n"
     "Exit codes: 0 ok, 2 usage, 3 input, 4 geometry, 5 incomplete or check failed, 6 output, 7 inputs do not belong "
     "together, 8 out of memory, 70 internal.";
+constexpr std::size_t kHelpColumn = 34;  // where the texts of --help start
 /// Where the package puts the pages.
 constexpr const char* kPages = "/usr/share/doc/st/docs/";
 
@@ -69,10 +70,8 @@ extern "C" void end_on_lost_page(int signal, siginfo_t* info, void*) {
   _exit(static_cast<int>(ExitCode::kInput));
 }
 
-constexpr NumberOption kWallLimit{"--wall-limit", "SECONDS", "[0.1, 1e9]", ""};
-
-/// Type of an option that names an array in a file.
-constexpr const char* kArrayType = "FILE:ARRAY";
+constexpr NumberOption kWallLimit{"--wall-limit", "SECONDS", "[0.1, 1e9]",
+                                  "end with exit code 3 when the run takes longer"};
 
 /// Temporaries go when the user or the batch system ends the run; a signal ignored by the parent (nohup) stays ignored.
 void install_signal_handlers() {
@@ -96,60 +95,13 @@ void occupy_standard_streams() {
     if (fcntl(fd, F_GETFD) < 0 && errno == EBADF && open("/dev/null", fd == 0 ? O_WRONLY : O_RDONLY) < 0) return;
 }
 
-/// The reading is left to CLI11; only the bounds are checked here, so that "not a number" has one message.
-CLI::Validator in_interval(const NumberOption& option) {
-  return CLI::Validator(
-      [option](std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) ? option.refusal(value) : "'" + text + "' is not a number";
-      },
-      option.interval);
-}
-
-/// 1e6 is a whole number, too: it is written out for options that take one.
-CLI::Validator whole_written_out() {
-  return CLI::Validator(
-      [](std::string& text) {
-        constexpr double kMostExact = 9e15;
-        double value = 0;
-        const bool is_whole = CLI::detail::lexical_cast(text, value) && value == std::floor(value);
-        if (is_whole && std::abs(value) < kMostExact) text = std::to_string(static_cast<std::int64_t>(value));
-        return std::string();
-      },
-      "");
-}
-
-CLI::Validator a_length(const std::string& flag) {
-  return CLI::Validator(
-      [flag](std::string& text) {
-        try {
-          parse_length(text, flag);
-          return std::string();
-        } catch (const Error& e) {
-          return std::string(e.what()).substr(flag.size() + 2);  // the flag's name is put before by CLI11
-        }
-      },
-      "");
-}
-
 bool has_argument(int argc, char** argv, std::string_view wanted) {
   return std::any_of(argv + 1, argv + argc, [&](const char* argument) { return argument == wanted; });
 }
 
-std::string usage_message(const CLI::ParseError& e, const std::string& tool) {
-  std::string text = e.what();
-  for (char& c : text)
-    if (c == '\n') c = ' ';
-  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text + "; see " + tool + " --help";
-}
-
 /// "--lmn=3" -> ", did you mean '--lmin'"; empty for what is no option, and where nothing is near.
-std::string near_option(const std::string& argument, const CLI::App& app) {
+std::string near_option(const std::string& argument, const std::vector<std::string>& names) {
   if (!argument.starts_with("-")) return "";
-  std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) names.push_back(name);
   const std::string word = argument.substr(0, argument.find('='));
   const std::string nearest = nearest_name(word.substr(std::min(word.find_first_not_of('-'), word.size())), names);
   return nearest.empty() ? "" : ", did you mean '--" + nearest + "'";
@@ -158,10 +110,11 @@ std::string near_option(const std::string& argument, const CLI::App& app) {
 }  // namespace
 
 ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
-    : name_(std::move(name)), kind_(kind), app_(description, name_) {
-  app_.get_formatter()->column_width(34);
+    : OptionSet(std::move(name), description), kind_(kind) {
+  app_.get_formatter()->column_width(kHelpColumn);
   app_.footer(kFooter);
-  app_.set_help_flag("-h,--help", "print this help and exit");
+  app_.set_help_flag("-h,--help", "print the options that matter first, and exit");
+  app_.set_help_all_flag("--help-all", "print all options and exit");
   app_.set_version_flag("--version", name_ + " " ST_VERSION, "print the version and exit");
   app_.add_option("--options", options_file_,
                   "read options from this file (TOML, long names without dashes); the command line wins")
@@ -175,37 +128,17 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
       ->disable_flag_override();
   app_.add_flag("--replace-own", replaces_own_, "replace a file under the name of an output only where ST wrote it")
       ->disable_flag_override();
-  app_.add_option("--wall-limit", wall_limit_, "end with exit code 3 when the run takes longer")
-      ->type_name("SECONDS")
-      ->check(in_interval(kWallLimit))
-      ->capture_default_str();
+  execution_number(kWallLimit, wall_limit_);
   auto* quiet = app_.add_flag("-q,--quiet", quiet_, "print errors only")->disable_flag_override();
   app_.add_flag("-v,--verbose", verbose_, "print more about each step")->excludes(quiet)->disable_flag_override();
   app_.add_flag("--json", json_, "print one JSON object as the last line of stdout")->disable_flag_override();
-}
-
-void ToolMain::input(const std::string& name, std::string& path, const std::string& help) {
-  input_options_.push_back(app_.add_option(name, path, help)->required()->type_name("FILE"));
-}
-
-void ToolMain::inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help) {
-  input_options_.push_back(app_.add_option(name, paths, help)->required()->type_name("FILE"));
-}
-
-void ToolMain::optional_input(const std::string& flag, std::string& path, const std::string& help) {
-  input_options_.push_back(app_.add_option(flag, path, help)->type_name("FILE"));
-  file_options_.push_back(input_options_.back());
-}
-
-void ToolMain::optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
-  input_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
-  file_options_.push_back(input_options_.back());
-  repeated_flags_.push_back(flag);
+  for (const CLI::Option* option : app_.get_options())
+    if (option != app_.get_help_ptr() && option != app_.get_help_all_ptr()) common_options_.push_back(option);
 }
 
 /// The arguments, the last one first; "--sources A B" becomes "--sources A --sources B". Only where the positional
 /// arguments stand before: after them B may be one.
-std::vector<std::string> ToolMain::reversed_arguments(int argc, char** argv) const {
+std::vector<std::string> ToolMain::reversed_arguments(int argc, char** argv) {
   std::vector<std::string> arguments;
   const auto is_flag = [](const std::string& a) { return a.starts_with("-"); };
   const bool is_led = argc > 1 && !is_flag(argv[1]);
@@ -218,86 +151,111 @@ std::vector<std::string> ToolMain::reversed_arguments(int argc, char** argv) con
       arguments.push_back(argv[++i]);
     }
   }
+  arguments = own_arguments(arguments);
   std::reverse(arguments.begin(), arguments.end());
   return arguments;
 }
 
-void ToolMain::optional_array(const std::string& flag, std::string& value, const std::string& help) {
-  input_options_.push_back(app_.add_option(flag, value, help)->type_name(kArrayType));
-  file_options_.push_back(input_options_.back());
+std::vector<OptionSet*> ToolMain::stages_with(const std::string& flag) const {
+  std::vector<OptionSet*> found;
+  if (flag.size() > 2 && flag.starts_with("--") && !app_.get_option_no_throw(flag))
+    std::copy_if(stages_.begin(), stages_.end(), std::back_inserter(found),
+                 [&](OptionSet* set) { return set->find(flag) != nullptr; });
+  return found;
 }
 
-void ToolMain::output(std::string& path, const std::string& help) {
-  CLI::Option* option = app_.add_option("-o,--output", path, help)->type_name("FILE");
-  path.empty() ? option->required() : option->capture_default_str();
-  output_options_.push_back(option);
-}
-
-void ToolMain::output_option(const std::string& flag, std::string& path, const std::string& help) {
-  output_options_.push_back(app_.add_option(flag, path, help)->capture_default_str()->type_name("FILE"));
-}
-
-void ToolMain::output_instead(const std::string& flag, std::string& path, const std::string& help) {
-  output_option(flag, path, help);
-  output_options_.back()->excludes(output_options_.front());
-}
-
-void ToolMain::outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
-  output_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
-}
-
-void ToolMain::length(const std::string& flag, std::string& value, const std::string& default_text,
-                      const std::string& help) {
-  file_options_.push_back(app_.add_option(flag, value, help)
-                              ->type_name("LENGTH")
-                              ->default_str(value.empty() ? default_text : value)
-                              ->check(a_length(flag)));
-}
-
-void ToolMain::unit(const std::string& flag, std::string& value, const std::string& help) {
-  const auto check = [](std::string& text) {
-    return unit_in_metres(text) ? std::string() : "unknown unit '" + text + "'; write mm, cm, m, in or ft";
-  };
-  file_options_.push_back(app_.add_option(flag, value, help)->type_name("UNIT")->check(CLI::Validator(check, "")));
-}
-
-void ToolMain::text(const std::string& flag, std::string& value, const std::string& type, const std::string& help) {
-  CLI::Option* option = app_.add_option(flag, value, help)->type_name(type);
-  if (!value.empty()) option->capture_default_str();
-  file_options_.push_back(option);
-}
-
-void ToolMain::texts(const std::string& flag, std::vector<std::string>& values, const std::string& type,
-                     const std::string& help) {
-  file_options_.push_back(app_.add_option(flag, values, help)->type_name(type)->allow_extra_args(false));
-}
-
-void ToolMain::add_number(const NumberOption& option, CLI::Option* bound) {
-  file_options_.push_back(bound->type_name(option.unit)->check(in_interval(option))->transform(whole_written_out()));
-}
-
-void ToolMain::flag(const std::string& flag, bool& value, const std::string& help) {
-  file_options_.push_back(app_.add_flag(flag, value, help)->disable_flag_override());
+std::vector<std::string> ToolMain::own_arguments(const std::vector<std::string>& arguments) {
+  std::vector<std::string> own;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::size_t equals = arguments[i].starts_with("--") ? arguments[i].find('=') : std::string::npos;
+    const std::string flag = arguments[i].substr(0, equals);
+    const std::vector<OptionSet*> sets = stages_with(flag);
+    if (sets.empty()) {
+      own.push_back(arguments[i]);
+      continue;
+    }
+    const bool takes_value = sets[0]->find(flag)->get_expected_max() > 0;
+    if (takes_value && equals == std::string::npos && i + 1 == arguments.size())
+      throw Error(ExitCode::kUsage, flag + ": a value must follow; see " + name_ + " --help-all");
+    if (!takes_value && equals != std::string::npos)
+      throw Error(ExitCode::kUsage, flag + ": takes no value; see " + name_ + " --help-all");
+    const std::string value = !takes_value                  ? "true"
+                              : equals != std::string::npos ? arguments[i].substr(equals + 1)
+                                                            : arguments[++i];
+    for (OptionSet* set : sets) set->set(flag, value);
+  }
+  return own;
 }
 
 void ToolMain::threads() {
   static constexpr NumberOption kThreads{
       "--threads", "N", "[1, 4096]", "threads of each process; same result for every number; default: all processors"};
-  number(kThreads, n_threads_);
-  file_options_.pop_back();  // how a stage runs is no content
+  execution_number(kThreads, n_threads_);
 }
 
-bool ToolMain::is_set(const std::string& flag) const { return app_.get_option(flag)->count() > 0; }
-
-void ToolMain::preset() {
-  text("--preset", preset_, "NAME",
-       "settings for a purpose, which all other options override (docs/presets.md): " + preset_names());
+void ToolMain::ranks() {
+  app_.add_option("--np", n_ranks_,
+                  "number of MPI ranks; the tool starts itself under mpirun; same result for every number")
+      ->type_name("N")
+      ->capture_default_str();
 }
 
 void ToolMain::examples(const std::vector<std::string>& command_lines) {
   std::string footer = kFooter + std::string("\n\nExamples:");
   for (const std::string& line : command_lines) footer += "\n  " + line;
   app_.footer(footer + "\n\nMore: docs/" + name_ + ".md, installed as " + kPages + name_ + ".md");
+}
+
+std::string ToolMain::print_options() const {
+  std::string text = option_file_template(name_, file_options_);
+  for (const OptionSet* set : stages_)
+    text += "\n[" + set->name() + "]\n" + option_file_template(set->name(), set->content());
+  return text;
+}
+
+std::string ToolMain::settings_by_table() const {
+  std::string text =
+      "# What was asked for: " + name_ + " and each tool take it by --options.\n[" + name_ + "]\n" + settings_text();
+  for (const OptionSet* set : stages_) text += "\n[" + set->name() + "]\n" + set->settings_text();
+  return text;
+}
+
+bool ToolMain::is_shown_first(const CLI::Option* option) const {
+  const auto has = [&](const auto& list) { return std::find(list.begin(), list.end(), option) != list.end(); };
+  if (option == app_.get_help_ptr() || option == app_.get_help_all_ptr() || option->get_positional()) return true;
+  if (main_flags_.empty()) return !has(common_options_);
+  const bool is_main = std::any_of(main_flags_.begin(), main_flags_.end(),
+                                   [&](const std::string& flag) { return option->check_name(flag); });
+  return is_main || (has(output_options_) && option->check_name("-o"));
+}
+
+std::string ToolMain::help(HelpDetail detail) {
+  std::size_t n_hidden = 0;
+  const auto is_hidden = [&](const CLI::Option* option) {
+    const bool hides = detail == HelpDetail::kMain && !is_shown_first(option);
+    n_hidden += hides;
+    return hides;
+  };
+  for (CLI::Option* option : app_.get_options())
+    if (is_hidden(option)) option->group("");
+  std::string of_stages;
+  CLI::Formatter formatter;
+  formatter.column_width(kHelpColumn);
+  std::set<std::string> seen;  // an option of several stages is shown once
+  for (OptionSet* set : stages_) {
+    std::vector<const CLI::Option*> shown = set->content();
+    shown.erase(
+        std::remove_if(shown.begin(), shown.end(),
+                       [&](const CLI::Option* o) { return !seen.insert(o->get_lnames()[0]).second || is_hidden(o); }),
+        shown.end());
+    if (shown.empty()) continue;
+    const std::string group = formatter.make_group("Options of " + set->name(), false, shown);
+    of_stages += of_stages.empty() ? group.substr(1) : group;
+  }
+  if (!of_stages.empty()) of_stages += "\n";
+  const std::string rest = n_hidden > 0 ? std::to_string(n_hidden) + " more options: " + name_ + " --help-all\n" : "";
+  app_.footer(of_stages + rest + app_.get_footer());
+  return app_.help();
 }
 
 void ToolMain::begin(int argc, char** argv) {
@@ -308,8 +266,19 @@ void ToolMain::begin(int argc, char** argv) {
   json_ = has_argument(argc, argv, "--json");
 }
 
+std::vector<std::string> ToolMain::long_names() const {
+  std::vector<std::string> names;
+  const auto add = [&](const CLI::Option* option) {
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  };
+  for (const CLI::Option* option : app_.get_options()) add(option);
+  for (const OptionSet* set : stages_)
+    for (const CLI::Option* option : set->content()) add(option);
+  return names;
+}
+
 std::optional<std::string> ToolMain::parse(int argc, char** argv) {
-  if (has_argument(argc, argv, "--print-options")) return option_file_template(name_, file_options_);
+  if (has_argument(argc, argv, "--print-options")) return print_options();
   const bool lists_inputs = has_argument(argc, argv, "--print-inputs");
   if (lists_inputs)
     for (CLI::Option* option : app_.get_options()) option->required(false);
@@ -317,35 +286,42 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
     std::vector<std::string> arguments = reversed_arguments(argc, argv);
     app_.parse(arguments);
   } catch (const CLI::CallForHelp&) {
-    return app_.help();
+    return help(HelpDetail::kMain);
+  } catch (const CLI::CallForAllHelp&) {
+    return help(HelpDetail::kAll);
   } catch (const CLI::CallForVersion& e) {
     return std::string(e.what()) + "\n";
   } catch (const CLI::ExtrasError&) {
     const std::string argument = app_.remaining().front();
-    throw Error(ExitCode::kUsage,
-                "unexpected argument '" + argument + "'" + near_option(argument, app_) + "; see " + name_ + " --help");
+    throw Error(ExitCode::kUsage, "unexpected argument '" + argument + "'" + near_option(argument, long_names()) +
+                                      "; see " + name_ + " --help");
   } catch (const CLI::ConversionError& e) {  // what is no number at all has been refused before
     throw Error(ExitCode::kUsage, std::string("a whole number is needed: ").append(usage_message(e, name_)));
   } catch (const CLI::ParseError& e) {
     throw Error(ExitCode::kUsage, usage_message(e, name_));
   }
-  if (!options_file_.empty()) apply_option_file(options_file_, name_, app_);
-  if (!preset_.empty()) apply_option_text(find_preset(preset_).options, "preset " + preset_, name_, app_);
+  if (!options_file_.empty()) {
+    apply_file(options_file_, OptionFileTop::kHolds);
+    for (OptionSet* set : stages_) set->apply_file(options_file_, OptionFileTop::kIsOfAnother);
+  }
+  settings_ = settings_by_table();
+  apply_preset();
+  for (OptionSet* set : stages_) set->apply_preset();
   if (quiet_ && verbose_) throw Error(ExitCode::kUsage, "--quiet and --verbose cannot be used together; leave one out");
-  set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : Verbosity::kNormal);
+  const Verbosity usual = stages_.empty() ? Verbosity::kNormal : Verbosity::kBrief;
+  set_verbosity(quiet_ ? Verbosity::kQuiet : verbose_ ? Verbosity::kVerbose : usual);
   set_rules();
-  for (const std::string& path : input_files()) refuse_pipe(path);
+  for (const std::string& path : all_input_files()) refuse_pipe(path);
   if (!lists_inputs) return std::nullopt;
   std::string lines;
-  for (const std::string& path : input_files()) lines += path + "\n";
+  for (const std::string& path : all_input_files()) lines += path + "\n";
   return lines;
 }
 
-std::vector<std::string> ToolMain::input_files() const {
-  std::vector<std::string> files;
-  for (const CLI::Option* option : input_options_)
-    for (const std::string& value : option->results())
-      files.push_back(option->get_type_name() == kArrayType ? value.substr(0, value.rfind(':')) : value);
+std::vector<std::string> ToolMain::all_input_files() const {
+  std::vector<std::string> files = input_files();
+  for (const OptionSet* set : stages_)
+    for (const std::string& path : set->input_files()) files.push_back(path);
   return files;
 }
 
@@ -372,7 +348,7 @@ std::vector<std::string> ToolMain::output_paths() const {
 
 void ToolMain::set_rules() const {
   OutputRules rules;
-  rules.inputs = input_files();
+  rules.inputs = all_input_files();
   if (!options_file_.empty()) rules.inputs.push_back(options_file_);
   OutputPaths outputs = outputs_by_origin();
   rules.named = replaces_own_ ? std::vector<std::string>() : std::move(outputs.named);
@@ -404,7 +380,7 @@ void ToolMain::watch_time(const std::function<void(ExitCode, const std::string&)
 }
 
 void ToolMain::print_summary(const StageSummary& summary) const {
-  const std::string text = json_ ? summary.json : printable(summary.line);
+  const std::string text = without_hidden_folders(json_ ? summary.json : printable(summary.line));
   if (!text.empty() && (json_ || kind_ == Kind::kReport || !quiet_)) {
     std::fputs(text.c_str(), stdout);
     if (text.back() != '\n') std::fputc('\n', stdout);
@@ -419,7 +395,8 @@ void ToolMain::print_text(const std::string& text) {
   if (std::fflush(stdout) != 0) throw Error(ExitCode::kOutput, "stdout: cannot be written");
 }
 
-void ToolMain::print_error(ExitCode code, const std::string& message) const {
+void ToolMain::print_error(ExitCode code, const std::string& whole_message) const {
+  const std::string message = without_hidden_folders(whole_message);
   if (json_) {
     const nlohmann::json object = {{"error", message}, {"exit_code", static_cast<int>(code)}, {"tool", name_}};
     std::puts(json_text(object).c_str());
@@ -461,6 +438,43 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
     const StageSummary summary = stage();
     print_summary(summary);
     return summary.code;
+  };
+  return static_cast<int>(
+      guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));
+}
+
+int ToolMain::work(const Worker& worker) const {
+  const auto report = [&](ExitCode code, const std::string& message) { print_error(code, message); };
+  const auto action = [&] {
+    if (worker.is_timed()) watch_time(report);
+    set_thread_count(n_threads_.value_or(processor_count()));
+    if (n_tries() < kMostTries) leave_restart_to_parent();
+    const StageSummary summary = worker.stage();
+    print_summary(summary);
+    return summary.code;
+  };
+  return static_cast<int>(guard(action, report));
+}
+
+int ToolMain::run_in_worker(int argc, char** argv, const Worker& worker) {
+  begin(argc, argv);
+  const auto action = [&] {
+    if (const auto text = parse(argc, argv)) {
+      print_text(*text);
+      return ExitCode::kOk;
+    }
+    worker.prepare();
+    ProgramEnd end;
+    for (;; count_try()) {
+      end = run_forked([&] { return work(worker); });
+      if (end.exit_code != kAgain) break;
+    }
+    if (!end.is_signalled) return static_cast<ExitCode>(end.exit_code);
+    const int signal = end.exit_code - 128;
+    throw Error(static_cast<ExitCode>(end.exit_code),
+                worker.where() + ": was ended by " + signal_text(signal) +
+                    (signal == SIGKILL ? "; out of memory? use larger lengths, or a machine with more memory"
+                                       : "; a defect: please report it with the CAD file"));
   };
   return static_cast<int>(
       guard(action, [&](ExitCode code, const std::string& message) { print_error(code, message); }));

@@ -1,14 +1,12 @@
 // What all tools share: declaration of arguments, option files, the summary, the single catch and the exit code.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
-#include "base/number_option.h"
+#include "common/option_set.h"
 #include "stages/summary.h"
 
 namespace st {
@@ -24,52 +22,21 @@ class Communicator;
 ///   tool.output(o.output);
 ///   tool.number(o.kSlope, o.slope);
 ///   return tool.run(argc, argv, [&] { return run_prolong(o); });
-class ToolMain {
+class ToolMain : public OptionSet {
  public:
   /// What -q does to the summary: a stage drops it, a report is nothing but its summary.
   enum class Kind { kStage, kReport };
 
   ToolMain(std::string name, const std::string& description, Kind kind = Kind::kStage);
 
-  /// A required positional input file.
-  void input(const std::string& name, std::string& path, const std::string& help);
-  /// One or more positional input files.
-  void inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help);
-  /// An optional input file; `flag` with its dashes, as in all functions below.
-  void optional_input(const std::string& flag, std::string& path, const std::string& help);
-  /// The same, repeatable, and with several files after one flag where the positional inputs stand first.
-  void optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
-  /// An optional array in an input file: "FILE:ARRAY".
-  void optional_array(const std::string& flag, std::string& value, const std::string& help);
-  /// -o,--output with the struct's default; required when that is empty.
-  void output(std::string& path, const std::string& help = "artifact to write");
-  /// A further file to write, with the struct's default.
-  void output_option(const std::string& flag, std::string& path, const std::string& help);
-  /// A file to write instead of that of -o,--output (declared before), not together with it.
-  void output_instead(const std::string& flag, std::string& path, const std::string& help);
-  /// A repeatable option naming a further file to write.
-  void outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help);
-  /// A length such as 3, 0.1%, 0.25mm or 2in; `default_text` stands in --help for an empty value.
-  void length(const std::string& flag, std::string& value, const std::string& default_text, const std::string& help);
-  /// A unit of length such as mm or inch.
-  void unit(const std::string& flag, std::string& value, const std::string& help);
-  /// Free text, shown as `type` in --help.
-  void text(const std::string& flag, std::string& value, const std::string& type, const std::string& help);
-  /// The same, repeatable, and with several files after one flag where the positional inputs stand first.
-  void texts(const std::string& flag, std::vector<std::string>& values, const std::string& type,
-             const std::string& help);
-  /// A number, bound to the field that `option` describes: double, int or std::optional of them.
-  template <class T>
-  void number(const NumberOption& option, T& value) {
-    CLI::Option* bound = app_.add_option(option.flag, value, option.help);
-    if constexpr (std::is_arithmetic_v<T>) bound->capture_default_str();
-    add_number(option, bound);
-  }
-  void flag(const std::string& flag, bool& value, const std::string& help);
-  /// --preset: what neither the command line nor the option file sets is taken from a preset (presets.h).
-  void preset();
-  /// Whether the command line, an option file or a preset sets an option.
-  bool is_set(const std::string& flag) const;
+  /// What --help shows besides inputs and outputs; all other options are left to --help-all. Not called: all but those
+  /// that every tool has.
+  void main_options(const std::vector<std::string>& flags) { main_flags_ = flags; }
+  /// The tool runs this stage, too: its options are taken by their own names, from the command line and from its table
+  /// of the option file. `set` outlives the tool. A name that several stages have goes to all of them.
+  void stage(OptionSet& set) { stages_.push_back(&set); }
+  /// What is set for the tool and its stages, as an option file with a table for each.
+  const std::string& settings() const { return settings_; }
   /// Command lines that stand at the end of --help.
   void examples(const std::vector<std::string>& command_lines);
 
@@ -78,21 +45,44 @@ class ToolMain {
   void restart_after_crash() { restarts_after_crash_ = true; }
   /// --threads; run_parallel has it by itself.
   void threads();
+  /// --np; likewise.
+  void ranks();
+  int n_ranks() const { return n_ranks_; }
+  double wall_limit() const { return wall_limit_; }
+  std::optional<int> n_threads() const { return n_threads_; }
 
   /// Parses, runs the stage, reports; returns the exit code of the process. Never throws.
   int run(int argc, char** argv, const std::function<StageSummary()>& stage);
   /// The same for an MPI tool, with --np: ranks but the first are quiet, and an error on any rank ends the job with one
   /// message. Collective when a launcher started the process.
   int run_parallel(int argc, char** argv, const std::function<StageSummary(const Communicator&)>& stage);
+  /// The same in a fork of this process, which survives whatever happens there: `prepare` is called here before, with
+  /// what it makes still there until the end. A face that crashes st-mesh is left out by another fork.
+  struct Worker {
+    std::function<void()> prepare;
+    std::function<StageSummary()> stage;
+    std::function<std::string()> where;                    ///< "st-mesh": what was being done when a signal ended it
+    std::function<bool()> is_timed = [] { return true; };  ///< whether --wall-limit is for the whole of it
+  };
+  int run_in_worker(int argc, char** argv, const Worker& worker);
 
  private:
-  void add_number(const NumberOption& option, CLI::Option* bound);
   /// Signal handlers, and --json ahead of parsing: a usage error is reported as JSON, too.
   void begin(int argc, char** argv);
   /// Command line, then option file. Returns the text of --help, --version or --print-... when asked for. Throws
   /// Error(kUsage).
   std::optional<std::string> parse(int argc, char** argv);
-  std::vector<std::string> reversed_arguments(int argc, char** argv) const;
+  /// The options of stages are given to them; what stays is the tool's own.
+  std::vector<std::string> own_arguments(const std::vector<std::string>& arguments);
+  std::vector<std::string> reversed_arguments(int argc, char** argv);
+  std::vector<std::string> long_names() const;
+  std::vector<OptionSet*> stages_with(const std::string& flag) const;
+  std::vector<std::string> all_input_files() const;
+  std::string print_options() const;
+  std::string settings_by_table() const;
+  bool is_shown_first(const CLI::Option* option) const;
+  enum class HelpDetail { kMain, kAll };
+  std::string help(HelpDetail detail);
   struct OutputPaths {
     std::vector<std::string> named, defaults;
   };
@@ -103,8 +93,8 @@ class ToolMain {
   /// See run_under_mpirun; what a killed rank leaves half-written is removed.
   std::optional<int> start_ranks(const std::vector<std::string>& arguments) const;
   std::optional<int> start_ranks_once(const std::vector<std::string>& arguments) const;
-  /// The files that options and arguments name as inputs.
-  std::vector<std::string> input_files() const;
+  /// The fork: its exit code.
+  int work(const Worker& worker) const;
   /// See set_output_rules.
   void set_rules() const;
   /// Ends the run when --wall-limit is over; `report` is told so before.
@@ -120,17 +110,16 @@ class ToolMain {
   static ExitCode guard(const std::function<ExitCode()>& action,
                         const std::function<void(ExitCode, const std::string&)>& report);
 
-  std::string name_;
   Kind kind_;
-  CLI::App app_;
-  std::string options_file_, preset_;
+  std::string options_file_;
+  std::string settings_;
+  std::vector<OptionSet*> stages_;
+  std::vector<std::string> main_flags_;
+  std::vector<const CLI::Option*> common_options_;  ///< that every tool has
   int n_ranks_ = 1;
   double wall_limit_ = 86'400;
   std::optional<int> n_threads_;
   bool quiet_ = false, verbose_ = false, json_ = false, restarts_after_crash_ = false, replaces_own_ = false;
-  std::vector<CLI::Option*> input_options_, output_options_;
-  std::vector<const CLI::Option*> file_options_;  ///< what --print-options shows: the options of the stage
-  std::vector<std::string> repeated_flags_;       // that may be followed by several files
 };
 
 }  // namespace st

@@ -23,6 +23,8 @@ int main(int argc, char** argv) {
   tool.optional_input("--sizing", o.sizing, "sizing artifact, for .sol: the requested size at each node of a mesh");
   tool.number(o.kFeatureAngle, o.feature_angle_deg);
   tool.length("--tolerance", o.tolerance, "0.001%", "largest distance of FLITE curves and surfaces from the CAD model");
+  tool.main_options({"--format", "--unit", "--quads", "--quadratic", "--split-groups", "--geometry", "--sizing",
+                     "--ascii", "--binary"});
   tool.examples({"st-export mesh.hdf -o mesh.stl", "st-export mesh.hdf -o mesh.cgns --unit m",
                  "st-export geometry.hdf -o cad.vtu"});
   return tool.run(argc, argv, [&] { return st::run_export(o); });

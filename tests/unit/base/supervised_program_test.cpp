@@ -78,5 +78,44 @@ TEST(SupervisedProgram, cannot_be_one_that_does_not_exist) {
   }
 }
 
+TEST(SupervisedProgram, a_fork_ends_with_what_its_work_returns) {
+  const ProgramEnd end = run_forked([] { return 7; });
+  EXPECT_EQ(end.exit_code, 7);
+  EXPECT_FALSE(end.is_signalled);
+}
+
+TEST(SupervisedProgram, a_fork_that_a_signal_ends_is_told_of) {
+  const ProgramEnd end = run_forked([] { return raise(SIGKILL); });
+  EXPECT_EQ(end.exit_code, 128 + SIGKILL);
+  EXPECT_TRUE(end.is_signalled);
+}
+
+TEST(SupervisedProgram, signals_are_passed_on_to_a_fork) {
+  const ProgramEnd end = run_forked([] {
+    signal(SIGTERM, [](int) { _exit(3); });
+    kill(getppid(), SIGTERM);
+    for (;;) pause();
+    return 0;
+  });
+  EXPECT_EQ(end.exit_code, 3);
+  EXPECT_EQ(end.passed_signal, SIGTERM);
+}
+
+TEST(SupervisedProgram, children_that_a_fork_leaves_have_ended_as_it_returns) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  run_forked([&] {
+    if (fork() == 0) {
+      usleep(100'000);
+      _exit(write(ends[1], "x", 1) == 1 ? 0 : 1);
+    }
+    return 0;
+  });
+  close(ends[1]);
+  char end = 0;
+  EXPECT_EQ(read(ends[0], &end, 1), 1);
+  close(ends[0]);
+}
+
 }  // namespace
 }  // namespace st

@@ -1,0 +1,41 @@
+// Many models meshed by one command: what came out of each, as a table and a page.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace st {
+
+/// A model's run. Numbers are text, as they stand in the table; empty: there is none.
+struct CampaignRow {
+  std::string model, name;  ///< its file; that of its folder of results
+  std::string verdict;      ///< "passes", "fails", "error"
+  std::string reason;       ///< class of failure: names of checks, or "st-import: input"; empty where it passes
+  std::string code;         ///< exit code
+  std::string triangles, surfaces, held;  ///< lifting surfaces: how many, and the smallest share of a span that has
+                                          ///< what was asked for
+  std::string quality;                    ///< smallest
+  std::string seconds;
+  std::string message;  ///< of an error
+  std::string key;      ///< digest of model and options: a row with the same key need not run again
+};
+
+/// From what st-run says with --json (the last line of `said`, perhaps nothing) and its exit code.
+CampaignRow campaign_row(const std::string& model, const std::string& name, int code, const std::string& said,
+                         double seconds);
+
+/// CSV (RFC 4180) with a heading.
+std::string campaign_table(std::span<const CampaignRow> rows);
+/// What campaign_table() wrote; rows of another heading, and a torn last one, are left out.
+std::vector<CampaignRow> read_campaign_table(const std::string& text);
+
+/// The page: worst first, each with its picture and a link to `folder`/<name>/report.html. `pictures`: data URIs, as
+/// rows; empty: none.
+std::string campaign_page(std::span<const CampaignRow> rows, std::span<const std::string> pictures,
+                          const std::string& folder);
+
+/// "7 pass, 1 fails (folds), 2 errors (st-import: input)"
+std::string campaign_summary(std::span<const CampaignRow> rows);
+
+}  // namespace st
