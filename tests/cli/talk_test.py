@@ -133,7 +133,7 @@ class Misspelt(ToolTest):
 
 class Sizes(ToolTest):
     def range_of(self, tool, *arguments):
-        low, high = re.search(r", lengths (\S+) to (\S+) mm on the faces", must(tool, *arguments).out).groups()
+        low, high = re.search(r", lengths (\S+) to (\S+)(?: mm)? on the faces", must(tool, *arguments).out).groups()
         return float(low), float(high)
 
     def test_ranges_of_raster_and_sizing_mean_the_lengths_on_the_faces(self):
