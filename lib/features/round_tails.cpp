@@ -20,8 +20,7 @@
 namespace st {
 namespace {
 
-constexpr double kDeflection = 2e-3;  // of the chord: of the facets
-constexpr double kCoarse = 1e-2;      // likewise, of those that show whether it is worth it
+constexpr double kDeflection = 1e-2;  // of the chord: of the facets; the ends of cuts are found on the surfaces
 constexpr double kBluntest = 0.8;     // thickness near the tail over that near the nose: an ellipse has 1
 constexpr double kTailRadius = 0.05, kNoseRadius = 0.15;  // of the chord: across the span, at most
 constexpr double kRidge = 5;                              // curvature there across the span over that along it
@@ -85,8 +84,8 @@ class TailMeasurer {
   std::optional<Draft> run(const SpanEdge& span_edge) {
     leave_other_bodies(span_edge.edge);
     const WingEdge own{.edge = span_edge.edge, .length = model_.tables().edge_length[span_edge.edge]};
-    if (!is_wing_half_way(own, facets_.near(kCoarse * span_edge.chord, true))) return std::nullopt;
     ProfileFacets& facets = facets_.near(kDeflection * span_edge.chord, true);
+    if (!is_wing_half_way(own, facets)) return std::nullopt;
     facets.add_along({&own, 1}, SerialExecutor());
     const std::vector<EdgePlace> places = places_with_ends(own);
     const Profiles profiles = best_profiles(places, ProfileCutter(facets.facets()), facets.reach());
