@@ -1,6 +1,8 @@
 // Settings of the C library's allocator, and how much memory there is.
 #pragma once
 
+#include <cstddef>
+
 namespace st {
 
 /// Freed memory is kept for the next array instead of being returned: where arrays of megabytes follow each other,
@@ -11,6 +13,10 @@ void keep_freed_memory();
 /// What is freed and still kept goes back to the system: between two steps, of which the later one needs large arrays
 /// that do not fit into what the pieces of the earlier one left.
 void return_freed_memory();
+
+/// Asks the system for large pages where an array of megabytes will be filled and read here and there: fewer faults,
+/// and fewer places of pages to look up. Only asks; what is in the array stays.
+void prefer_large_pages(void* array, std::size_t bytes);
 
 /// Memory that this process may use, bytes: the machine's, or less where a control group (container, batch job) or a
 /// resource limit says so.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/limits.h"
+#include "base/memory.h"
 #include "base/radix_sort.h"
 #include "sizing/cone_cell.h"
 
@@ -29,6 +30,8 @@ class ConeSpread {
       smallest_ = std::min(smallest_, samples[i].length);
     }
     const auto n = static_cast<std::size_t>(blanking ? blanking->n_sites() : octree_.n_leaves());
+    sites_.reserve(n);
+    prefer_large_pages(sites_.data(), n * sizeof(Site));
     sites_.resize(n);
     for (std::size_t site = 0; site < n; ++site) sites_[site].cell = cell_of(static_cast<std::int32_t>(site));
     for (Site& site : sites_) {

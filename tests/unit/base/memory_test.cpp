@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <memory>
@@ -46,6 +47,16 @@ TEST(FreedMemory, goes_back_to_the_system_from_between_what_is_used) {
   const double kept = resident_bytes();
   return_freed_memory();
   EXPECT_LT(resident_bytes(), kept - 0.5 * kPieces * kBytes);
+}
+
+TEST(LargePages, leave_what_is_in_an_array) {
+  std::vector<char> array(std::size_t{5} << 20, 7);
+  prefer_large_pages(array.data(), array.size());
+  EXPECT_EQ(std::count(array.begin(), array.end(), 7), std::ssize(array));
+  char small[10] = "nine char";
+  prefer_large_pages(small, sizeof small);  // no page lies in it
+  EXPECT_STREQ(small, "nine char");
+  prefer_large_pages(nullptr, 0);
 }
 
 }  // namespace
