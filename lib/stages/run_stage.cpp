@@ -121,7 +121,9 @@ class Run {
     log_step(fmt::format("{:<11}{}", tool, s.line.starts_with(own) ? s.line.substr(own.size()) : s.line));
     const bool may_go_on = part != RunPart::kMesh || o_.merge.allow_incomplete;
     if (s.code != ExitCode::kOk && (part != RunPart::kMesh || !may_go_on))
-      throw Error(s.code, tool + ": not everything could be done, see above; --allow-incomplete goes on without it");
+      throw Error(s.code, tool +
+                              ": not everything could be done, see above; --allow-incomplete goes on without it, "
+                              "--keep FOLDER keeps what there is");
   }
 
   StageSummary summarize() {

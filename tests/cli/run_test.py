@@ -256,11 +256,15 @@ class Campaign(RunTest):
 
 
 class Ends(RunTest):
-    def start(self, *words):
+    def worker_of(self, process, number):
+        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+        os.kill(int(children[0]), number)
+
+    def start(self, *words, until="st-raster"):
         process = subprocess.Popen([BIN / "st-run", self.model, "--lmax", "0.3%", *words], cwd=self.folder,
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True)
         for line in process.stderr:
-            if line.startswith("st-raster"):
+            if line.startswith(until):
                 break
         time.sleep(0.1)
         self.assertIsNone(process.poll())
@@ -281,6 +285,17 @@ class Ends(RunTest):
         must("st-run", self.model, cwd=self.folder)
         self.expect_only("mesh.hdf")
 
+    def test_a_face_that_crashes_is_left_out_by_another_worker(self):
+        process = self.start("--allow-incomplete", until="st-prolong")
+        time.sleep(0.4)
+        self.worker_of(process, signal.SIGSEGV)
+        out, err = process.communicate(timeout=120)
+        self.assertRegex(err, r"st-run: warning: st-mesh: face \d: crashed there")
+        self.assertRegex(err, r"(?m)^st-mesh +\d+ triangles on 5 of 6 faces")
+        self.assertRegex(out, r"(?m)^mesh.hdf: FAILS: ")
+        self.assertEqual(process.returncode, INCOMPLETE)
+        self.expect_only("mesh.hdf")
+
     def test_the_wall_limit_leaves_nothing(self):
         run = Run("st-run", self.model, "--lmax", "0.05%", "--wall-limit", "1.5", cwd=self.folder)
         self.assertEqual(run.code, INPUT, run)
@@ -289,8 +304,7 @@ class Ends(RunTest):
 
     def test_a_worker_that_dies_is_named_by_its_stage(self):
         process = self.start()
-        children = Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
-        os.kill(int(children[0]), signal.SIGKILL)
+        self.worker_of(process, signal.SIGKILL)
         err = process.communicate(timeout=60)[1]
         self.assertEqual(process.returncode, 128 + signal.SIGKILL)
         self.assertRegex(err, r"st-run: error: st-(prolong|mesh): was ended by signal 9")
