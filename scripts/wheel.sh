@@ -3,18 +3,19 @@
 #
 # usage: scripts/wheel.sh BUILD_DIR [OUT_DIR]         default OUT_DIR: BUILD_DIR
 #
-# The wheel runs where the C library is as new as here, with numpy and h5py of the system. What only draws on screens or
+# The wheel runs where the C and C++ libraries are as new as here, with numpy and h5py of the system. What only draws on screens or
 # reads from the network is not in it: libraries that need such parts get stubs, which are never called. Needs patchelf
 # and binutils besides what the build needs. Prints the name of the wheel.
 set -eu -o pipefail
 build=$(realpath "${1:?usage: scripts/wheel.sh BUILD_DIR [OUT_DIR]}") out=$(realpath -m "${2:-$1}")
 source=$(realpath "$(dirname "$0")/..")
+PATH=$PATH:/usr/sbin:/sbin  # ldconfig
 
 fail() {
   echo "wheel: error: $1" >&2
   exit 6
 }
-for program in patchelf nm strip gcc python3 dpkg-query; do
+for program in ldconfig patchelf nm strip gcc python3 dpkg-query; do
   command -v "$program" > /dev/null || fail "there is no $program; apt-get install patchelf binutils gcc python3"
 done
 [ -x "$build/bin/st-mesh" ] || fail "$build has no bin/st-mesh; build the tools first"
@@ -61,6 +62,7 @@ collect() {
     collect "$path"
   done
 }
+touch "$work/stubbed"
 for tool in "$package"/bin/*; do collect "$tool"; done
 
 # A library of the same name with the functions that the copied ones ask of it.

@@ -380,8 +380,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
     if (!o.replace_farfield.empty()) used["replace_farfield"] = o.replace_farfield;
     if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
-    if (o.unite) used["unite"] = true;
-    if (o.join) used["join"] = true;
+    for (const auto& [name, is_asked] : {std::pair{"unite", o.unite}, {"join", o.join}, {"cap", o.cap}})
+      if (is_asked) used[name] = true;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
     g.header.options_json = json_text(used);
     g.header.unit = t.unit;

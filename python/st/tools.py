@@ -29,7 +29,7 @@ def program(tool):
 
 def command():
     """The tool of the name under which this was started: a command that a wheel installs."""
-    tool = program(Path(sys.argv[0]).name)
+    tool = str(_WHEEL / Path(sys.argv[0]).name)
     os.execv(tool, [tool, *sys.argv[1:]])
 
 

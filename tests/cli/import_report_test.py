@@ -59,6 +59,8 @@ class Report(ToolTest):
         self.assertEqual(run.err.count("  cap_1: opening closed: area "), 1)
         report = self.import_json(model, "--cap")
         self.assertEqual((report["faces"], report["free_edges"]), (2, 4))
+        self.assertIn("its rim of 4 edges is the outline of a flat face, at (30, 20, 0)", run.err)
+        self.assertIn('"cap":true', must("st-info", self.folder / "g.hdf").out)
         self.assertIn("--cap: there is no opening",
                       must("st-import", MODELS / "box.step", "-o", self.folder / "g.hdf", "--cap").err)
 

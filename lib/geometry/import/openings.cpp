@@ -1,24 +1,27 @@
 #include "geometry/import/openings.h"
 
 #include <BRepAdaptor_Curve.hxx>
+#include <BRepAdaptor_Surface.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 
-#include "base/sort_once.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/plane_loops.h"
@@ -27,7 +30,7 @@ namespace st::occt {
 namespace {
 
 constexpr double kInPlane = 1e-4;  // of the diagonal: a rim this near lies in a plane, which is 1 mm in a ship of 10 m
-constexpr double kLeastArea = 1e-6;   // of the squared length of a rim: less is a line, which lies in many planes
+constexpr double kLeastArea = 1e-6;   // of the squared length of a run: less is a line, which lies in many planes
 constexpr std::size_t kMostRuns = 3;  // planes of one rim: three meet in a point
 constexpr int kSamples = 10;          // intervals of an edge
 
@@ -59,41 +62,60 @@ Rim rim_of(const TopoDS_Wire& wire) {
   return rim;
 }
 
-struct Fit {
-  bool is_flat = false;
-  std::optional<Plane> plane;  // none: all lies on a line, in many planes
-};
-
-/// Of `n` edges from `first` on, around the rim; closed by the straight way back.
-Fit fit(const Rim& rim, std::size_t first, std::size_t n, double tolerance) {
-  std::vector<Vec3> points;
-  for (std::size_t k = 0; k < n; ++k) {
-    const RimEdge& edge = rim[(first + k) % rim.size()];
-    points.insert(points.end(), edge.points.begin(), edge.points.end());
-  }
-  Vec3 area, middle;
-  double length = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 a = points[i] - points[0], b = points[(i + 1) % points.size()] - points[0];
-    area += 0.5 * cross(a, b);
-    middle += points[i];
-    length += norm(b - a);
-  }
-  const Vec3 from = points[0], way = points.back() - from;
-  if (norm(area) <= kLeastArea * length * length) {
-    const auto off_line = [&](Vec3 x) {
-      return norm(way) > 0 ? norm(cross(x - from, way)) / norm(way) : distance(x, from);
-    };
-    return {std::ranges::all_of(points, [&](Vec3 x) { return off_line(x) <= tolerance; }), std::nullopt};
-  }
-  const Plane plane{middle / static_cast<double>(points.size()), area / norm(area)};
-  return {std::ranges::all_of(points, [&](Vec3 x) { return plane.distance(x) <= tolerance; }), plane};
-}
-
 /// Edges of a rim in one plane.
 struct Run {
   std::size_t first = 0, n = 0;
   std::optional<Plane> plane;
+};
+
+/// The plane of an edge and those after it, as long as all lie in one. It is found anew where an edge leaves it: what
+/// the first edges tell of it is the less exact the shorter they are.
+class RunGrower {
+ public:
+  RunGrower(const Rim& rim, std::size_t first, double tolerance) : rim_(rim), tolerance_(tolerance) {
+    run_.first = first;
+  }
+  /// Takes the next edge; false, once and for all, where no plane has it and those before.
+  bool take() {
+    const RimEdge& edge = rim_[(run_.first + run_.n) % rim_.size()];
+    points_.insert(points_.end(), edge.points.begin(), edge.points.end());
+    if (!run_.plane || !all_in(*run_.plane, edge.points)) {
+      const std::optional<Plane> plane = plane_of(points_);
+      if (plane ? !all_in(*plane, points_) : run_.plane || !is_line(points_)) return false;
+      run_.plane = plane;
+    }
+    ++run_.n;
+    return true;
+  }
+  const Run& run() const { return run_; }
+
+ private:
+  /// By the area that the points and the straight way back enclose; none for points on a line.
+  static std::optional<Plane> plane_of(const std::vector<Vec3>& points) {
+    Vec3 area, middle;
+    double length = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3 a = points[i] - points[0], b = points[(i + 1) % points.size()] - points[0];
+      area += 0.5 * cross(a, b);
+      middle += points[i];
+      length += norm(b - a);
+    }
+    if (norm(area) <= kLeastArea * length * length) return std::nullopt;
+    return Plane{middle / static_cast<double>(points.size()), area / norm(area)};
+  }
+  bool all_in(const Plane& plane, const std::vector<Vec3>& points) const {
+    return std::ranges::all_of(points, [&](Vec3 x) { return plane.distance(x) <= tolerance_; });
+  }
+  bool is_line(const std::vector<Vec3>& points) const {
+    const Vec3 from = points[0], way = points.back() - from;
+    const auto off = [&](Vec3 x) { return norm(way) > 0 ? norm(cross(x - from, way)) / norm(way) : distance(x, from); };
+    return std::ranges::all_of(points, [&](Vec3 x) { return off(x) <= tolerance_; });
+  }
+
+  const Rim& rim_;
+  double tolerance_;
+  Run run_;
+  std::vector<Vec3> points_;  // of its edges
 };
 
 /// Each run as long as it can be, from this edge on; none where there are too many, or an edge lies in no plane.
@@ -101,27 +123,33 @@ std::vector<Run> runs_from(const Rim& rim, std::size_t start, double tolerance) 
   std::vector<Run> runs;
   for (std::size_t done = 0; done < rim.size();) {
     if (runs.size() == kMostRuns) return {};
-    Run run{(start + done) % rim.size(), 0, std::nullopt};
-    for (std::size_t n = 1; done + n <= rim.size(); ++n) {
-      const Fit found = fit(rim, run.first, n, tolerance);
-      if (!found.is_flat) break;
-      run.n = n;
-      run.plane = found.plane;
+    RunGrower grower(rim, (start + done) % rim.size(), tolerance);
+    while (done + grower.run().n < rim.size() && grower.take()) {
     }
-    if (!run.plane) return {};
-    done += run.n;
-    runs.push_back(run);
+    if (!grower.run().plane) return {};
+    done += grower.run().n;
+    runs.push_back(grower.run());
   }
   return runs;
 }
 
-/// The fewest runs, from whatever edge on.
+/// The first edge that a run from here does not take.
+std::size_t end_of_run(const Rim& rim, std::size_t start, double tolerance) {
+  RunGrower grower(rim, start, tolerance);
+  while (grower.run().n < rim.size() && grower.take()) {
+  }
+  return (start + std::max<std::size_t>(grower.run().n, 1)) % rim.size();
+}
+
+/// The fewest runs. The first edge may lie inside a run, so it is looked for again from where a run ends.
 std::vector<Run> fewest_runs(const Rim& rim, double tolerance) {
-  if (const Fit all = fit(rim, 0, rim.size(), tolerance); all.is_flat && all.plane) return {{0, rim.size(), all.plane}};
   std::vector<Run> best;
-  for (std::size_t start = 0; start < rim.size(); ++start) {
+  std::size_t start = 0;
+  for (std::size_t i = 0; i <= kMostRuns; ++i) {
     std::vector<Run> runs = runs_from(rim, start, tolerance);
+    if (runs.size() == 1) return runs;
     if (!runs.empty() && (best.empty() || runs.size() < best.size())) best = std::move(runs);
+    start = end_of_run(rim, start, tolerance);
   }
   return best;
 }
@@ -145,37 +173,47 @@ TopoDS_Wire wire_of(const Rim& rim, const Run& run, const std::vector<TopoDS_Sha
   return wire;
 }
 
-using FlatWires = std::vector<std::pair<TopoDS_Wire, Plane>>;
+/// Closed, in one plane.
+struct FlatWire {
+  TopoDS_Wire wire;
+  Plane plane;
+};
 
-/// A wire for each run, closed by straight edges in which two planes meet; none where that cannot be.
-FlatWires flat_wires(const Rim& rim, const std::vector<Run>& runs) {
+std::optional<TopoDS_Edge> straight_edge(const TopoDS_Vertex& a, const TopoDS_Vertex& b) {
+  BRepBuilderAPI_MakeEdge make(a, b);
+  return make.IsDone() ? std::optional(make.Edge()) : std::nullopt;
+}
+
+/// A wire for each run, closed by straight edges in which two planes meet; none where that cannot be within `reach`.
+std::vector<FlatWire> flat_wires(const Rim& rim, const std::vector<Run>& runs, double reach) {
+  if (runs.empty()) return {};
   if (runs.size() == 1) return {{wire_of(rim, runs[0], {}), *runs[0].plane}};
   std::vector<TopoDS_Vertex> corners;  // where each run begins
   for (const Run& run : runs) corners.push_back(rim[run.first].begin());
-  std::vector<TopoDS_Edge> joints;  // from the corner to the next one, or to the point common to all planes
   if (runs.size() == 2) {
-    joints = {BRepBuilderAPI_MakeEdge(corners[0], corners[1])};
-    return {{wire_of(rim, runs[0], {joints[0].Reversed()}), *runs[0].plane},
-            {wire_of(rim, runs[1], {joints[0]}), *runs[1].plane}};
+    const std::optional<TopoDS_Edge> joint = straight_edge(corners[0], corners[1]);
+    if (!joint) return {};
+    return {{wire_of(rim, runs[0], {joint->Reversed()}), *runs[0].plane},
+            {wire_of(rim, runs[1], {*joint}), *runs[1].plane}};
   }
   const std::optional<Vec3> apex = common_point(*runs[0].plane, *runs[1].plane, *runs[2].plane);
-  if (!apex) return {};
+  if (!apex || distance(*apex, rim[0].points[0]) > reach) return {};
   const TopoDS_Vertex top = BRepBuilderAPI_MakeVertex(gp_Pnt(apex->x, apex->y, apex->z));
-  for (const TopoDS_Vertex& corner : corners) {
-    BRepBuilderAPI_MakeEdge make(corner, top);
-    if (!make.IsDone()) return {};
-    joints.push_back(make.Edge());
-  }
-  FlatWires wires;
+  std::vector<TopoDS_Edge> joints;
+  for (const TopoDS_Vertex& corner : corners)
+    if (const std::optional<TopoDS_Edge> joint = straight_edge(corner, top)) joints.push_back(*joint);
+  if (joints.size() < corners.size()) return {};
+  std::vector<FlatWire> wires;
   for (std::size_t i = 0; i < runs.size(); ++i)
-    wires.emplace_back(wire_of(rim, runs[i], {joints[(i + 1) % 3], joints[i].Reversed()}), *runs[i].plane);
+    wires.push_back({wire_of(rim, runs[i], {joints[(i + 1) % 3], joints[i].Reversed()}), *runs[i].plane});
   return wires;
 }
 
-Vec3 middle_of(const Rim& rim) {
-  Vec3 sum;
-  for (const RimEdge& e : rim) sum += e.points[0];
-  return sum / static_cast<double>(rim.size());
+Box3 box_of(const Rim& rim) {
+  Box3 box;
+  for (const RimEdge& e : rim)
+    for (const Vec3 x : e.points) box.add(x);
+  return box;
 }
 
 /// Makes the faces of all rims.
@@ -190,71 +228,91 @@ class CapMaker {
   /// The largest first.
   Faces caps() {
     Faces faces;
-    for (std::size_t i = 0; i < wires_.size(); ++i)
-      for (TopoDS_Face& face : faces_beside(i)) faces.push_back(std::move(face));
+    while (!flat_.empty())
+      for (TopoDS_Face& face : take_plane()) faces.push_back(std::move(face));
     std::ranges::stable_sort(faces, std::greater<>(), [](const TopoDS_Face& f) { return area_of(f); });
     return faces;
   }
 
  private:
+  struct FlatLoop {
+    PlaneLoop loop;
+    Plane plane;
+    Rim rim;
+  };
+
+  /// All loops of a rim, or none.
   void add_rim(const TopoDS_Wire& wire) {
     const Rim rim = rim_of(wire);
-    const std::vector<Run> runs = BRep_Tool::IsClosed(wire) ? fewest_runs(rim, tolerance_) : std::vector<Run>();
-    FlatWires flat;
-    if (!runs.empty()) flat = flat_wires(rim, runs);
-    if (flat.empty()) leave(rim);
-    wires_.insert(wires_.end(), flat.begin(), flat.end());
+    if (!BRep_Tool::IsClosed(wire)) return leave(rim, "is not closed");
+    std::vector<FlatLoop> loops;
+    for (const FlatWire& flat : flat_wires(rim, fewest_runs(rim, tolerance_), diagonal_)) {
+      std::optional<PlaneLoop> loop = loop_in_plane(flat.wire, flat.plane.shape());
+      if (!loop || !BRepCheck_Analyzer(loop->face).IsValid()) return leave(rim, "crosses itself in its plane");
+      Rim own = rim_of(flat.wire);
+      if (std::ranges::any_of(own, [&](const RimEdge& e) { return is_outline(e, flat.plane, loop->face); }))
+        return leave(rim, "is the outline of a flat face");
+      loops.push_back({*std::move(loop), flat.plane, std::move(own)});
+    }
+    if (loops.empty()) return leave(rim, "lies in no plane, nor in two or three");
+    std::ranges::move(loops, std::back_inserter(flat_));
   }
-  void leave(const Rim& rim) {
-    findings_.push_back({FindingKind::kOpeningLeft, "", middle_of(rim), diagonal_, false,
-                         std::to_string(rim.size()) + (rim.size() == 1 ? " edge" : " edges")});
+  void leave(const Rim& rim, const std::string& why) {
+    const Box3 box = box_of(rim);
+    findings_.push_back({FindingKind::kOpeningLeft, "", box.center(), box.diagonal(), false,
+                         std::to_string(rim.size()) + (rim.size() == 1 ? " edge " : " edges ") + why});
   }
-  /// Of the wire and all others in its plane; none where an earlier wire has had them.
-  Faces faces_beside(std::size_t first) {
-    if (is_done(first)) return {};
-    const Plane plane = wires_[first].second;
-    std::vector<PlaneLoop> loops;
-    for (std::size_t i = first; i < wires_.size(); ++i) {
-      const std::vector<RimEdge> rim = rim_of(wires_[i].first);
-      const bool is_in_it = std::ranges::all_of(rim, [&](const RimEdge& e) {
+
+  /// The faces of the first loop and all others in its plane, which go.
+  Faces take_plane() {
+    const Plane plane = flat_.front().plane;
+    const auto is_in_it = [&](const FlatLoop& flat) {
+      return std::ranges::all_of(flat.rim, [&](const RimEdge& e) {
         return std::ranges::all_of(e.points, [&](Vec3 x) { return plane.distance(x) <= tolerance_; });
       });
-      if (is_done(i) || !is_in_it) continue;
-      done_.push_back(i);
-      std::optional<PlaneLoop> loop = loop_in_plane(wires_[i].first, plane.shape());
-      if (!loop)
-        leave(rim);
-      else if (std::ranges::none_of(rim, [&](const RimEdge& e) { return is_outline(e, plane, loop->face); }))
-        loops.push_back(*std::move(loop));
-    }
-    Faces faces = faces_between(loops, plane.shape());
-    std::erase_if(faces, [&](const TopoDS_Face& face) {
-      if (BRepCheck_Analyzer(face).IsValid()) return false;
-      leave(rim_of(TopoDS::Wire(TopExp_Explorer(face, TopAbs_WIRE).Current())));
-      return true;
-    });
-    return faces;
+    };
+    std::vector<FlatLoop> rest;
+    std::vector<PlaneLoop> loops;
+    for (FlatLoop& flat : flat_)
+      if (&flat == &flat_.front() || is_in_it(flat))
+        loops.push_back(std::move(flat.loop));
+      else
+        rest.push_back(std::move(flat));
+    flat_ = std::move(rest);
+    return faces_between(loops, plane.shape());
   }
-  /// Whether the face beside the edge lies within the loop: a flat sheet, not an opening.
+
+  /// Whether the face beside the edge goes on in the plane within the loop: a flat sheet, not an opening.
   bool is_outline(const RimEdge& e, const Plane& plane, const TopoDS_Face& loop) const {
-    constexpr double kBeside = 0.05;
-    if (!owners_.Contains(e.edge)) return false;  // a joint
-    const Vec3 a = e.points[kSamples / 2], way = e.points[kSamples / 2 + 1] - a;
+    constexpr double kBeside = 0.05, kFlat = 0.02;  // of the step along the edge; sine between the normals
+    if (!owners_.Contains(e.edge)) return false;    // a joint
     const TopoDS_Face owner = TopoDS::Face(owners_.FindFromKey(e.edge).First());
-    for (const double side : {-kBeside, kBeside}) {
+    const Vec3 normal = normal_at_middle(e.edge, owner);
+    if (norm(cross(normal, plane.normal)) > kFlat * norm(normal)) return false;
+    const Vec3 a = e.points[kSamples / 2], way = e.points[kSamples / 2 + 1] - a;
+    return std::ranges::any_of(std::array{-kBeside, kBeside}, [&](double side) {
       const Vec3 x = a + side * cross(plane.normal, way);
       const gp_Pnt p(x.x, x.y, x.z);
-      if (is_in(p, loop) && is_in(p, owner)) return true;
-    }
-    return false;
+      return is_in(p, loop) && is_in(p, owner);
+    });
   }
-  bool is_done(std::size_t i) const { return std::ranges::find(done_, i) != done_.end(); }
+  /// None (0, 0, 0) where the edge has no trimming curve there.
+  static Vec3 normal_at_middle(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+    double first = 0, last = 0;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (curve.IsNull()) return {};
+    const gp_Pnt2d uv = curve->Value(0.5 * (first + last));
+    gp_Pnt p;
+    gp_Vec du, dv;
+    BRepAdaptor_Surface(face, false).D1(uv.X(), uv.Y(), p, du, dv);
+    const gp_Vec normal = du.Crossed(dv);
+    return {normal.X(), normal.Y(), normal.Z()};
+  }
 
   double diagonal_, tolerance_;
   std::vector<ImportFinding>& findings_;
   TopTools_IndexedDataMapOfShapeListOfShape owners_;  // of edges
-  FlatWires wires_;
-  std::vector<std::size_t> done_;
+  std::vector<FlatLoop> flat_;
 };
 
 /// Solids without a free edge, and the faces of all other ones in their order.

@@ -34,7 +34,7 @@ double area_of(const TopoDS_Shape& shape);
 /// The edges end to end, as far as they have vertices in common. A wire passes no vertex twice where all can be closed.
 std::vector<TopoDS_Wire> simple_wires(const std::vector<TopoDS_Edge>& edges);
 
-/// None for a wire that is not closed or does not lie in the plane.
+/// None for a wire that is not closed, or of which no face can be made. Precondition: it lies in the plane.
 std::optional<PlaneLoop> loop_in_plane(const TopoDS_Wire& wire, const gp_Pln& plane);
 
 /// Empty where an edge is in no closed loop.

@@ -72,4 +72,4 @@ KIND(kMergedSliver, "face folded back onto its neighbour, merged into it",
      "face folded back onto its neighbour, merged into {}")
 KIND(kMissingFile, "parts in another file, which is missing", "parts in another file, which is missing: {}")
 KIND(kCapped, "opening closed", "opening closed: {}")  // --cap
-KIND(kOpeningLeft, "opening left open", "opening left open: its rim of {} lies in no plane, or crosses itself there")
+KIND(kOpeningLeft, "opening left open", "opening left open: its rim of {}")

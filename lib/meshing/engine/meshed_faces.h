@@ -59,6 +59,10 @@ class MeshedFaces {
   }
   CrossingSearch& crossings() { return crossings_; }
 
+  // Local; places and outcomes are those of rank 0.
+  State state() const { return {edges_, places_, outcomes_}; }
+  const std::vector<FacePlace>& places() const { return places_; }
+
   // Local, on rank 0.
   const FaceOutcome& outcome(FaceId f) const { return outcomes_[f]; }
   const FacePlace& place(FaceId f) const { return places_[f]; }
@@ -85,8 +89,6 @@ class MeshedFaces {
   Patches bring(const std::vector<FaceId>& faces) const;
   /// Where faces fail, fold or cross; on rank 0.
   std::vector<Vec3> bad_places() const;
-  State state() const { return {edges_, places_, outcomes_}; }
-  const std::vector<FacePlace>& places() const { return places_; }
   /// `changed`: faces whose patches are others since then.
   void go_back(const State& before, const std::vector<FaceId>& changed);
   /// Likewise, to the patches alone: edges and outcomes are the same.

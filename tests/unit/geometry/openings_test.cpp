@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakePolygon.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
+#include <BRepPrimAPI_MakeCone.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -96,9 +100,40 @@ TEST(Openings, in_no_plane_are_named_and_left) {
   EXPECT_GT(tube.n_free(), 0);
 }
 
+TEST(Openings, beside_walls_that_lean_outward_are_closed_like_others) {
+  const auto is_wall = [](Vec3 x) { return x.z > 0.1 && x.z < 4.9; };
+  const Capped bucket(opened(BRepPrimAPI_MakeCone(1, 3, 5).Shape(), is_wall));
+  ASSERT_EQ(bucket.areas().size(), 2u);
+  EXPECT_NEAR(bucket.areas()[0], 9 * M_PI, 1e-6);
+  EXPECT_EQ(bucket.n_free(), 0);
+}
+
+TEST(Openings, of_a_rim_of_very_many_edges_are_found_in_two_planes) {
+  BRepBuilderAPI_Sewing sewing;
+  constexpr int kColumns = 400;  // of a gutter, open above and at one side
+  const auto at = [](double i, double y, double z) { return gp_Pnt(i / kColumns * 40, y, z); };
+  const auto add = [&](const gp_Pnt& a, const gp_Pnt& b, const gp_Pnt& c, const gp_Pnt& d) {
+    sewing.Add(BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakePolygon(a, b, c, d, true).Wire(), true).Face());
+  };
+  for (int i = 0; i < kColumns; ++i) {
+    add(at(i, 0, 0), at(i + 1, 0, 0), at(i + 1, 2, 0), at(i, 2, 0));
+    add(at(i, 2, 0), at(i + 1, 2, 0), at(i + 1, 2, 1), at(i, 2, 1));
+  }
+  add(at(0, 0, 0), at(0, 2, 0), at(0, 2, 1), at(0, 0, 1));
+  add(at(kColumns, 0, 0), at(kColumns, 2, 0), at(kColumns, 2, 1), at(kColumns, 0, 1));
+  sewing.Perform();
+  const Capped gutter(opened(sewing.SewedShape(), [](Vec3) { return true; }), 40);
+  ASSERT_EQ(gutter.areas().size(), 2u);
+  EXPECT_NEAR(gutter.areas()[0], 80, 1e-6);
+  EXPECT_NEAR(gutter.areas()[1], 40, 1e-6);
+  EXPECT_EQ(gutter.n_free(), 0);
+}
+
 TEST(Openings, of_a_flat_sheet_are_its_holes_not_its_outline) {
   const Capped sheet(opened(brick(), [](Vec3 x) { return x.z > 0.9; }));
   EXPECT_FALSE(sheet.has_caps);
+  ASSERT_EQ(sheet.findings.size(), 1u);
+  EXPECT_EQ(sheet.findings[0].detail, "4 edges is the outline of a flat face");
   const TopoDS_Shape drilled =
       BRepAlgoAPI_Cut(brick(), BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(1, 1, 0), gp_Dir(0, 0, 1)), 0.5, 1).Shape())
           .Shape();
