@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "base/error.h"
 #include "io/file/journal.h"
@@ -80,7 +79,7 @@ std::uint64_t free_bytes(const std::string& folder) {
 
 }  // namespace
 
-RunFolder::RunFolder(std::string disk, std::string memory) {
+RunFolder::RunFolder(const std::string& disk, const std::string& memory) {
   int lock = -1;
   remove_left(disk);
   if (free_bytes(memory) >= 2 * kMostInMemory) {

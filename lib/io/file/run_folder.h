@@ -16,7 +16,7 @@ class RunFolder {
   static constexpr const char* kMemory = "/dev/shm";
 
   /// `disk`: an existing folder, in which one is made. Throws Error(kOutput) when that cannot be.
-  explicit RunFolder(std::string disk, std::string memory = kMemory);
+  explicit RunFolder(const std::string& disk, const std::string& memory = kMemory);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
