@@ -31,7 +31,8 @@ class Sources(ToolTest):
         run = self.prolong(POINT.format("near", [5, 5, 5], 1) + POINT.format("wake", [64, 20, 10], 1) +
                            POINT.format("lost", [9000, 20, 10], 1))
         self.assertEqual(run.code, 0, run)
-        self.assertRegex(run.err, r'warning: source 2 "wake" lies \S+ mm outside the octree.*only its growth reaches in')
+        self.assertRegex(run.err,
+                         r'warning: source 2 "wake" lies \S+ mm outside the octree.*only its growth reaches in')
         self.assertRegex(run.err, r'warning: source 3 "lost" lies \S+ mm outside the octree.*it has no effect')
         self.assertNotIn("near", run.err)
         self.assertNotIn("warning", self.prolong(POINT.format("lost", [9000, 20, 10], 1), "--transform",
