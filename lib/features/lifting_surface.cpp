@@ -153,6 +153,7 @@ class SurfaceMeasurer {
       why = {fmt::format("planes cut the profile of a wing on {:.0f} % of its length, half is needed", 100 * share)};
       return find_part(measured_edges(chain, places, profiles));
     }
+    drop_oblique(axis, profiles);
     try_other_cuts(places, profiles);
     LiftingSurface surface = assemble(chain, places, profiles);
     if (!is_measured(surface)) return std::nullopt;
@@ -323,6 +324,19 @@ class SurfaceMeasurer {
     for (std::size_t k = outliers.size(); k-- > 0;) readmit(outliers[k], -1, all_profiles[outliers[k]], profiles);
   }
 
+  /// Cuts square to the edge between others that are square to an axis: close_gaps() finds the nose between these.
+  static void drop_oblique(std::span<const Vec3* const> axes, std::vector<std::optional<Profile>>& profiles) {
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      if (!axes[k]) continue;
+      const auto of_edge = std::span(profiles).subspan(k * kStations, kStations);
+      std::vector<std::optional<Profile>> straight(of_edge.begin(), of_edge.end());
+      for (std::optional<Profile>& p : straight)
+        if (p && p->normal != *axes[k]) p.reset();
+      for (std::size_t i = 0; i < of_edge.size(); ++i)
+        if (!straight[i] && is_between(straight, i)) of_edge[i].reset();
+    }
+  }
+
   static bool is_between(std::span<const std::optional<Profile>> of_edge, std::size_t i) {
     const auto is_there = [](const std::optional<Profile>& p) { return p.has_value(); };
     return std::ranges::any_of(of_edge.first(i), is_there) && std::ranges::any_of(of_edge.subspan(i + 1), is_there);
@@ -345,7 +359,9 @@ class SurfaceMeasurer {
       normals.push_back(normalized(dot(tangent, along_) < 0 ? along_ - tangent : along_ + tangent));
       for (std::size_t k = 0; k < normals.size() && !profiles[i]; ++k) {
         profiles[i] = profile_at(places[i], &normals[k]);
-        if (profiles[i] && is_outlier(profiles[i]->chord, usual)) profiles[i].reset();
+        ChordStation station{places[i].share, places[i].x};
+        if (profiles[i] && (is_outlier(profiles[i]->chord, usual) || !put_on_surface(*profiles[i], station)))
+          profiles[i].reset();
       }
     }
   }
@@ -389,21 +405,26 @@ class SurfaceMeasurer {
   void measure(const Profile& profile, ChordStation& station) const {
     station.nose = profile.nose;
     station.nose_face = profile.nose_face;
+    station.is_measured =
+        put_on_surface(profile, station) ||
+        closest_point(*model_.surface(profile.nose_face), profile.nose).distance <= kOffSurface * reach_;
+    is_off_ = is_off_ || !station.is_measured;
+    station.chord = distance(station.nose, station.trailing);
+  }
+
+  /// False: no surface that the profile crosses has a nose there, as where another body cuts it off.
+  bool put_on_surface(const Profile& profile, ChordStation& station) const {
     std::vector<FaceId> faces = {profile.nose_face};
     faces.insert(faces.end(), profile.faces.begin(), profile.faces.end());
     for (const FaceId f : faces) {
-      const auto nose = exact_nose(*model_.surface(f), station.trailing, profile, reach_, guess_[f]);
+      const auto nose = exact_nose(*model_.surface(f), station.trailing, profile,
+                                   std::max(reach_, kNearNose * profile.chord), guess_[f]);
       if (!nose) continue;
       station.nose = *nose;
       station.nose_face = f;
-      station.is_measured = true;
-      break;
+      return true;
     }
-    if (!station.is_measured)
-      station.is_measured =
-          closest_point(*model_.surface(profile.nose_face), profile.nose).distance <= kOffSurface * reach_;
-    is_off_ = is_off_ || !station.is_measured;
-    station.chord = distance(station.nose, station.trailing);
+    return false;
   }
 
   static void measure_chords(LiftingSurface& surface) {
@@ -422,13 +443,14 @@ class SurfaceMeasurer {
     const ArcTable arc(*curve);
     std::vector<ChordStation> added;
     const auto reach = [&](const ChordStation& from, double to) {
+      const bool is_end = to == 0 || to == 1;
       double known = from.share, chord = from.chord;
       for (int i = 0; i < kHalvings; ++i) {
         const double share = 0.5 * (known + to);
         const CurvePoint p = curve->evaluate(arc.parameter_at(share));
         const EdgePlace place{0, share, 0, p.x, normalized(p.d1)};
         std::optional<Profile> own = profile_at(place, axis);
-        if (!own) own = profile_at(place, nullptr);
+        if (!own && is_end) own = profile_at(place, nullptr);
         const bool is_like = own && !is_outlier(own->chord, chord) &&
                              std::binary_search(own_faces.begin(), own_faces.end(), own->nose_face);
         (is_like ? known : to) = share;

@@ -87,6 +87,11 @@ class WingShapes(ToolTest):
         self.assertLess(usual, 0.85 * fine, "with all lengths at nose and edge")
         self.assertGreater(coarse, 0.5 * fine, "a coarse nose coarsens nothing else")
 
+    def test_noses_lie_on_the_leading_edge_where_facets_are_coarse(self):
+        tail = max(self.raster("t_tail", "euler").json()["lifting_surfaces"], key=lambda wing: wing["span"])
+        for station in tail["stations"]:
+            self.assertAlmostEqual(station["nose"][2], 3, 5, "the tail is at z = 3")
+
     def test_a_round_tail_that_is_taken_out_is_not_found_from_another_edge(self):
         rules = self.folder / "sizes.toml"
         for name in ("blade_of_splines", "blade_of_halves"):
