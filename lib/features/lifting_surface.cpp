@@ -359,9 +359,7 @@ class SurfaceMeasurer {
       normals.push_back(normalized(dot(tangent, along_) < 0 ? along_ - tangent : along_ + tangent));
       for (std::size_t k = 0; k < normals.size() && !profiles[i]; ++k) {
         profiles[i] = profile_at(places[i], &normals[k]);
-        ChordStation station{places[i].share, places[i].x};
-        if (profiles[i] && (is_outlier(profiles[i]->chord, usual) || !put_on_surface(*profiles[i], station)))
-          profiles[i].reset();
+        if (profiles[i] && is_outlier(profiles[i]->chord, usual)) profiles[i].reset();
       }
     }
   }
