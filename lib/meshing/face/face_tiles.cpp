@@ -20,6 +20,7 @@ constexpr double kCoarsePerTile = 24;  // triangles of the coarse mesh for each 
 constexpr int kCoarseRounds = 2;       // of the enhancer: cuts should be straight and meet at wide angles
 constexpr int kSamplesPerNode = 4;     // of a cut, to space its nodes
 constexpr int kMaxSamples = 1 << 14;
+constexpr int kProbes = 16;  // along u and v: where sizes are asked whether they are stretched
 
 using Corners = std::pair<std::int32_t, std::int32_t>;
 
@@ -36,7 +37,7 @@ class TileCutter {
         n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())) {}
 
   TileCut run() {
-    if (field_.is_stretched() || !follow_loops()) return {};  // rows would end at cuts
+    if (is_stretched() || !follow_loops()) return {};  // rows would end at cuts
     const auto widest = static_cast<unsigned>(std::max(1.0, std::sqrt(tile_triangles_ / kCoarsePerTile)));
     for (unsigned step = std::bit_floor(widest); step >= 1; step /= 2)
       if (make_coarse(static_cast<std::int32_t>(step))) return cut();
@@ -44,6 +45,24 @@ class TileCutter {
   }
 
  private:
+  /// At a node of the loops or a place inside.
+  bool is_stretched() const {
+    if (!field_.is_stretched()) return false;
+    int hint = 0;
+    const auto is_long_at = [&](Vec3 x) {
+      const LocalSize size = field_.local(x, hint);
+      return size.along > size.length;
+    };
+    if (std::any_of(boundary_.nodes.begin(), boundary_.nodes.end(), [&](const FaceNode& n) { return is_long_at(n.x); }))
+      return true;
+    const double u_step = (surface_.u_max() - surface_.u_min()) / kProbes, v0 = surface_.v_min();
+    const double v_step = (surface_.v_max() - v0) / kProbes;
+    for (int i = 0; i < kProbes; ++i)
+      for (int k = 0; k < kProbes; ++k)
+        if (is_long_at(surface_.point({surface_.u_min() + (i + 0.5) * u_step, v0 + (k + 0.5) * v_step}))) return true;
+    return false;
+  }
+
   /// The node after each; of those where several parts of the loops meet, any. False: a loop is open.
   bool follow_loops() {
     next_.assign(boundary_.nodes.size(), kNone);

@@ -91,5 +91,27 @@ TEST(TileCut, leaves_light_faces_and_stretched_ones_whole) {
   EXPECT_TRUE(cut(FaceCase("square", stretched), stretched).tiles.empty());
 }
 
+/// Stretched around a place alone.
+class SpotField : public UniformField {
+ public:
+  explicit SpotField(Vec3 spot) : UniformField(0.1), spot_(spot) {}
+  bool is_stretched() const override { return true; }
+  LocalSize local(Vec3 x, int&) const override {
+    return distance(x, spot_) < 1 ? LocalSize{0.1, 0.4, {1, 0, 0}} : LocalSize{0.1, 0.1, {}};
+  }
+
+ private:
+  Vec3 spot_;
+};
+
+TEST(TileCut, cuts_faces_that_are_not_stretched_themselves) {
+  const SpotField inside({5, 5, 0}), at_edge({0, 5, 0}), elsewhere({5, 5, 30});
+  const UniformField even(0.1);
+  EXPECT_TRUE(cut(FaceCase("square", inside), inside).tiles.empty());
+  EXPECT_TRUE(cut(FaceCase("square", at_edge), at_edge).tiles.empty());
+  EXPECT_EQ(cut(FaceCase("square", elsewhere), elsewhere).tiles.size(),
+            cut(FaceCase("square", even), even).tiles.size());
+}
+
 }  // namespace
 }  // namespace st
