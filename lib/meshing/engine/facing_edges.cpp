@@ -15,6 +15,9 @@ namespace {
 
 constexpr double kStretched = 2;  // length along over length across, in the middle of an edge
 constexpr double kAlike = 0.15;   // between the numbers of segments of stretched edges
+constexpr double kNarrow = 1.5;   // segments: a narrower face has rows in step, or angles near 180 degrees
+constexpr double kFewest = 0.7;   // of its own segments: an edge along a narrow face takes as many
+constexpr double kUneven = 1.5;   // between segments to nearest points and those of equal shares
 constexpr double kFree = 0.25;    // of a face's width: chords nearer to their curves do not cross those across
 
 using Facing = std::vector<FacingEdges>;
@@ -74,13 +77,9 @@ class Roles {
   Facing all_;
 };
 
-/// Where lengths along both are long and about the same.
-bool make_rows(const Model& model, const SizeField& field, const FacingEdges& facing, const EdgeMesh& own,
-               const EdgeMesh& leader) {
-  const double n_own = static_cast<double>(own.node_t.size()) - 1, n = static_cast<double>(leader.node_t.size()) - 1;
-  if (n_own < 2 || n < 2 || std::abs(n_own - n) > std::max(1.0, kAlike * n)) return false;
-  const auto curve = model.curve(facing.edge);
-  const CurvePoint middle = curve->evaluate(0.5 * (curve->t_min() + curve->t_max()));
+/// Are lengths along the edge that follows long, for those across?
+bool is_stretched(const Curve& curve, const SizeField& field) {
+  const CurvePoint middle = curve.evaluate(0.5 * (curve.t_min() + curve.t_max()));
   int hint = 0;
   const LocalSize local = field.local(middle.x, hint);
   return local.in(middle.d1) > kStretched * local.length;
@@ -100,6 +99,11 @@ struct Chain {
   std::vector<std::unique_ptr<Curve>> curves;
   std::vector<EdgeMesh> nodes;
 
+  double n_segments() const {
+    double n = 0;
+    for (const EdgeMesh& edge : nodes) n += static_cast<double>(edge.node_t.size()) - 1;
+    return n;
+  }
   double chord_distance() const {
     double largest = 0;
     for (std::size_t i = 0; i < curves.size(); ++i)
@@ -145,6 +149,16 @@ EdgeMesh nodes_across(const Chain& chain, const std::vector<FacingEdges::Leader>
   return EdgeMesh::of_curve(std::move(t), std::move(x), std::move(h));
 }
 
+/// Are the segments of one about as long as those of the other, one by one?
+bool are_alike(const EdgeMesh& a, const EdgeMesh& b) {
+  if (a.node_xyz.size() != b.node_xyz.size()) return false;
+  for (std::size_t i = 1; i < a.node_xyz.size(); ++i) {
+    const double ratio = distance(a.node_xyz[i - 1], a.node_xyz[i]) / distance(b.node_xyz[i - 1], b.node_xyz[i]);
+    if (!(ratio < kUneven && ratio * kUneven > 1)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<FacingEdges> find_facing_edges(const MeshTopology& topology, bool has_rows) {
@@ -166,12 +180,21 @@ EdgeMesh facing_nodes(const Model& model, const SizeField& field, const FacingEd
     if (chain.nodes.back().node_t.size() < 2) return own;
   }
   const auto curve = model.curve(facing.edge);
-  const bool has_rows = field.is_stretched() && chain.nodes.size() == 1;
-  const bool is_facing = has_rows
-                             ? make_rows(model, field, facing, own, chain.nodes[0])
-                             : std::max(chord_distance(*curve, own), chain.chord_distance()) > kFree * facing.width;
-  if (!is_facing) return own;
-  EdgeMesh across = nodes_across(chain, facing.leaders, *curve, !has_rows);
+  const double n_own = static_cast<double>(own.node_t.size()) - 1, n = chain.n_segments();
+  const bool has_rows = field.is_stretched() && std::min(n, n_own) >= 2 && is_stretched(*curve, field);
+  const bool is_narrow = has_rows && facing.width * n_own < kNarrow * ArcTable(*curve).length();
+  const bool is_wide = field.is_stretched() && chain.nodes.size() == 1 && !is_narrow;
+  const auto is_facing = [&] {
+    if (is_narrow) return n >= kFewest * n_own;
+    if (is_wide) return has_rows && std::abs(n_own - n) <= std::max(1.0, kAlike * n);
+    return std::max(chord_distance(*curve, own), chain.chord_distance()) > kFree * facing.width;
+  };
+  if (!is_facing()) return own;
+  EdgeMesh across = nodes_across(chain, facing.leaders, *curve, !is_wide);
+  if (is_narrow) {  // nearest points crowd where ends lean
+    EdgeMesh even = nodes_across(chain, facing.leaders, *curve, false);
+    if (across.n_edges() == 0 || !are_alike(across, even)) across = std::move(even);
+  }
   return across.n_edges() == 0 ? own : across;
 }
 

@@ -1,20 +1,19 @@
 #include "meshing/face/row_blocks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <queue>
 
 #include "meshing/face/row_chains.h"
+#include "meshing/face/row_ladder.h"
+#include "meshing/face/row_layer.h"
 #include "meshing/face/row_line.h"
 #include "meshing/face/row_map.h"
-#include "meshing/face/stretch.h"
 
 namespace st {
 namespace {
 
 using Side = std::pair<std::int32_t, std::int32_t>;
-using Corners = std::array<std::int32_t, 3>;
 
 /// Of a boundary node: rows begin there, or end there at their side.
 enum Use : char { kFree, kChain, kLine };
@@ -35,8 +34,12 @@ class RowBlock {
 
   /// All rows up to the side across, where it fits; false: none.
   bool map() {
+    if (is_top_laid()) return false;
     std::vector<NextLine> lines = mapped_lines(w_, chain_);
-    if (lines.empty() || is_top_laid()) return false;
+    const auto is_laid = [](char joined) { return joined != 0; };
+    const bool is_whole = !lines.empty() && std::all_of(lines[0].joined.begin(), lines[0].joined.end(), is_laid);
+    if (!is_whole && lay_columns()) return true;
+    if (lines.empty()) return false;
     line_.nodes = chain_.bottom;
     line_.lowest.assign(line_.nodes.size(), 0);
     line_.highest = line_.lowest;
@@ -78,6 +81,15 @@ class RowBlock {
           t != kNone && m_.triangles[t].state == kLaid)
         return true;
     return false;
+  }
+
+  /// Rows on a narrow face.
+  bool lay_columns() {
+    if (!lay_ladder(w_, chain_)) return false;
+    for (const auto* side : {&chain_.bottom, &chain_.top})
+      for (const std::int32_t n : *side) is_used_[n] = kLine;
+    line_.joined.assign(line_.joined.size(), 0);
+    return true;
   }
 
   void lay(NextLine& next) {
@@ -146,63 +158,24 @@ class RowBlock {
         c.existing = next.columns[0].existing;
         continue;
       }
-      c.existing = insert(c.node, line_.nodes[stride * i]);
+      c.existing = layer_.insert(c.node, line_.nodes[stride * i]);
     }
-  }
-
-  /// On the way from a node of the line, which was found to be free.
-  std::int32_t insert(const MeshNode& p, std::int32_t from) {
-    if (m_.nodes.size() >= w_.max_nodes) return kNone;
-    const std::int32_t at = m_.seen_from(from, p.p);
-    if (at == kNone || m_.triangles[at].state != kUnfinished || !m_.find_cavity(p.p, metric_of(p), at)) return kNone;
-    if (is_crowded(p, distance(p.x, x(from)))) return kNone;
-    m_.nodes.push_back(p);
-    m_.added_node();
-    const auto added = static_cast<std::int32_t>(m_.nodes.size()) - 1;
-    m_.fill_cavity(added);
-    return added;
-  }
-
-  /// Nearer than a part of the row's height to a node, or to an edge that must stay.
-  bool is_crowded(const MeshNode& p, double height) const {
-    return std::any_of(m_.ring().begin(), m_.ring().end(), [&](const Triangulation::RingEdge& e) {
-      return distance(p.x, x(e.a)) < kNearNode * height ||
-             (e.constrained && segment_distance(p.x, x(e.a), x(e.b)) < kNearSide * height);
-    });
   }
 
   /// The quadrilateral a, b, d, c between columns i and i+1, cut by its shorter diagonal.
   bool force(std::size_t i, const NextLine& next) {
     const std::int32_t a = line_.nodes[i], b = line_.nodes[i + 1];
     const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
-    if (distance(x(a), x(d)) <= kEven * distance(x(b), x(c))) return force_all({{a, b, d}, {d, c, a}});
-    return force_all({{a, b, c}, {d, c, b}});
+    if (distance(x(a), x(d)) <= kEven * distance(x(b), x(c))) return layer_.lay({{a, b, d}, {d, c, a}});
+    return layer_.lay({{a, b, c}, {d, c, b}});
   }
   /// Three triangles over two segments.
   bool force_pair(std::size_t i, const NextLine& next) {
     const std::int32_t a = line_.nodes[2 * i], middle = line_.nodes[2 * i + 1], b = line_.nodes[2 * i + 2];
     const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
-    return force_all({{a, middle, c}, {middle, b, d}, {d, c, middle}});
+    return layer_.lay({{a, middle, c}, {middle, b, d}, {d, c, middle}});
   }
 
-  /// Triangles that are laid with all their edges, or not at all where an edge or a node is in the way.
-  bool force_all(const std::vector<Corners>& corners) {
-    std::vector<Side> fresh;
-    const auto fix = [&](std::int32_t a, std::int32_t b) {
-      if (m_.is_fixed(a, b)) return true;
-      if (!m_.force_side(a, b)) return false;
-      fresh.push_back({a, b});
-      return true;
-    };
-    bool is_free = true;
-    for (const auto& [a, b, c] : corners) is_free = is_free && fix(a, b) && fix(b, c) && fix(c, a);
-    for (const auto& [a, b, c] : corners) is_free = is_free && m_.left_of(a, b).second == c;
-    for (const auto& [a, b] : fresh)
-      if (!is_free) m_.release_side(a, b);
-    for (const auto& [a, b, c] : corners)
-      if (is_free) m_.triangles[m_.left_of(a, b).first].state = kLaid;
-    return is_free;
-  }
   Vec3 x(std::int32_t n) const { return m_.nodes[n].x; }
 
   /// `next` becomes the line; it has every column, or every second.
@@ -238,20 +211,13 @@ class RowBlock {
 
   /// A node of a row stays. Its lengths are those that were laid, so that the front goes on from them.
   void settle(std::int32_t n, double height, double width) {
-    MeshNode& node = m_.nodes[n];
-    if (n < m_.n_boundary) {
+    if (n < m_.n_boundary)
       is_used_[n] = kLine;
-      return;
-    }
-    node.is_laid = node.is_kept = true;
-    node.h = std::min(node.request, height * 1.25);
-    const double most = std::max(1.0, 1.3 * width / node.h), own = aspect_of(node);
-    if (own > most) node.squeeze = std::sqrt((1 - 1 / (most * most)) / (1 - 1 / (own * own))) * node.squeeze;
+    else
+      layer_.settle(n, height, width);
   }
 
-  static constexpr double kNearNode = 0.55;  // of a row's height: nearer to other nodes no node is laid,
-  static constexpr double kNearSide = 0.45;  // nor to edges that must stay
-  static constexpr double kEven = 1.0001;    // diagonals that are as long: always the same one
+  static constexpr double kEven = 1.0001;  // diagonals that are as long: always the same one
 
   static constexpr double kFlat = 1.9;        // length over height of quadrilaterals of which two become one
   static constexpr double kMuchLonger = 1.7;  // length asked for along over that of the row
@@ -260,6 +226,7 @@ class RowBlock {
 
   FaceWork& w_;
   Triangulation& m_;
+  RowLayer layer_{w_};
   RowChain chain_;
   std::vector<Use>& is_used_;  // [boundary nodes]
   RowLine line_;

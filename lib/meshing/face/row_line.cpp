@@ -22,6 +22,9 @@ constexpr double kMostAngle = 130;
 constexpr double kMostShear = radians(50);        // of a side against the square
 constexpr double kSideMisfit = 1.8;               // between the height asked for and that of the side's segment
 constexpr double kNarrowing = 0.6;                // of a column's width from row to row
+constexpr double kMostTurned = 0.9;               // of the largest turning of the normal: the height shrinks
+constexpr double kTurningFloor = 0.25;            // by no more than to that
+constexpr double kEvenly = 1.15;                  // of such a height: the one beside it
 constexpr double kTooLong = 1.5;                  // over the length asked for along a quadrilateral
 constexpr double kFalling = 0.75;                 // of a column's greatest height: it comes to where others begin,
 constexpr double kRisen = 1.5;                    // over its least height before,
@@ -49,6 +52,7 @@ class LineMaker {
       direct(first, last);
       bound(first, last);
       smooth(first, last);
+      limit_turning(first, last);
       place(first, last);
     }
     close();
@@ -140,6 +144,22 @@ class LineMaker {
         height_[i] = 0.25 * old[from] + 0.5 * old[i] + 0.25 * old[to];
       }
     }
+  }
+
+  /// Heights over which the surface turns too far become lower, and those beside them.
+  void limit_turning(std::size_t first, std::size_t last) {
+    bool is_limited = false;
+    for (std::size_t i = first; i <= last; ++i) {
+      MeshNode p;
+      if (next_.columns[i].existing != kNone || !step_on_surface(w_, node(i), across_[i], height_[i], p)) continue;
+      const double turned = angle_between(p.normal, node(i).normal);
+      if (turned <= kMostTurned * w_.max_turning) continue;
+      height_[i] *= std::max(kTurningFloor, kMostTurned * w_.max_turning / turned);
+      is_limited = true;
+    }
+    if (!is_limited) return;
+    for (std::size_t i = first + 1; i <= last; ++i) height_[i] = std::min(height_[i], kEvenly * height_[i - 1]);
+    for (std::size_t i = last; i-- > first;) height_[i] = std::min(height_[i], kEvenly * height_[i + 1]);
   }
 
   void place(std::size_t first, std::size_t last) {

@@ -51,6 +51,41 @@ TEST(FacingEdges, stay_as_they_are_where_chords_are_near_their_curves) {
   EXPECT_EQ(band.across(0.2, 0.19).node_t, band.nodes(band.facing.edge, 0.19).node_t);
 }
 
+/// Long along the span, z.
+class SpanField : public UniformField {
+ public:
+  SpanField() : UniformField(0.02) {}
+  bool is_stretched() const override { return true; }
+  LocalSize local(Vec3, int&) const override { return {0.02, 1, {0, 0, 1}}; }
+};
+
+TEST(FacingEdges, keep_rows_in_step_on_a_base_that_is_narrower_than_its_segments) {
+  const Model model = test::make_model("blunt_wing");
+  const MeshTopology topology(model.tables());
+  const SpanField field;
+  const auto nodes = [&](EdgeId e, double length) {
+    return discretise_curve(*model.curve(e), UniformField(length), {});
+  };
+  std::size_t n_bases = 0;
+  for (const FacingEdges& f : find_facing_edges(topology, true)) {
+    if (f.width > 0.1 || f.leaders.size() != 1) continue;
+    ++n_bases;
+    const EdgeMesh own = nodes(f.edge, 1), leader = nodes(f.leaders[0].edge, 1.3);
+    ASSERT_GT(own.node_t.size(), leader.node_t.size() + 5) << "they differ";
+    const auto across = [&](double length) {
+      return facing_nodes(model, field, f, own, [&](EdgeId e) { return nodes(e, length); });
+    };
+    EXPECT_EQ(across(1.3).node_t.size(), leader.node_t.size());
+    for (const Vec3 x : across(1.3).node_xyz) {
+      double nearest = 1e300;
+      for (const Vec3 y : leader.node_xyz) nearest = std::min(nearest, distance(x, y));
+      EXPECT_LT(nearest, 1.1 * f.width);
+    }
+    EXPECT_EQ(across(2).node_t, own.node_t) << "far fewer are no rows";
+  }
+  EXPECT_EQ(n_bases, 1u);
+}
+
 TEST(FacingEdges, leave_no_folds_on_a_band_between_one_edge_and_two) {
   const test::Meshed band("banded_pie", 1.3, {.merge_below = 0});
   EXPECT_TRUE(band.result.failures.empty());

@@ -28,13 +28,14 @@ class WallField : public SizeField {
   double at_, slope_, along_;
 };
 
-/// A face of kPlane with these loops before rows are laid.
+/// A face with these loops in (u,v) before rows are laid.
 struct RowCase {
   FaceBoundary boundary;
   FaceWork work;
 
-  RowCase(const std::vector<std::vector<Vec2>>& loops, const SizeField& field) : boundary(polygons(loops, 1)) {
-    work.set_surface(kPlane);
+  RowCase(const std::vector<std::vector<Vec2>>& loops, const SizeField& field, const Surface& surface = kPlane)
+      : boundary(polygons(loops, 1)) {
+    work.set_surface(surface);
     work.plane.u = PlaneAxis(1);
     work.plane.v = PlaneAxis(1);
     work.field = &field;

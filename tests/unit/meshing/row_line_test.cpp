@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geometry/shape/analytic.h"
 #include "unit/meshing/row_case.h"
 
 namespace st::test {
@@ -85,6 +86,33 @@ TEST(NextLine, ends_behind_the_crest_of_its_heights) {
   line.highest.assign(11, 0.16);
   const NextLine next = next_line(face.work, line, {});
   EXPECT_EQ(std::count(next.joined.begin(), next.joined.end(), 1), 0);
+}
+
+/// Long along z.
+class AxisField : public WallField {
+ public:
+  explicit AxisField(double across) : WallField(across, 0, 0), across_(across) {}
+  LocalSize local(Vec3, int&) const override { return {across_, 4, {0, 0, 1}}; }
+
+ private:
+  double across_;
+};
+
+TEST(NextLine, is_lower_where_the_surface_would_turn_too_far) {
+  const AxialSurface tube(SurfaceType::kCylinder, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 1, 0, 0, 2 * kPi, 0,
+                          40);
+  std::vector<Vec2> loop;
+  for (int i = 10; i >= 0; --i) loop.push_back({0.1, 4.0 * i});
+  loop.push_back({3.1, 0.1});
+  loop.push_back({3.2, 40.1});
+  for (const auto& [across, turned] : {std::pair{0.5, 0.5}, {1.3, 0.9}}) {  // chords for a radius of 1; radians
+    const AxisField field(across);
+    RowCase face({loop}, field, tube);
+    const NextLine next = next_line(face.work, line_of(11), {});
+    ASSERT_TRUE(next.columns[5].is_placed);
+    EXPECT_NEAR(angle_between(next.columns[5].node.normal, face.work.mesh.nodes[5].normal), turned, 0.08);
+    EXPECT_TRUE(next.joined[5]);
+  }
 }
 
 TEST(OpenAtGap, keeps_all_quadrilaterals_in_order) {

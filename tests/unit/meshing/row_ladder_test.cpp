@@ -1,0 +1,75 @@
+#include "meshing/face/row_ladder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "unit/meshing/row_case.h"
+
+namespace st::test {
+namespace {
+
+/// Lengths across that grow along a band, so that it has fewer rows further on.
+class FewerRowsField : public WallField {
+ public:
+  FewerRowsField() : WallField(0.1, 0, 1) {}
+  LocalSize local(Vec3 x, int&) const override { return {0.1 + 0.02 * x.x, 1.2, {1, 0, 0}}; }
+};
+
+double largest_laid_angle(const Triangulation& m) {
+  double largest = 0;
+  for (const PlaneTriangle& t : m.triangles) {
+    if (t.state != kLaid) continue;
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = m.nodes[t.v[k]].x;
+      largest = std::max(largest, angle_between(m.nodes[t.v[(k + 1) % 3]].x - a, m.nodes[t.v[(k + 2) % 3]].x - a));
+    }
+  }
+  return degrees(largest);
+}
+
+TEST(RowLadder, has_as_many_rows_as_each_place_asks_for) {
+  const FewerRowsField field;
+  RowCase face({band(10, 10, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {0.3, 0.6})}, field);
+  const std::vector<RowChain> chains = find_row_chains(face.work);
+  ASSERT_FALSE(chains.empty());
+  ASSERT_TRUE(lay_ladder(face.work, chains[0]));
+  EXPECT_NEAR(face.laid_area(), 10 * 0.6, 1e-9);
+  EXPECT_LT(largest_laid_angle(face.work.mesh), 110);
+  std::vector<int> rows(11, 1);
+  for (const MeshNode& n : face.work.mesh.nodes)
+    if (n.is_laid) ++rows[static_cast<std::size_t>(std::lround(n.x.x))];
+  EXPECT_EQ(rows[1], 5);  // 0.6 / 0.12
+  EXPECT_EQ(rows[9], 2);  // 0.6 / 0.28
+  EXPECT_TRUE(std::is_sorted(rows.begin() + 1, rows.end() - 1, std::greater<>()));
+}
+
+TEST(RowLadder, is_part_of_a_sound_mesh) {
+  const FewerRowsField field;
+  FaceBoundary boundary = polygons({band(10, 10, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {0.6})}, 0.1);
+  const FaceMesh mesh = mesh_face(kPlane, boundary, field, {});
+  expect_valid(boundary, mesh);
+  EXPECT_NEAR((MeshView{boundary, mesh}.area()), 6, 1e-9);
+}
+
+TEST(RowLadder, is_none_on_wide_faces_and_between_unlike_sides) {
+  const FewerRowsField field;
+  RowCase wide({band(10, 10, {3}, {3})}, field);
+  EXPECT_FALSE(lay_ladder(wide.work, find_row_chains(wide.work).at(0)));
+  std::vector<Vec2> loop = band(10, 10, {0.6}, {0.6});
+  loop.erase(loop.begin() + 14);
+  RowCase unlike({loop}, field);
+  EXPECT_FALSE(lay_ladder(unlike.work, find_row_chains(unlike.work).at(0)));
+  EXPECT_EQ(wide.n_laid() + unlike.n_laid(), 0);
+}
+
+TEST(RowLadder, leaves_out_columns_that_something_is_in) {
+  const FewerRowsField field;
+  RowCase face({band(10, 10, {0.3, 0.6}, {0.6}), {{4.9, 0.25}, {4.9, 0.35}, {5.1, 0.35}, {5.1, 0.25}}}, field);
+  ASSERT_TRUE(lay_ladder(face.work, find_row_chains(face.work).at(0)));
+  EXPECT_NEAR(face.laid_area(), 8 * 0.6, 1e-9);
+}
+
+}  // namespace
+}  // namespace st::test
