@@ -1,4 +1,4 @@
-// Fixed-size linear algebra: the only place that includes Eigen, and the way from our vectors to Eigen's and back.
+// Fixed-size linear algebra: the only header that includes Eigen, and the way from our vectors to Eigen's and back.
 #pragma once
 
 #include <Eigen/Core>

@@ -6,6 +6,8 @@
 
 namespace st {
 
+std::optional<double> Curve::foot_near(Vec3, double) const { return std::nullopt; }
+
 double arc_length(const Curve& curve, double t0, double t1, int n_intervals) {
   ST_ASSERT(n_intervals >= 1);
   // 5-point Gauss-Legendre

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/vec.h"
@@ -25,6 +26,8 @@ class Curve {
   virtual CurvePoint evaluate(double t) const = 0;
   /// Parameters strictly inside the bounds where one polynomial piece ends and the next begins, ascending.
   virtual std::vector<double> knots() const { return {}; }
+  /// What project_near() gives, of curves where Newton's method stalls (polylines); nullopt for all others.
+  virtual std::optional<double> foot_near(Vec3 p, double guess) const;
   /// Another one of the same data, for any thread, at a fraction of the cost of making it; nullptr: there is no saving.
   virtual std::unique_ptr<Curve> copy() const { return nullptr; }
   /// Period of the parametrisation, 0 when there is none.

@@ -102,6 +102,10 @@ Bounds bounds_of(const Surface& s) { return {{s.u_min(), s.v_min()}, {s.u_max(),
 }  // namespace
 
 SurfaceFoot descend_from(const Surface& surface, Vec3 target, Vec2 guess) {
+  if (const auto own = surface.foot_near(target, guess)) {
+    const Vec3 x = surface.point(*own);
+    return {*own, x, distance(x, target)};
+  }
   const Bounds b = bounds_of(surface);
   return descend(surface, target, b.clamp(guess), b);
 }
@@ -179,6 +183,7 @@ CurveFoot closest_point(const Curve& curve, Vec3 target) {
 }
 
 std::optional<double> project_near(const Curve& curve, Vec3 target, double t) {
+  if (const auto own = curve.foot_near(target, t)) return own;
   const double range = curve.t_max() - curve.t_min(), lo = curve.t_min() - 0.01 * range,
                hi = curve.t_max() + 0.01 * range;
   for (int step = 0; step < 20; ++step) {

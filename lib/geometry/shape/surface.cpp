@@ -25,6 +25,8 @@ void Surface::evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> o
 
 std::optional<Vec2> Surface::exact_foot(Vec3) const { return std::nullopt; }
 
+std::optional<Vec2> Surface::foot_near(Vec3, Vec2) const { return std::nullopt; }
+
 Vec3 surface_normal(const Surface& surface, Vec2 uv) {
   const double mid_u = 0.5 * (surface.u_min() + surface.u_max()), mid_v = 0.5 * (surface.v_min() + surface.v_max());
   const double range_u = surface.u_max() - surface.u_min(), range_v = surface.v_max() - surface.v_min();
@@ -93,6 +95,7 @@ std::vector<SingularSide> singular_sides(const Surface& surface, double toleranc
 }
 
 std::optional<Vec2> project_near(const Surface& surface, Vec3 target, Vec2 uv) {
+  if (const auto own = surface.foot_near(target, uv)) return own;
   const double range_u = surface.u_max() - surface.u_min(), range_v = surface.v_max() - surface.v_min();
   const double lo_u = surface.u_min() - 0.01 * range_u, hi_u = surface.u_max() + 0.01 * range_u;
   const double lo_v = surface.v_min() - 0.01 * range_v, hi_v = surface.v_max() + 0.01 * range_v;

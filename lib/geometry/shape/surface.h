@@ -56,9 +56,12 @@ class Surface {
   /// evaluate() at each of `uv`; `out` has as many places. Cheaper than single calls where the evaluators are own code.
   virtual void evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const;
   /// The (u,v), not bounded, whose point is closest to `p`, for the types where a formula gives it (plane, cylinder,
-  /// cone, sphere, torus); u and v within half a period of the middle of the bounds. nullopt for other types and where
-  /// every (u,v) of a circle is as close.
+  /// cone, sphere, torus) and for facets; u and v within half a period of the middle of the bounds. nullopt for other
+  /// types and where every (u,v) of a circle is as close.
   virtual std::optional<Vec2> exact_foot(Vec3 p) const;
+  /// What project_near() gives, of surfaces where Newton's method stalls (facets), from anywhere near the guess;
+  /// nullopt for all others.
+  virtual std::optional<Vec2> foot_near(Vec3 p, Vec2 guess) const;
   /// Parameters inside the bounds where the surface or its derivative may be only C0 (kinks), ascending.
   const std::vector<double>& u_breaks() const { return u_breaks_; }
   const std::vector<double>& v_breaks() const { return v_breaks_; }

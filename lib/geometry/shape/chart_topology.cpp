@@ -1,0 +1,137 @@
+#include "geometry/shape/chart_topology.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "base/disjoint_sets.h"
+
+namespace st {
+namespace {
+
+/// Sides in buckets by their lower node: side k of triangle t is 3 t + k, ascending in each bucket.
+struct SideTable {
+  std::vector<std::int32_t> offsets, high, side;
+};
+
+SideTable sides_by_node(std::span<const Corners> corners) {
+  std::int32_t n_nodes = 0;
+  for (const Corners& c : corners) n_nodes = std::max({n_nodes, c[0] + 1, c[1] + 1, c[2] + 1});
+  SideTable table;
+  table.offsets.assign(static_cast<std::size_t>(n_nodes) + 1, 0);
+  table.high.resize(3 * corners.size());
+  table.side.resize(3 * corners.size());
+  const auto for_each = [&](const auto& visit) {
+    for (std::size_t i = 0; i < 3 * corners.size(); ++i) {
+      const Corners& c = corners[i / 3];
+      const auto [low, high] = std::minmax(c[i % 3], c[(i + 1) % 3]);
+      visit(static_cast<std::int32_t>(i), low, high);
+    }
+  };
+  for_each([&](std::int32_t, std::int32_t low, std::int32_t) { ++table.offsets[static_cast<std::size_t>(low) + 1]; });
+  std::partial_sum(table.offsets.begin(), table.offsets.end(), table.offsets.begin());
+  std::vector<std::int32_t> next(table.offsets.begin(), table.offsets.end() - 1);
+  for_each([&](std::int32_t i, std::int32_t low, std::int32_t high) {
+    const std::int32_t at = next[low]++;
+    table.high[at] = high;
+    table.side[at] = i;
+  });
+  return table;
+}
+
+/// Rim sides as a map from each node to the next one; false where a node has two.
+bool follow_rim(std::span<const Corners> corners, std::span<const Corners> neighbours,
+                std::vector<std::int32_t>& next) {
+  bool is_unique = true;
+  for (std::size_t t = 0; t < corners.size(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      if (neighbours[t][k] != kNone) continue;
+      std::int32_t& after = next[corners[t][k]];
+      is_unique = is_unique && after == kNone;
+      after = corners[t][(k + 1) % 3];
+    }
+  return is_unique;
+}
+
+void add_loops(std::span<const Vec3> x, std::vector<std::int32_t> next, PatchTopology& result) {
+  for (std::int32_t first = 0; first < static_cast<std::int32_t>(next.size()); ++first) {
+    if (next[first] == kNone) continue;
+    std::vector<std::int32_t> loop;
+    double length = 0;
+    std::int32_t at = first;
+    while (next[at] != kNone) {
+      loop.push_back(at);
+      length += distance(x[at], x[next[at]]);
+      at = std::exchange(next[at], kNone);
+    }
+    result.is_manifold = result.is_manifold && at == first;
+    result.loops.push_back(std::move(loop));
+    result.loop_length.push_back(length);
+  }
+}
+
+/// Corners of one node that are joined across sides are one fan; there are as many fans as nodes where all is manifold.
+std::int64_t count_fans(std::span<const Corners> corners, std::span<const Corners> neighbours) {
+  const auto n = static_cast<std::int32_t>(corners.size());
+  DisjointSets fans(3 * static_cast<std::int64_t>(n));
+  for (std::int32_t t = 0; t < n; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t other = neighbours[t][k];
+      if (other == kNone) continue;
+      for (int m = 0; m < 3; ++m)
+        for (const int own : {k, (k + 1) % 3})
+          if (corners[other][m] == corners[t][own]) fans.join(3 * t + own, 3 * other + m);
+    }
+  std::int64_t count = 0;
+  for (std::int32_t c = 0; c < 3 * n; ++c) count += fans.find(c) == c;
+  return count;
+}
+
+}  // namespace
+
+std::vector<Corners> find_neighbours(std::span<const Corners> corners) {
+  std::vector<Corners> result(corners.size(), {kNone, kNone, kNone});
+  const SideTable table = sides_by_node(corners);
+  for (std::size_t node = 0; node + 1 < table.offsets.size(); ++node)
+    for (std::int32_t i = table.offsets[node]; i < table.offsets[node + 1]; ++i) {
+      std::int32_t n_uses = 0, other = kNone;
+      for (std::int32_t j = table.offsets[node]; j < table.offsets[node + 1]; ++j) {
+        if (table.high[j] != table.high[i]) continue;
+        ++n_uses;
+        if (j != i) other = table.side[j];
+      }
+      const std::int32_t own = table.side[i];
+      if (n_uses == 2 && corners[own / 3][own % 3] != corners[other / 3][other % 3])
+        result[own / 3][own % 3] = other / 3;
+    }
+  return result;
+}
+
+std::size_t PatchTopology::outer_loop() const {
+  return static_cast<std::size_t>(std::max_element(loop_length.begin(), loop_length.end()) - loop_length.begin());
+}
+
+PatchTopology find_topology(std::span<const Vec3> x, std::span<const Corners> corners) {
+  PatchTopology result;
+  const std::vector<Corners> neighbours = find_neighbours(corners);
+  const auto n = static_cast<std::int32_t>(corners.size());
+  DisjointSets parts(n);
+  std::int64_t n_inner_sides = 0;
+  for (std::int32_t t = 0; t < n; ++t)
+    for (const std::int32_t other : neighbours[t])
+      if (other != kNone) {
+        ++n_inner_sides;
+        parts.join(t, other);
+      }
+  for (std::int32_t t = 0; t < n; ++t) result.n_components += parts.find(t) == t;
+  const auto n_nodes = static_cast<std::int64_t>(x.size());
+  std::vector<std::int32_t> next(x.size(), kNone);
+  result.is_manifold = follow_rim(corners, neighbours, next) && count_fans(corners, neighbours) == n_nodes;
+  add_loops(x, std::move(next), result);
+  const std::int64_t n_edges = 3 * std::int64_t{n} - n_inner_sides / 2, euler = n_nodes - n_edges + n;
+  result.genus =
+      static_cast<std::int32_t>((2 * result.n_components - euler - static_cast<std::int64_t>(result.loops.size())) / 2);
+  return result;
+}
+
+}  // namespace st

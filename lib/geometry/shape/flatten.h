@@ -1,0 +1,31 @@
+// Parameters for a triangulated patch: a plane map of it without flips and with little distortion.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/vec.h"
+#include "geometry/shape/chart_topology.h"
+
+namespace st {
+
+/// Larger stretch than this is no parametrisation that a mesh can be made in.
+inline constexpr double kMostStretch = 10;
+
+/// Places in the plane for the nodes of a patch, model unit. A patch whose normals stay within 60 degrees of their mean
+/// is projected along it, where its rim does not cross itself then. Else the longest loop goes to a circle by
+/// mean-value weights, other loops are filled (Floater 2003), and the symmetric Dirichlet energy is lowered with a free
+/// rim (Rabinovich et al. 2017); no step goes as far as the first flip or crossing of the rim.
+///
+/// nullopt where the patch is no disc with holes, is deep like a cup or long like a tube, has more than 20,000
+/// triangles and cannot be projected, or where the result would flip or stretch more than kMostStretch: it must be cut.
+/// The same input gives the same bits. Cost: microseconds per triangle for a projection, else up to a millisecond.
+std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<const Corners> corners,
+                                         const PatchTopology& topology);
+
+/// Singular values of the map from the plane to space, larger over smaller: the largest over the triangles that are no
+/// needles (height below 1e-3 of the longest side). Infinite where a triangle is flipped.
+double largest_stretch(std::span<const Vec3> x, std::span<const Corners> corners, std::span<const Vec2> uv);
+
+}  // namespace st

@@ -1,0 +1,82 @@
+#include "geometry/shape/polyline.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/assert.h"
+
+namespace st {
+namespace {
+
+/// The segment that holds t; the first and the last one go on beyond the ends.
+std::size_t segment_of(const std::vector<double>& t, double at) {
+  return static_cast<std::size_t>(std::upper_bound(t.begin() + 1, t.end() - 1, at) - t.begin()) - 1;
+}
+
+double share_of(const std::vector<double>& t, std::size_t i, double at) { return (at - t[i]) / (t[i + 1] - t[i]); }
+
+}  // namespace
+
+std::vector<double> polyline_parameters(std::span<const Vec3> points) {
+  std::vector<double> t{0};
+  for (std::size_t i = 1; i < points.size(); ++i) t.push_back(t.back() + distance(points[i - 1], points[i]));
+  return t;
+}
+
+PolylineCurve::PolylineCurve(std::vector<Vec3> points)
+    : points_(std::move(points)), bend_(points_.size()), t_(polyline_parameters(points_)) {
+  ST_ASSERT(points_.size() >= 2);
+  t_min_ = 0, t_max_ = t_.back();
+  const std::size_t n = points_.size();
+  const auto direction = [&](std::size_t i) { return normalized(points_[i + 1] - points_[i]); };
+  for (std::size_t i = 1; i + 1 < n; ++i)
+    bend_[i] = (direction(i) - direction(i - 1)) / (0.5 * (t_[i + 1] - t_[i - 1]));
+  if (n == 2) return;
+  bend_.front() = bend_[1];
+  bend_.back() = bend_[n - 2];
+}
+
+Vec3 PolylineCurve::point(double t) const {
+  const std::size_t i = segment_of(t_, t);
+  const double s = share_of(t_, i, t);
+  return (1 - s) * points_[i] + s * points_[i + 1];
+}
+
+CurvePoint PolylineCurve::evaluate(double t) const {
+  const std::size_t i = segment_of(t_, t);
+  const double s = std::clamp(share_of(t_, i, t), 0.0, 1.0);
+  const Vec3 d = normalized(points_[i + 1] - points_[i]), bend = (1 - s) * bend_[i] + s * bend_[i + 1];
+  return {point(t), d, bend - dot(bend, d) * d};
+}
+
+std::optional<double> PolylineCurve::foot_near(Vec3 p, double guess) const {
+  const auto foot = [&](std::size_t i) {
+    const Vec3 d = points_[i + 1] - points_[i];
+    const double s = std::clamp(dot(p - points_[i], d) / norm2(d), 0.0, 1.0);
+    return std::pair(distance(points_[i] + s * d, p), t_[i] + s * (t_[i + 1] - t_[i]));
+  };
+  std::size_t at = segment_of(t_, guess);
+  auto best = foot(at);
+  for (const int way : {1, -1})
+    for (std::size_t i = at; way > 0 ? i + 2 < t_.size() : i > 0;) {
+      i = way > 0 ? i + 1 : i - 1;
+      const auto next = foot(i);
+      if (next.first > best.first) break;
+      best = next;
+      at = i;
+    }
+  return best.second;
+}
+
+PolylineCurve2d::PolylineCurve2d(std::vector<double> t, std::vector<Vec2> points)
+    : t_(std::move(t)), points_(std::move(points)) {
+  ST_ASSERT(t_.size() == points_.size() && t_.size() >= 2);
+}
+
+Vec2 PolylineCurve2d::point(double t) const {
+  const std::size_t i = segment_of(t_, t);
+  const double s = share_of(t_, i, t);
+  return (1 - s) * points_[i] + s * points_[i + 1];
+}
+
+}  // namespace st

@@ -1,0 +1,50 @@
+#include "geometry/shape/polyline.h"
+
+#include <gtest/gtest.h>
+
+#include "geometry/shape/projection.h"
+
+namespace st {
+namespace {
+
+std::vector<Vec3> circle_points(double radius, int n) {
+  std::vector<Vec3> points;
+  for (int i = 0; i <= n; ++i) points.push_back({radius * std::cos(3.0 * i / n), radius * std::sin(3.0 * i / n), 0});
+  return points;
+}
+
+TEST(PolylineCurve, goes_through_its_points_by_arc_length) {
+  const std::vector<Vec3> points = circle_points(2, 10);
+  const PolylineCurve curve(points);
+  const std::vector<double> t = polyline_parameters(points);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LE(distance(curve.point(t[i]), points[i]), 1e-14);
+  EXPECT_NEAR(arc_length(curve, curve.t_min(), curve.t_max()), t.back(), 1e-12);
+  EXPECT_EQ(curve.knots().size(), 9u);
+}
+
+TEST(PolylineCurve, has_the_curvature_that_its_turning_means) {
+  const PolylineCurve curve(circle_points(2, 60));
+  for (double s = 0.05; s < 1; s += 0.1) EXPECT_NEAR(curvature(curve.evaluate(s * curve.t_max())), 0.5, 0.001);
+  EXPECT_EQ(curvature(PolylineCurve({{0, 0, 0}, {1, 2, 3}}).evaluate(1)), 0);
+}
+
+TEST(PolylineCurve, has_feet_near_a_guess) {
+  const PolylineCurve curve(circle_points(2, 12));
+  for (double s = 0.1; s < 1; s += 0.1) {
+    const Vec3 x = curve.point(s * curve.t_max());
+    const auto foot = project_near(curve, {x.x, x.y, 0.3}, (s - 0.1) * curve.t_max());
+    ASSERT_TRUE(foot);
+    EXPECT_NEAR(*foot, s * curve.t_max(), 1e-12);
+    EXPECT_NEAR(*project_near(curve, {x.x, x.y, 0.3}, curve.t_max()), s * curve.t_max(), 1e-12);
+  }
+}
+
+TEST(PolylineCurve2d, is_linear_between_its_points) {
+  const PolylineCurve2d curve({0, 1, 3}, {{0, 0}, {1, 0}, {1, 4}});
+  EXPECT_EQ(curve.point(0.5), (Vec2{0.5, 0}));
+  EXPECT_EQ(curve.point(2), (Vec2{1, 2}));
+  EXPECT_EQ(curve.point(3), (Vec2{1, 4}));
+}
+
+}  // namespace
+}  // namespace st
