@@ -114,7 +114,7 @@ Edited put_together(const EditStageOptions& o, EditInputs& inputs) {
     if (all) keep_names_apart(all->tables(), inputs.names[i], join, a.tables);
     trace.append(a.tables, static_cast<std::int32_t>(i));
     placement.resize(trace.faces.size(), {static_cast<int>(i)});
-    Model model = stored_model(a, o.geometries[i]);
+    Model model = stored_cad(a, o.geometries[i]);
     all = all ? append(*all, model) : std::move(model);
   }
   return {std::move(*all), std::move(trace), std::vector<Similarity>(placement.size()), std::move(placement)};

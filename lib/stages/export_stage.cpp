@@ -253,7 +253,7 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
   require_writable(o.output);
   Progress progress("exporting", 1);
   progress.step("surfaces", 0);
-  const FliteExport flite = make_flite(stored_model(geometry, o.artifact), tolerance);
+  const FliteExport flite = make_flite(stored_cad(geometry, o.artifact), tolerance);
   write_text_file(o.output, flite_text(flite.file));
   StageSummary summary;
   const std::string where = flite.worst.empty() ? "" : fmt::format(" ({})", flite.worst);

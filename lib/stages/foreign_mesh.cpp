@@ -88,7 +88,8 @@ Model with_vertices_of(const SurfaceMesh& mesh, Model&& model) {
     is_same &= x == mesh.node_xyz[n];
     x = mesh.node_xyz[n];
   }
-  return is_same ? std::move(model) : Model(std::move(tables), model.brep());
+  if (is_same) return std::move(model);
+  return model.facets().empty() ? Model(std::move(tables), model.brep()) : Model(std::move(tables), model.facets());
 }
 
 std::string association_text(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& r) {

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "base/child_process.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "features/wing_edges.h"
+#include "geometry/import/facet_import.h"
 #include "geometry/import/import.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
@@ -17,6 +19,7 @@
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
 #include "io/toml/groups_file.h"
+#include "mesh/crossing.h"
 #include "stages/cad_view.h"
 
 namespace st {
@@ -106,7 +109,7 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
 
 /// Trailing and leading edges that st-raster would find, listed by --check.
 nlohmann::json list_wing_edges(const ImportResult& r) {
-  const Model model(r.tables, r.brep);
+  const Model model = r.facets.empty() ? Model(r.tables, r.brep) : Model(r.tables, r.facets);
   const ModelTables& t = model.tables();
   const std::vector<WingEdge> edges = wing_edges_to_see(model);
   nlohmann::json list = nlohmann::json::array();
@@ -288,10 +291,8 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   else if (!r.is_closed && r.n_free_edges == 0)
     log_warning(fmt::format("{}: the model encloses no volume, because its faces form no shell", model));
   else if (!r.is_closed)
-    log_warning(
-        fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there (--sew joins edges "
-                    "further apart)",
-                    model, r.n_free_edges));
+    log_warning(fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there{}", model,
+                            r.n_free_edges, r.facets.empty() ? " (--sew joins edges further apart)" : ""));
   if (r.n_repairs > 0)
     log_warning(
         fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
@@ -342,6 +343,42 @@ std::vector<std::int32_t> previous_faces(const std::vector<std::int32_t>& file_f
   return is_other ? previous : std::vector<std::int32_t>();
 }
 
+/// Where facets cross each other no size makes the mesh valid.
+void find_facets_that_cross(const std::string& path, const SurfaceMesh& mesh, ImportResult& r) {
+  bool was_ended = false;
+  const std::vector<TrianglePair> pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended);
+  if (pairs.empty()) return;
+  const Vec3 x = mesh.node_xyz[mesh.triangles[pairs[0].a].n[0]];
+  const std::string what =
+      fmt::format("facets cross each other: {}{} pairs", pairs.size(), was_ended ? " or more" : "");
+  log_warning(
+      fmt::format("{}: {}, the first one near ({:.6g}, {:.6g}, {:.6g}); triangles will cross there, so repair "
+                  "the file",
+                  path, what, x.x, x.y, x.z));
+  r.findings.push_back({FindingKind::kOther, "", x, 0, false, what});
+}
+
+ImportResult import_triangles(const std::string& path, const ImportOptions& options) {
+  const SurfaceMesh mesh = read_triangulation(path);
+  FacetInput facets{mesh.node_xyz, {}, mesh.triangle_face, mesh.labels.face_name};
+  for (const Triangle& t : mesh.triangles) facets.corners.push_back({t.n[0], t.n[1], t.n[2]});
+  ImportResult r = import_facets(std::move(facets), options, path);
+  find_facets_that_cross(path, mesh, r);
+  return r;
+}
+
+/// Of whatever the file holds.
+ImportResult import_file(const ImportStageOptions& o, ImportOptions options) {
+  o.kFeatureAngle.require(o.feature_angle);
+  if (!triangulation_format(o.model).empty()) {
+    options.feature_deg = o.feature_angle.value_or(options.feature_deg);
+    return import_triangles(o.model, options);
+  }
+  if (o.feature_angle)
+    throw Error(ExitCode::kUsage, o.model + ": --feature-angle is for facets (STL), and this is no file of them");
+  return import_model(o.model, options);
+}
+
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
   ImportOptions options;
@@ -358,7 +395,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   options.check_only = o.check;
   options.require_closed = o.require_closed;
   options.groups = groups.rules;
-  ImportResult r = import_model(o.model, options);
+  ImportResult r = import_file(o, options);
   say(o, r);
   nlohmann::json json = report(o.model, r);
   if (o.check) json["wing_edges"] = list_wing_edges(r);
@@ -382,6 +419,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
     for (const auto& [name, is_asked] : {std::pair{"unite", o.unite}, {"join", o.join}, {"cap", o.cap}})
       if (is_asked) used[name] = true;
+    if (o.feature_angle) used["feature_angle"] = *o.feature_angle;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
     g.header.options_json = json_text(used);
     g.header.unit = t.unit;
@@ -393,7 +431,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.previous_faces = previous_faces(r.file_faces);
     g.is_closed = r.is_closed;
     g.tables = std::move(r.tables);
-    g.brep = std::move(r.brep);
+    std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
     json["hash"] = write_geometry(o.output, g);
     json["output"] = o.output;
   }
@@ -411,20 +449,11 @@ struct LeftTemporaries {
   }
 };
 
-/// Meshes are used elsewhere.
-void require_cad(const std::string& path) {
-  if (const std::string format = triangulation_format(path); !format.empty())
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: is {}, not a CAD model; use it with st-prolong --blank, st-remesh or st-check", path, format));
-}
-
 }  // namespace
 
 // OpenCASCADE may crash, hang or eat the memory on a damaged file: everything is done in a child, this process keeps
 // the last word.
 StageSummary run_import(const ImportStageOptions& o) {
-  require_cad(o.model);
   if (!o.check) require_writable(o.output);
   const GroupsFile groups = o.groups.empty() ? GroupsFile() : read_groups(o.groups);
   const auto work = [&] {

@@ -10,7 +10,7 @@
 namespace st {
 
 struct ImportStageOptions {
-  std::string model;  ///< CAD file: STEP, IGES or BREP
+  std::string model;  ///< CAD file: STEP, IGES, BREP or FLITE; or facets: STL and other triangulations
   std::string output = "geometry.hdf";
   std::string unit;             ///< convert to this unit; empty: the file's own
   std::string small = "0.01%";  ///< length: edges shorter and faces narrower than this are listed
@@ -19,6 +19,9 @@ struct ImportStageOptions {
   static constexpr NumberOption kTimeLimit{
       "--time-limit", "SECONDS", "(0, 1e9]",
       "stop reading after this processor time in seconds; default: 30, and 5 per megabyte of the file"};
+  std::optional<double> feature_angle;
+  static constexpr NumberOption kFeatureAngle{"--feature-angle", "DEGREES", "[1, 180]",
+                                              "of facets: faces meet where neighbours turn by more; default: 30"};
   std::string symmetry, farfield, replace_farfield;  ///< of ImportOptions; empty: none
   std::string flow_domain = "auto";                  ///< of ImportOptions
   std::string groups;                                ///< groups file (TOML); empty: the groups of the CAD file

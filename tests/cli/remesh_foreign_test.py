@@ -328,15 +328,6 @@ class Gmsh(ToolTest):
                                          ["-format", form, *binary])
 
 
-class Import(ToolTest):
-    def test_says_where_meshes_are_used(self):
-        for name, path in write_formats(artifacts_of("box") / "mesh.hdf", self.folder).items():
-            for options in (["-o", self.folder / "g.hdf"], ["--check"]):
-                self.expect_error(INPUT, "st-import", path, *options,
-                                  says=[f"m.{name}", "mesh, not a CAD model", "st-prolong --blank", "st-remesh"])
-        self.assertFalse((self.folder / "g.hdf").exists())
-
-
 class Options(ToolTest):
     def test_tolerance_decides(self):
         good = artifacts_of("cylinder")

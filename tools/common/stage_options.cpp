@@ -3,7 +3,8 @@
 namespace st {
 
 void declare(OptionSet& set, ImportStageOptions& o) {
-  set.unit("--unit", o.unit, "length unit of the artifact: mm, cm, m, in or ft; default: the unit of the file");
+  set.unit("--unit", o.unit,
+           "length unit of the artifact: mm, cm, m, in or ft; default: the unit of the file; needed for facets");
   set.length("--small", o.small, "0.01%", "list edges shorter and faces narrower than this");
   set.length("--sew", o.sew, "0.01%", "join free edges that are at most this far apart");
   set.text("--symmetry", o.symmetry, "AXIS=VALUE",
@@ -16,6 +17,7 @@ void declare(OptionSet& set, ImportStageOptions& o) {
            "whether the file is the air around a body: auto (by shape where no name says so), yes or no");
   set.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
   set.number(o.kTimeLimit, o.time_limit);
+  set.number(o.kFeatureAngle, o.feature_angle);
   set.flag("--unite", o.unite, "make solids that overlap or touch one body, without what is inside");
   set.flag("--join", o.join, "give solids that touch common faces and edges, in groups of their own");
   set.flag("--cap", o.cap,

@@ -7,8 +7,9 @@ int main(int argc, char** argv) {
   st::ImportStageOptions o;
   st::ToolMain tool(
       "st-import",
-      "Reads a CAD model (STEP, IGES, BREP, FLITE), repairs it where needed and writes a geometry artifact.");
-  tool.input("model", o.model, "CAD file: .step .stp .iges .igs .brep .dat .fli");
+      "Reads a CAD model (STEP, IGES, BREP, FLITE) or facets (STL), repairs them where needed and writes a geometry "
+      "artifact.");
+  tool.input("model", o.model, "CAD file: .step .stp .iges .igs .brep .dat .fli; or facets: .stl .msh .vtu .fro");
   tool.output(o.output);
   st::declare(tool, o);
   tool.flag("--check", o.check, "print a report of the defects and write nothing");

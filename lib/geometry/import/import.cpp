@@ -28,6 +28,7 @@
 #include "geometry/import/left_out_faces.h"
 #include "geometry/import/loop_periods.h"
 #include "geometry/import/loop_repair.h"
+#include "geometry/import/model_unit.h"
 #include "geometry/import/openings.h"
 #include "geometry/import/pcurve_repair.h"
 #include "geometry/import/shape_repair.h"
@@ -49,39 +50,6 @@ namespace {
 
 using occt::CadFile;
 using occt::ImportedShape;
-
-struct ModelUnit {
-  std::string name;  ///< empty: none
-  std::optional<double> in_m;
-  double shape_units = 1;  ///< of the shape as it was read (mm, or the plain numbers) in one model unit
-};
-
-std::string unit_name(double in_mm) {
-  static const std::pair<double, const char*> kNames[] = {{1, "mm"},    {10, "cm"},    {1000, "m"},
-                                                          {25.4, "in"}, {304.8, "ft"}, {1e-3, "um"},
-                                                          {1e6, "km"},  {914.4, "yd"}, {0.0254, "mil"}};
-  for (const auto& [mm, name] : kNames)
-    if (std::abs(in_mm - mm) < 1e-6 * mm) return name;
-  return occt::format_number(in_mm) + "mm";
-}
-
-/// The unit asked for, else the file's own. A file without a unit is taken to be in the unit that --unit names: nothing
-/// to scale.
-ModelUnit choose_unit(const CadFile& file, const std::string& asked) {
-  ModelUnit unit;
-  if (!asked.empty()) {
-    unit.in_m = unit_in_metres(asked);
-    if (!unit.in_m)
-      throw Error(ExitCode::kUsage, "--unit: '" + asked + "' is not a unit of length; use mm, cm, m, in or ft");
-    unit.name = unit_name(*unit.in_m * 1000);  // "MM" is "mm"
-    if (file.unit_in_mm) unit.shape_units = *unit.in_m * 1000;
-  } else if (file.unit_in_mm) {
-    unit.name = unit_name(*file.unit_in_mm);
-    unit.in_m = *file.unit_in_mm / 1000;
-    unit.shape_units = *file.unit_in_mm;
-  }
-  return unit;
-}
 
 /// Options that cannot be used without a unit are known before the work is done.
 void require_units(const ImportOptions& options, const ModelUnit& unit) {
@@ -133,16 +101,6 @@ AirFaces settle_air(ImportedShape& model, occt::ModelOfFile& tables, occt::Asked
                          findings, path);
   take_new_faces(model, tables, path);
   return counts;
-}
-
-void require_closed(const ImportResult& result, const std::string& path) {
-  if (!result.is_closed && result.n_free_edges == 0 && result.n_contradictory_edges > 0)
-    throw Error(ExitCode::kGeometry, path +
-                                         ": the model encloses no volume: its faces disagree which side is outside; "
-                                         "repair it in the CAD system, or import without --require-closed");
-  if (!result.is_closed)
-    throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.n_free_edges) +
-                                         " free edges; close it in the CAD system, or import without --require-closed");
 }
 
 /// A symmetry plane or a far field gives faces other numbers.
@@ -220,10 +178,6 @@ void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, c
                   tables.face_label(f) +
                       " was sewn by the tolerance of a group that no longer contains it: repairs gave the faces new "
                       "numbers; for groups with a tolerance select by place, part, layer or name");
-}
-
-const char* member_of(const EmptyGroup& group) {
-  return group.of == EntityDim::kFace ? "a face" : group.of == EntityDim::kEdge ? "an edge" : "a vertex";
 }
 
 std::string part_name(const ModelTables& t, FaceId f) {
@@ -341,7 +295,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   Progress progress("importing", 1);
   progress.step("reading", 0);
   const CadFile file = occt::read_cad(path);
-  const ModelUnit unit = choose_unit(file, options.unit);
+  const ModelUnit unit = choose_unit(file.unit_in_mm, options.unit);
   require_units(options, unit);
   ImportResult result;
   result.format = file.format;
@@ -378,9 +332,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
   result.has_assumed_unit = unit.in_m && !file.unit_in_mm;
-  for (const EmptyGroup& group : apply_groups(options.groups, result.tables, tables.measures.edge_box))
-    result.findings.push_back(
-        {FindingKind::kEmptyGroup, "group \"" + group.name + "\"", {}, 0, false, member_of(group)});
+  occt::report_groups(apply_groups(options.groups, result.tables, tables.measures.edge_box), result);
   require_sewn_faces(model, result.tables, options);
   const double small = resolve_length(parse_length(options.small, "--small"),
                                       {result.tables.reference_diagonal(), unit.in_m}, "--small");
@@ -388,7 +340,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::report_topology(model, tables.measures, small, result);
   say_which_faces_cross(crossings, result.tables, result.findings);
   if (options.check_only) occt::report_validity(model, result);
-  if (options.require_closed) require_closed(result, path);
+  if (options.require_closed) occt::require_closed(result, path);
   result.brep = occt::brep_bytes(model.shape);
   for (const occt::FaceAttributes& a : model.attributes) result.file_faces.push_back(a.file_face);
   name_parts(result.file_faces, result.findings);

@@ -27,6 +27,7 @@ struct ImportOptions {
   bool cap = false;                  ///< openings in planes get faces
   bool require_closed = false;       ///< Error(kGeometry) for a model that is open after repairs
   std::vector<GroupRule> groups;     ///< empty: those of the file
+  double feature_deg = 30;           ///< of facets: faces meet where neighbours' normals differ by more
 };
 
 /// Faces that bound the air which the file itself has.
@@ -43,6 +44,7 @@ struct AirFaces {
 struct ImportResult {
   ModelTables tables;
   std::vector<std::byte> brep;
+  FacetShape facets;  ///< instead, of a model of facets
   std::vector<ImportFinding> findings;
   std::vector<std::int32_t> file_faces;  ///< [n_faces] number of each in the file, from 0; kNone: the import made it
   std::string format;                    ///< "STEP", "IGES", "BREP"

@@ -11,6 +11,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "base/error.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/import.h"
 #include "geometry/model/model_state.h"
@@ -20,15 +21,6 @@ namespace {
 
 Vec3 middle(const ModelTables& t, EdgeId e) {
   return 0.5 * (t.vertex_xyz[t.edge_vertices[2 * e]] + t.vertex_xyz[t.edge_vertices[2 * e + 1]]);
-}
-
-EdgeUses report_uses(ImportResult& result) {
-  const EdgeUses uses = report_edge_uses(result.tables);
-  result.n_free_edges = uses.n_free;
-  result.n_nonmanifold_edges = uses.n_nonmanifold;
-  result.n_contradictory_edges = uses.n_contradictory;
-  result.findings.insert(result.findings.end(), uses.findings.begin(), uses.findings.end());
-  return uses;
 }
 
 void report_edges(double small, ImportResult& result) {
@@ -122,6 +114,32 @@ std::string cause(const BRepCheck_Analyzer& checker, const TopoDS_Shape& shape) 
 }
 
 }  // namespace
+
+void report_groups(const std::vector<EmptyGroup>& groups, ImportResult& result) {
+  for (const EmptyGroup& g : groups) {
+    const char* member = g.of == EntityDim::kFace ? "a face" : g.of == EntityDim::kEdge ? "an edge" : "a vertex";
+    result.findings.push_back({FindingKind::kEmptyGroup, "group \"" + g.name + "\"", {}, 0, false, member});
+  }
+}
+
+EdgeUses report_uses(ImportResult& result) {
+  const EdgeUses uses = report_edge_uses(result.tables);
+  result.n_free_edges = uses.n_free;
+  result.n_nonmanifold_edges = uses.n_nonmanifold;
+  result.n_contradictory_edges = uses.n_contradictory;
+  result.findings.insert(result.findings.end(), uses.findings.begin(), uses.findings.end());
+  return uses;
+}
+
+void require_closed(const ImportResult& result, const std::string& path) {
+  if (!result.is_closed && result.n_free_edges == 0 && result.n_contradictory_edges > 0)
+    throw Error(ExitCode::kGeometry, path +
+                                         ": the model encloses no volume: its faces disagree which side is outside; "
+                                         "repair it in the CAD system, or import without --require-closed");
+  if (!result.is_closed)
+    throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.n_free_edges) +
+                                         " free edges; close it in the CAD system, or import without --require-closed");
+}
 
 void report_topology(const ImportedShape& model, const FaceMeasures& measures, double small, ImportResult& result) {
   const EdgeUses uses = report_uses(result);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "geometry/import/import.h"
+#include "geometry/model/model_state.h"
 #include "geometry/model/model_tables.h"
 
 namespace st::occt {
@@ -9,6 +10,15 @@ namespace st::occt {
 /// Fills counts, area, volume, is_closed and findings of `result`, whose tables are complete. `small` (model unit):
 /// edges shorter and faces narrower than this are listed.
 void report_topology(const ImportedShape& model, const FaceMeasures& measures, double small, ImportResult& result);
+
+/// Counts edges that not exactly two faces use, one each way, and adds a finding for each.
+EdgeUses report_uses(ImportResult& result);
+
+/// Adds a finding for each optional group without members.
+void report_groups(const std::vector<EmptyGroup>& groups, ImportResult& result);
+
+/// Throws Error(kGeometry) unless the model is closed.
+void require_closed(const ImportResult& result, const std::string& path);
 
 /// Adds a finding for each face, shell and solid that OpenCASCADE's checker calls invalid. About 0.4 ms per face.
 void report_validity(const ImportedShape& model, ImportResult& result);

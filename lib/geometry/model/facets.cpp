@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include "base/assert.h"
@@ -80,6 +81,20 @@ Facets facets_of(const Model::Impl& brep, std::span<const FaceId> ids, const Fac
   return facets;
 }
 
+/// Those that the model itself is made of.
+Facets own_facets(const FacetShape& shape, std::span<const FaceId> ids) {
+  Facets facets;
+  for (const FaceId f : ids) {
+    const auto first = static_cast<std::int32_t>(facets.xyz.size());
+    for (const std::int32_t n : shape.nodes(f)) facets.xyz.push_back(shape.node_xyz[n]);
+    for (const Corners& c : shape.triangles(f)) {
+      facets.triangle.push_back({first + c[0], first + c[1], first + c[2]});
+      facets.face.push_back(f);
+    }
+  }
+  return facets;
+}
+
 void append(Facets&& part, Facets& all) {
   const auto first = static_cast<std::int32_t>(all.xyz.size());
   all.xyz.insert(all.xyz.end(), part.xyz.begin(), part.xyz.end());
@@ -101,6 +116,18 @@ void sort_by_face(Facets& facets) {
   }
 }
 
+/// Nodes in one place become the first of them.
+void weld_equal(Facets& facets) {
+  std::vector<std::int32_t> order(facets.xyz.size()), one(facets.xyz.size());
+  std::iota(order.begin(), order.end(), 0);
+  const auto key = [&](std::int32_t n) { return std::tuple(facets.xyz[n].x, facets.xyz[n].y, facets.xyz[n].z); };
+  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    one[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? one[order[i - 1]] : order[i];
+  for (auto& triangle : facets.triangle)
+    for (std::int32_t& node : triangle) node = one[node];
+}
+
 }  // namespace
 
 Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
@@ -117,6 +144,11 @@ void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, 
   std::vector<FaceId> ids;
   for (std::size_t f = 0; f < is_wanted.size(); ++f)
     if (is_wanted[f]) ids.push_back(static_cast<FaceId>(f));
+  if (!model.facets().empty()) {
+    append(own_facets(model.facets(), ids), facets);
+    weld_equal(facets);
+    return sort_by_face(facets);
+  }
   const auto n_tasks = static_cast<std::int32_t>((ids.size() + kFacesPerTask - 1) / kFacesPerTask);
   std::vector<Facets> parts(static_cast<std::size_t>(n_tasks));
   executor.run_tasks(

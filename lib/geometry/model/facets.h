@@ -27,7 +27,8 @@ struct Facets {
   static auto fields(auto& f) { return std::tie(f.xyz, f.triangle, f.face); }
 };
 
-/// Collective. Facets of the faces with `is_wanted` ([n_faces] 1: yes), by OpenCASCADE's BRepMesh, complete on rank 0,
+/// Collective. Facets of the faces with `is_wanted` ([n_faces] 1: yes), by OpenCASCADE's BRepMesh, or those of a model
+/// that has its own, whatever `limits` say; complete on rank 0,
 /// empty elsewhere; some faces are a task. Faces that it cannot do are left out. Cost: some microseconds per facet.
 Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                    const Executor& executor = SerialExecutor());

@@ -73,3 +73,6 @@ KIND(kMergedSliver, "face folded back onto its neighbour, merged into it",
 KIND(kMissingFile, "parts in another file, which is missing", "parts in another file, which is missing: {}")
 KIND(kCapped, "opening closed", "opening closed: {}")  // --cap
 KIND(kOpeningLeft, "opening left open", "opening left open: its rim of {}")
+KIND(kDuplicateFacets, "duplicated facets, removed", "duplicated facets, removed: {}")
+KIND(kJoinedNodes, "nodes at gaps between facets joined", "nodes at gaps between facets joined: {}")
+KIND(kTurnedFacets, "facets turned", "facets turned to agree which side is outside: {}")

@@ -13,6 +13,7 @@
 #include "base/face_labels.h"
 #include "base/ids.h"
 #include "base/vec.h"
+#include "geometry/model/facet_shape.h"
 #include "geometry/model/groups.h"
 #include "geometry/shape/curve.h"
 #include "geometry/shape/surface.h"
@@ -93,18 +94,24 @@ struct FaceContact {
   static auto fields(auto& c) { return std::tie(c.points, c.passes_through); }
 };
 
-/// Tables plus evaluators. Creating evaluators is const and cheap (tens of microseconds); create, use, drop.
+/// Tables plus evaluators, of a B-Rep or of facets. Creating evaluators is const and cheap (tens of microseconds);
+/// create, use, drop.
 class Model {
  public:
   /// `brep`: the bytes that import_model() made. Throws Error(kInput) when they cannot be read or do not fit the
   /// tables.
   Model(ModelTables tables, std::vector<std::byte> brep);
+  /// `facets`: those that make_facet_model() made. Throws Error(kInput) when they do not fit the tables.
+  Model(ModelTables tables, FacetShape facets);
   ~Model();
   Model(Model&&) noexcept;
   Model& operator=(Model&&) noexcept;
 
   const ModelTables& tables() const { return tables_; }
+  /// Empty for a model of facets.
   const std::vector<std::byte>& brep() const { return brep_; }
+  /// Empty for a model with a B-Rep.
+  const FacetShape& facets() const { return facets_; }
 
   /// Space curve of an edge. Precondition: not degenerate.
   std::unique_ptr<Curve> curve(EdgeId edge) const;
@@ -113,8 +120,8 @@ class Model {
   /// Trimming curve of a coedge in its face's (u,v), parametrised like the edge.
   std::unique_ptr<Curve2d> pcurve(FaceId face, CoedgeId coedge) const;
   /// Where two faces touch or cross besides their common edges and vertices, within the larger of their tolerances and
-  /// 1e-6 of the model's diagonal; empty when OpenCASCADE cannot say. Milliseconds on analytic surfaces, up to a second
-  /// on splines.
+  /// 1e-6 of the model's diagonal; empty when OpenCASCADE cannot say, and of facets. Milliseconds on analytic surfaces,
+  /// up to a second on splines.
   std::vector<FaceContact> contacts(FaceId first, FaceId second) const;
 
   struct Impl;
@@ -123,6 +130,7 @@ class Model {
   friend class ModelEditor;
   ModelTables tables_;
   std::vector<std::byte> brep_;
+  FacetShape facets_;
   std::unique_ptr<Impl> impl_;
 };
 

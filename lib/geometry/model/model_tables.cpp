@@ -14,6 +14,7 @@
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/model/rectangle_width.h"
 
 namespace st::occt {
 namespace {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/limits.h"
@@ -27,18 +28,26 @@ bool is_binary(const std::string& bytes) {
   return bytes.size() == kHeader + kRecord * static_cast<std::size_t>(n);
 }
 
-std::vector<Vec3> binary_corners(const std::string& bytes) {
+/// Corners of triangles; of text also its solids.
+struct StlContent {
   std::vector<Vec3> corners;
+  std::vector<std::string> solid_name;  ///< as many as solids; empty: none told
+  std::vector<std::size_t> solid_end;   ///< corners up to the end of each
+};
+
+StlContent binary_content(const std::string& bytes) {
+  StlContent content;
+  std::vector<Vec3>& corners = content.corners;
   for (std::size_t at = kHeader; at < bytes.size(); at += kRecord) {
     float xyz[9];
     std::memcpy(xyz, bytes.data() + at + 12, sizeof xyz);
     for (int k = 0; k < 9; k += 3) corners.push_back({xyz[k], xyz[k + 1], xyz[k + 2]});
   }
-  return corners;
+  return content;
 }
 
-std::vector<Vec3> text_corners(const std::string& path, const std::string& bytes) {
-  std::vector<Vec3> corners;
+StlContent text_content(const std::string& path, const std::string& bytes) {
+  StlContent content;
   const char *at = bytes.data(), *end = at + bytes.size();
   const auto word = [&]() -> std::string_view {
     const auto is_blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
@@ -56,13 +65,29 @@ std::vector<Vec3> text_corners(const std::string& path, const std::string& bytes
       fail(path, std::string("no coordinate: ").append(text));
     return value;
   };
+  /// The rest of the line without blanks around it.
+  const auto name = [&]() -> std::string {
+    const char* line_end = std::find(at, end, '\n');
+    std::string_view text(std::exchange(at, line_end), line_end);
+    while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
+    while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
+    return std::string(text);
+  };
   if (word() != "solid") fail(path, "neither binary nor ASCII");
+  content.solid_name.push_back(name());
   for (std::string_view w = word(); !w.empty(); w = word()) {
-    if (w != "vertex") continue;
-    const double x = number(), y = number(), z = number();
-    corners.push_back({x, y, z});
+    if (w == "vertex") {
+      const double x = number(), y = number(), z = number();
+      content.corners.push_back({x, y, z});
+    } else if (w == "endsolid") {
+      name();
+    } else if (w == "solid") {
+      content.solid_end.push_back(content.corners.size());
+      content.solid_name.push_back(name());
+    }
   }
-  return corners;
+  content.solid_end.push_back(content.corners.size());
+  return content;
 }
 
 /// Nodes by coordinates: -0 equals 0.
@@ -91,27 +116,37 @@ std::vector<NodeId> weld(const std::vector<Vec3>& corners, std::vector<Vec3>& no
 
 SurfaceMesh read_stl(const std::string& path) {
   const std::string bytes = read_text_file(path);
-  const std::vector<Vec3> corners = is_binary(bytes) ? binary_corners(bytes) : text_corners(path, bytes);
+  const StlContent content = is_binary(bytes) ? binary_content(bytes) : text_content(path, bytes);
+  const std::vector<Vec3>& corners = content.corners;
   if (corners.empty() || corners.size() % 3 != 0) fail(path, "no whole triangles in it");
   for (const Vec3& x : corners)
     if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) fail(path, "a coordinate is not finite");
   if (corners.size() / 3 > kMaxTriangles) fail(path, "has more triangles than can be numbered");
   SurfaceMesh mesh;
   const std::vector<NodeId> node = weld(corners, mesh.node_xyz);
-  for (std::size_t i = 0; i < node.size(); i += 3)
-    if (node[i] != node[i + 1] && node[i + 1] != node[i + 2] && node[i + 2] != node[i])
-      mesh.triangles.push_back({{node[i], node[i + 1], node[i + 2]}});
+  const bool has_solids = content.solid_name.size() > 1;
+  std::size_t solid = 0;
+  for (std::size_t i = 0; i < node.size(); i += 3) {
+    if (node[i] == node[i + 1] || node[i + 1] == node[i + 2] || node[i + 2] == node[i]) continue;
+    mesh.triangles.push_back({{node[i], node[i + 1], node[i + 2]}});
+    while (has_solids && i >= content.solid_end[solid]) ++solid;
+    if (has_solids) mesh.triangle_face.push_back(static_cast<FaceId>(solid));
+  }
   const std::size_t n = mesh.triangles.size();
   mesh.node_entity_dim.assign(mesh.node_xyz.size(), static_cast<std::uint8_t>(EntityDim::kFace));
   mesh.node_entity.assign(mesh.node_xyz.size(), 0);
   mesh.node_t.assign(mesh.node_xyz.size(), 0);
   mesh.node_size.assign(mesh.node_xyz.size(), 0);
-  std::int32_t n_parts = 0;
-  const std::vector<std::int32_t> part = node_components(mesh.triangles, mesh.n_nodes(), n_parts);
-  for (const Triangle& t : mesh.triangles) mesh.triangle_face.push_back(part[t.n[0]]);
+  if (has_solids) {
+    mesh.labels.face_name = content.solid_name;
+  } else {
+    std::int32_t n_parts = 0;
+    const std::vector<std::int32_t> part = node_components(mesh.triangles, mesh.n_nodes(), n_parts);
+    for (const Triangle& t : mesh.triangles) mesh.triangle_face.push_back(part[t.n[0]]);
+    mesh.labels.face_name.resize(static_cast<std::size_t>(n_parts));
+  }
   mesh.triangle_group.assign(n, 0);
   mesh.corner_uv.assign(3 * n, {});
-  mesh.labels.face_name.resize(static_cast<std::size_t>(n_parts));
   mesh.labels.group_name = {"default"};
   return mesh;
 }

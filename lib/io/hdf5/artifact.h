@@ -44,6 +44,7 @@ struct GeometryArtifact {
   ArtifactHeader header;
   ModelTables tables;
   std::vector<std::byte> brep;
+  FacetShape facets;  ///< instead, of a model of facets
   std::vector<ImportFinding> findings;
   bool is_closed = false;
   /// [2*n] What each was: id (kNone: none) and input (index into header.inputs). Of an edited geometry; of an imported

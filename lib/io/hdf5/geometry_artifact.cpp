@@ -7,6 +7,8 @@
 namespace st {
 namespace {
 
+constexpr int kFacetsVersion = 1;  // of the group /st/facets
+
 void write_vertices_and_edges(Hdf5Writer& w, const ModelTables& t) {
   w.write("/st/vertex/xyz", t.vertex_xyz);
   w.write("/st/vertex/tolerance", t.vertex_tolerance);
@@ -168,6 +170,42 @@ std::vector<ImportFinding> read_findings(const Hdf5Reader& r) {
   return findings;
 }
 
+void write_facets(Hdf5Writer& w, const FacetShape& f) {
+  w.write("/st/facets/node_xyz", f.node_xyz);
+  w.write("/st/facets/node_normal", f.node_normal);
+  w.write("/st/facets/node_uv", f.node_uv);
+  w.write("/st/facets/triangle_nodes", f.triangle_nodes);
+  w.write("/st/facets/face_node_offsets", f.face_node_offsets);
+  w.write("/st/facets/face_triangle_offsets", f.face_triangle_offsets);
+  w.write("/st/facets/edge_xyz", f.edge_xyz);
+  w.write("/st/facets/edge_point_offsets", f.edge_point_offsets);
+  w.write("/st/facets/coedge_nodes", f.coedge_nodes);
+  w.write("/st/facets/coedge_node_offsets", f.coedge_node_offsets);
+  w.set_attribute("/st/facets", "version", std::int64_t{kFacetsVersion});
+}
+
+FacetShape read_facets(const Hdf5Reader& r) {
+  if (const std::int64_t version = r.int_attribute("/st/facets", "version"); version > kFacetsVersion)
+    r.fail("/st/facets@version", std::to_string(version) + " is newer than this version of ST reads");
+  FacetShape f;
+  f.node_xyz = r.read<Vec3>("/st/facets/node_xyz");
+  const std::size_t n = f.node_xyz.size();
+  f.node_normal = r.read_rows<Vec3>("/st/facets/node_normal", n);
+  f.node_uv = r.read_rows<Vec2>("/st/facets/node_uv", n);
+  f.triangle_nodes = r.read<Corners>("/st/facets/triangle_nodes");
+  f.face_node_offsets = r.read<std::int32_t>("/st/facets/face_node_offsets");
+  f.face_triangle_offsets = r.read<std::int32_t>("/st/facets/face_triangle_offsets");
+  f.edge_xyz = r.read<Vec3>("/st/facets/edge_xyz");
+  f.edge_point_offsets = r.read<std::int32_t>("/st/facets/edge_point_offsets");
+  f.coedge_nodes = r.read<std::int32_t>("/st/facets/coedge_nodes");
+  f.coedge_node_offsets = r.read<std::int32_t>("/st/facets/coedge_node_offsets");
+  require_finite(r, "/st/facets/node_xyz", f.node_xyz);
+  require_finite(r, "/st/facets/node_normal", f.node_normal);
+  require_finite(r, "/st/facets/node_uv", f.node_uv);
+  require_finite(r, "/st/facets/edge_xyz", f.edge_xyz);
+  return f;
+}
+
 }  // namespace
 
 std::string write_geometry(const std::string& path, const GeometryArtifact& geometry) {
@@ -186,7 +224,10 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
     w.write(kPreviousEdges, geometry.previous_edges, 2);
     w.write(kPreviousVertices, geometry.previous_vertices, 2);
   }
-  w.write("/st/brep", geometry.brep);
+  if (geometry.facets.empty())
+    w.write("/st/brep", geometry.brep);
+  else
+    write_facets(w, geometry.facets);
   w.set_attribute("/st", "n_shells", std::int64_t{t.n_shells});
   w.set_attribute("/st", "n_solids", std::int64_t{t.n_solids});
   if (t.volume) w.write("/st/volume", std::vector<double>{*t.volume});
@@ -211,7 +252,10 @@ GeometryArtifact read_geometry(const std::string& path) {
     geometry.previous_edges = read_previous(r, kPreviousEdges, geometry.tables.edge_length.size());
     geometry.previous_vertices = read_previous(r, kPreviousVertices, geometry.tables.vertex_xyz.size());
   }
-  geometry.brep = r.read<std::byte>("/st/brep");
+  if (r.has("/st/facets/node_xyz"))
+    geometry.facets = read_facets(r);
+  else
+    geometry.brep = r.read<std::byte>("/st/brep");
   geometry.is_closed = r.int_attribute("/st", "is_closed") != 0;
   return geometry;
 }

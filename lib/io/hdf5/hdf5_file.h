@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "geometry/shape/chart_topology.h"
 #include "geometry/shape/surface.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/inspect.h"
@@ -64,6 +65,8 @@ template <>
 struct Element<Box3> : Elements<ElementType::kFloat64, 6> {};
 template <>
 struct Element<Triangle> : Elements<ElementType::kInt32, 3> {};
+template <>
+struct Element<Corners> : Elements<ElementType::kInt32, 3> {};
 
 /// Calls `f` with a value of the C++ type that has these elements; std::string for strings.
 template <class Function>

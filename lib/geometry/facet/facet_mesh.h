@@ -1,0 +1,58 @@
+// Facets on their way to faces: one numbering of nodes, lines between faces as marks on sides.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+#include "geometry/shape/chart_topology.h"
+
+namespace st {
+
+/// Facets as a file has them.
+struct FacetInput {
+  std::vector<Vec3> x;                 ///< model unit
+  std::vector<Corners> corners;        ///< nodes
+  std::vector<std::int32_t> part;      ///< [n_triangles] row of part_name
+  std::vector<std::string> part_name;  ///< UTF-8, of a solid in the file; or empty
+};
+
+/// Facets with smooth regions or charts as faces. Triangles may be divided; the surface stays.
+struct FacetMesh {
+  std::vector<Vec3> x;
+  std::vector<Vec3> normal;                          ///< unit; one for each node and smooth fan of triangles around it
+  std::vector<Corners> corners;                      ///< nodes
+  std::vector<Corners> corner_normal;                ///< rows of `normal`
+  std::vector<std::array<std::uint8_t, 3>> is_line;  ///< side k, from corner k to the next one, bounds a face
+  std::vector<std::int32_t> part, face;              ///< [n_triangles]
+  std::vector<std::array<Vec2, 3>> uv;               ///< [n_triangles] of the corners, where a face is a chart
+
+  std::int32_t n_triangles() const { return static_cast<std::int32_t>(corners.size()); }
+};
+
+/// Triangles that hang together across sides which are no lines, with nodes of their own: one on both sides of a line
+/// is two.
+struct FacetPatch {
+  std::vector<std::int32_t> triangles;     ///< of the mesh, ascending
+  std::vector<Corners> corners;            ///< [triangles] own nodes
+  std::vector<Vec3> x;                     ///< [own nodes]
+  std::vector<std::int32_t> node, normal;  ///< [own nodes] of the mesh
+};
+
+/// The patches of some triangles, by their lowest triangle.
+std::vector<FacetPatch> find_patches(const FacetMesh& mesh, std::vector<std::int32_t> triangles);
+
+/// Divides a patch along a plane: sides that cross it get a node, in all triangles that have them, and sides between
+/// both halves become lines. `height`: of each own node above the plane, exactly 0 where it counts as on it. New
+/// triangles are at the end of the mesh and have the face of the one they are part of.
+void divide(FacetMesh& mesh, const FacetPatch& patch, const std::vector<double>& height);
+
+/// Area of triangle t times two, along its normal.
+inline Vec3 area_normal(const FacetMesh& mesh, std::int32_t t) {
+  const Corners& c = mesh.corners[t];
+  return cross(mesh.x[c[1]] - mesh.x[c[0]], mesh.x[c[2]] - mesh.x[c[0]]);
+}
+
+}  // namespace st

@@ -1,0 +1,340 @@
+#include "geometry/facet/facet_repair.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+#include "base/boxes.h"
+#include "base/error.h"
+
+namespace st {
+namespace {
+
+constexpr double kCapHeight = 0.02;  // over the longest side
+constexpr double kCapOff = 5e-5;     // of the diagonal: what turning a side may move the surface by
+constexpr double kAtCorner = 0.5;    // cosine between facets that lie on one surface, at least
+constexpr double kNoNormal = 1e-4;   // height over longest side: below, the normal is rounding
+constexpr int kCapPasses = 4;        // over all facets: caps may lie on caps
+constexpr double kGap = 1e-6;        // of the diagonal: single precision, and the rounding of decimals in text
+
+/// A side with its nodes in ascending order.
+struct FacetSide {
+  std::int32_t low, high, triangle;
+  bool is_forward;
+  bool operator<(const FacetSide& o) const {
+    return std::tie(low, high, triangle) < std::tie(o.low, o.high, o.triangle);
+  }
+};
+
+std::vector<FacetSide> sorted_sides(const std::vector<Corners>& corners) {
+  std::vector<FacetSide> sides;
+  sides.reserve(3 * corners.size());
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(corners.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t a = corners[t][k], b = corners[t][(k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
+    }
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
+/// Calls visit(first, n) for each pair of nodes and the sides that it has.
+template <class Visit>
+void for_each_pair(const std::vector<FacetSide>& sides, const Visit& visit) {
+  for (std::size_t i = 0, j; i < sides.size(); i = j) {
+    for (j = i + 1; j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high;) ++j;
+    visit(&sides[i], j - i);
+  }
+}
+
+class FacetRepair {
+ public:
+  explicit FacetRepair(FacetInput& input) : in_(input) {
+    for (const Vec3 x : input.x) box_.add(x);
+  }
+
+  std::vector<ImportFinding> run() {
+    drop_duplicates();
+    if (join_free_nodes()) drop_duplicates();
+    drop_unused_nodes();
+    if (in_.corners.empty()) throw Error(ExitCode::kGeometry, "no facet has an area; export the model again");
+    orient();
+    turn_caps();
+    return std::move(findings_);
+  }
+
+ private:
+  void add(FindingKind kind, Vec3 x, double size, std::size_t n) {
+    findings_.push_back({kind, "", x, size, true, std::to_string(n)});
+  }
+
+  void drop_duplicates() {
+    std::vector<Corners> sorted = in_.corners;
+    for (Corners& c : sorted) std::sort(c.begin(), c.end());
+    std::vector<std::int32_t> order(sorted.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return sorted[a] < sorted[b]; });
+    std::vector<std::uint8_t> is_kept(sorted.size(), 1);
+    std::size_t n_duplicates = 0;
+    Vec3 place;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Corners& c = sorted[order[i]];
+      const bool is_same = i > 0 && c == sorted[order[i - 1]], is_point = c[0] == c[1] || c[1] == c[2];
+      if (is_same && !is_point && n_duplicates++ == 0) place = in_.x[c[0]];
+      is_kept[order[i]] = !is_same && !is_point;
+    }
+    if (n_duplicates > 0) add(FindingKind::kDuplicateFacets, place, 0, n_duplicates);
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < is_kept.size(); ++t) {
+      if (!is_kept[t]) continue;
+      in_.corners[n] = in_.corners[t];
+      in_.part[n++] = in_.part[t];
+    }
+    in_.corners.resize(n);
+    in_.part.resize(n);
+  }
+
+  /// Nodes of sides that one facet has; whether any was joined.
+  bool join_free_nodes() {
+    std::vector<std::uint8_t> is_free(in_.x.size(), 0);
+    for_each_pair(sorted_sides(in_.corners), [&](const FacetSide* s, std::size_t n) {
+      if (n == 1) is_free[s->low] = is_free[s->high] = 1;
+    });
+    std::vector<std::int32_t> order, one(in_.x.size());
+    std::iota(one.begin(), one.end(), 0);
+    for (std::int32_t n : one)
+      if (is_free[n]) order.push_back(n);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::int32_t a, std::int32_t b) { return in_.x[a].x < in_.x[b].x; });
+    const double gap = kGap * box_.diagonal();
+    std::size_t n_joined = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      if (one[order[i]] != order[i]) continue;
+      const Vec3 x = in_.x[order[i]];
+      for (std::size_t j = i + 1; j < order.size() && in_.x[order[j]].x - x.x <= gap; ++j)
+        if (one[order[j]] == order[j] && distance(in_.x[order[j]], x) <= gap) {
+          one[order[j]] = order[i];
+          if (n_joined++ == 0) place_ = x;
+        }
+    }
+    if (n_joined == 0) return false;
+    add(FindingKind::kJoinedNodes, place_, gap, n_joined);
+    for (Corners& c : in_.corners)
+      for (std::int32_t& n : c) n = one[n];
+    return true;
+  }
+
+  void drop_unused_nodes() {
+    std::vector<std::int32_t> number(in_.x.size(), kNone);
+    for (const Corners& c : in_.corners)
+      for (const std::int32_t n : c) number[n] = 0;
+    std::int32_t n_used = 0;
+    for (std::size_t n = 0; n < number.size(); ++n) {
+      if (number[n] == kNone) continue;
+      number[n] = n_used++;
+      in_.x[number[n]] = in_.x[n];
+    }
+    in_.x.resize(n_used);
+    for (Corners& c : in_.corners)
+      for (std::int32_t& n : c) n = number[n];
+  }
+
+  /// Neighbours across sides that two facets have, whichever way round.
+  void link() {
+    const std::vector<FacetSide> sides = sorted_sides(in_.corners);
+    links_.resize(in_.corners.size());
+    is_open_.assign(in_.corners.size(), 0);
+    for_each_pair(sides, [&](const FacetSide* s, std::size_t n) {
+      for (std::size_t i = 0; i < n; ++i) is_open_[s[i].triangle] |= n != 2;
+      if (n != 2) return;
+      const bool agree = s[0].is_forward != s[1].is_forward;
+      links_[s[0].triangle].push_back({s[1].triangle, agree});
+      links_[s[1].triangle].push_back({s[0].triangle, agree});
+    });
+  }
+
+  struct Part {
+    std::vector<std::int32_t> triangles;
+    Box3 box;
+    double volume = 0;  ///< as it is turned
+    bool is_closed = true;
+  };
+
+  void orient() {
+    link();
+    std::vector<std::uint8_t> is_turned(in_.corners.size(), 0), is_seen(in_.corners.size(), 0);
+    std::vector<Part> parts;
+    for (std::int32_t t = 0; t < static_cast<std::int32_t>(is_seen.size()); ++t)
+      if (!is_seen[t]) parts.push_back(flood(t, is_turned, is_seen));
+    for (const Part& p : parts) {
+      const bool is_inside = std::any_of(parts.begin(), parts.end(), [&](const Part& o) {
+        return &o != &p && o.is_closed && o.box.diagonal() > p.box.diagonal() && contains(o.box, p.box);
+      });
+      if (p.is_closed && p.volume < 0 && !is_inside)
+        for (const std::int32_t t : p.triangles) is_turned[t] ^= 1;
+    }
+    std::size_t n_turned = 0;
+    for (std::size_t t = 0; t < is_turned.size(); ++t) {
+      if (!is_turned[t]) continue;
+      if (n_turned++ == 0) place_ = in_.x[in_.corners[t][0]];
+      std::swap(in_.corners[t][1], in_.corners[t][2]);
+    }
+    if (n_turned > 0) add(FindingKind::kTurnedFacets, place_, 0, n_turned);
+  }
+
+  Part flood(std::int32_t first, std::vector<std::uint8_t>& is_turned, std::vector<std::uint8_t>& is_seen) const {
+    Part part;
+    part.triangles = {first};
+    is_seen[first] = 1;
+    for (std::size_t i = 0; i < part.triangles.size(); ++i) {
+      const std::int32_t t = part.triangles[i];
+      part.is_closed = part.is_closed && !is_open_[t];
+      for (const auto& [other, agree] : links_[t]) {
+        const std::uint8_t wanted = is_turned[t] ^ (agree ? 0 : 1);
+        if (!is_seen[other]) {
+          is_seen[other] = 1;
+          is_turned[other] = wanted;
+          part.triangles.push_back(other);
+        } else if (is_turned[other] != wanted) {
+          fail_one_sided(t);
+        }
+      }
+    }
+    turn_by_area(part, is_turned);
+    return part;
+  }
+
+  /// As most of the area was.
+  void turn_by_area(Part& part, std::vector<std::uint8_t>& is_turned) const {
+    double kept = 0, turned = 0;
+    const Vec3 origin = in_.x[in_.corners[part.triangles[0]][0]];
+    for (const std::int32_t t : part.triangles) {
+      const Corners& c = in_.corners[t];
+      const Vec3 n = cross(in_.x[c[1]] - in_.x[c[0]], in_.x[c[2]] - in_.x[c[0]]);
+      (is_turned[t] ? turned : kept) += norm(n);
+      part.volume += (is_turned[t] ? -1 : 1) * dot(in_.x[c[0]] - origin, n) / 6;
+      for (const std::int32_t node : c) part.box.add(in_.x[node]);
+    }
+    if (turned <= kept) return;
+    part.volume = -part.volume;
+    for (const std::int32_t t : part.triangles) is_turned[t] ^= 1;
+  }
+
+  [[noreturn]] void fail_one_sided(std::int32_t t) const {
+    const Vec3 x = in_.x[in_.corners[t][0]];
+    throw Error(ExitCode::kGeometry,
+                fmt::format("the facets around ({:.6g}, {:.6g}, {:.6g}) have one side alone, like a Moebius strip: no "
+                            "side is outside; repair them",
+                            x.x, x.y, x.z));
+  }
+
+  /// A cap is a facet with a node almost on its longest side: the side is replaced by one from that node, so that
+  /// needles do not fold. Not where that makes a worse facet, one of another orientation, or a side that is there
+  /// already.
+  void turn_caps() {
+    std::size_t n_turned = 0, n_before = 0;
+    for (int pass = 0; pass < kCapPasses; ++pass) {
+      const std::vector<Corners> neighbours = find_neighbours(in_.corners);
+      find_facets_around_nodes();
+      std::vector<std::uint8_t> is_touched(in_.corners.size(), 0);
+      for (std::int32_t t = 0; t < static_cast<std::int32_t>(in_.corners.size()); ++t) {
+        const int k = longest_side(in_.corners[t]);
+        const std::int32_t other = neighbours[t][k];
+        if (other == kNone || is_touched[t] || is_touched[other] || in_.part[t] != in_.part[other]) continue;
+        if (!is_cap(in_.corners[t], k) || !turn_side(t, k, neighbours)) continue;
+        if (n_turned++ == 0) place_ = in_.x[in_.corners[t][0]];
+        for (const std::int32_t touched : {t, other}) {
+          is_touched[touched] = 1;
+          for (const std::int32_t beside : neighbours[touched])
+            if (beside != kNone) is_touched[beside] = 1;
+        }
+      }
+      if (n_turned == n_before) break;
+      n_before = n_turned;
+    }
+    if (n_turned > 0)
+      findings_.push_back({FindingKind::kOther, "", place_, 0, true,
+                           fmt::format("facets with a node almost on a side, that side turned: {}", n_turned)});
+  }
+
+  int longest_side(const Corners& c) const {
+    int longest = 0;
+    for (int k = 1; k < 3; ++k)
+      if (side_length(c, k) > side_length(c, longest)) longest = k;
+    return longest;
+  }
+  double side_length(const Corners& c, int k) const { return distance(in_.x[c[k]], in_.x[c[(k + 1) % 3]]); }
+  Vec3 area_normal(const Corners& c) const { return cross(in_.x[c[1]] - in_.x[c[0]], in_.x[c[2]] - in_.x[c[0]]); }
+  /// Over the longest side, as a share of it.
+  double flatness(const Corners& c) const {
+    const double longest = side_length(c, longest_side(c));
+    return longest > 0 ? norm(area_normal(c)) / (longest * longest) : 0;
+  }
+
+  bool is_cap(const Corners& c, int k) const {
+    const Vec3 a = in_.x[c[k]], side = in_.x[c[(k + 1) % 3]] - a, apex = in_.x[c[(k + 2) % 3]] - a;
+    const double length = norm(side), along = dot(apex, side) / (length * length), share = flatness(c);
+    return share < kCapHeight && share * length < kCapOff * box_.diagonal() && along > 2 * kCapHeight &&
+           along < 1 - 2 * kCapHeight;
+  }
+
+  bool turn_side(std::int32_t t, int k, const std::vector<Corners>& neighbours) {
+    const std::int32_t other = neighbours[t][k];
+    const Corners c = in_.corners[t], o = in_.corners[other];
+    const std::int32_t a = c[k], b = c[(k + 1) % 3], apex = c[(k + 2) % 3], opposite = o[0] + o[1] + o[2] - a - b;
+    const Corners first{apex, a, opposite}, second{apex, opposite, b};
+    const Vec3 normal = area_normal(o);
+    const bool is_flat = dot(normalized(area_normal(c)), normalized(normal)) > kAtCorner;
+    if (!is_flat && flatness(c) > kNoNormal && !is_folded(t, neighbours)) return false;  // a sharp edge
+    if (opposite == apex || has_side(apex, opposite)) return false;
+    if (!(dot(area_normal(first), normal) > 0 && dot(area_normal(second), normal) > 0)) return false;
+    if (std::min(flatness(first), flatness(second)) <= flatness(c)) return false;
+    in_.corners[t] = first;
+    in_.corners[other] = second;
+    return true;
+  }
+
+  bool is_folded(std::int32_t t, const std::vector<Corners>& neighbours) const {
+    const Vec3 normal = area_normal(in_.corners[t]);
+    return std::all_of(neighbours[t].begin(), neighbours[t].end(), [&](std::int32_t other) {
+      return other == kNone || dot(normal, area_normal(in_.corners[other])) < 0;
+    });
+  }
+
+  bool has_side(std::int32_t a, std::int32_t b) const {
+    return std::any_of(around_.begin() + around_offsets_[a], around_.begin() + around_offsets_[a + 1],
+                       [&](std::int32_t t) { return std::count(in_.corners[t].begin(), in_.corners[t].end(), b) > 0; });
+  }
+
+  void find_facets_around_nodes() {
+    around_offsets_.assign(in_.x.size() + 1, 0);
+    around_.resize(3 * in_.corners.size());
+    for (const Corners& c : in_.corners)
+      for (const std::int32_t n : c) ++around_offsets_[n + 1];
+    std::partial_sum(around_offsets_.begin(), around_offsets_.end(), around_offsets_.begin());
+    std::vector<std::int32_t> next(around_offsets_.begin(), around_offsets_.end() - 1);
+    for (std::size_t t = 0; t < in_.corners.size(); ++t)
+      for (const std::int32_t n : in_.corners[t]) around_[next[n]++] = static_cast<std::int32_t>(t);
+  }
+
+  struct Link {
+    std::int32_t other;
+    bool agree;
+  };
+
+  FacetInput& in_;
+  Box3 box_;
+  std::vector<ImportFinding> findings_;
+  std::vector<std::vector<Link>> links_;
+  std::vector<std::uint8_t> is_open_;                  // has a side that not exactly two facets have
+  std::vector<std::int32_t> around_offsets_, around_;  // facets of each node, when a pass began
+  Vec3 place_;
+};
+
+}  // namespace
+
+std::vector<ImportFinding> repair_facets(FacetInput& input) { return FacetRepair(input).run(); }
+
+}  // namespace st

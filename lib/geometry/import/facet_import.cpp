@@ -1,0 +1,89 @@
+#include "geometry/import/facet_import.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "base/error.h"
+#include "base/length.h"
+#include "geometry/facet/facet_cuts.h"
+#include "geometry/facet/facet_faces.h"
+#include "geometry/facet/facet_model.h"
+#include "geometry/facet/facet_repair.h"
+#include "geometry/import/model_unit.h"
+#include "geometry/import/topology_report.h"
+#include "geometry/model/group_selection.h"
+
+namespace st {
+namespace {
+
+void require_known(const ImportOptions& o, const std::string& path) {
+  const std::pair<const char*, bool> given[] = {{"--sew", !o.sew.empty()},
+                                                {"--symmetry", !o.symmetry.empty()},
+                                                {"--farfield", !o.farfield.empty()},
+                                                {"--replace-farfield", !o.replace_farfield.empty()},
+                                                {"--flow-domain", o.flow_domain != ImportOptions().flow_domain},
+                                                {"--join", o.join_touching},
+                                                {"--unite", o.unite},
+                                                {"--cap", o.cap}};
+  for (const auto& [option, is_given] : given)
+    if (is_given)
+      throw Error(ExitCode::kUsage, fmt::format("{}: {} needs a CAD model, and this file has facets", path, option));
+  if (o.unit.empty())
+    throw Error(ExitCode::kUsage, path + ": facets have no unit; say with --unit in which one the file was written");
+}
+
+std::vector<Box3> edge_boxes(const FacetShape& shape, const ModelTables& tables) {
+  std::vector<Box3> boxes(static_cast<std::size_t>(tables.n_edges()));
+  for (EdgeId e = 0; e < tables.n_edges(); ++e)
+    for (const Vec3 x : shape.points(e)) boxes[e].add(x);
+  return boxes;
+}
+
+void report(const ImportOptions& options, ImportResult& result) {
+  const ModelTables& t = result.tables;
+  result.is_closed = is_closed(t, occt::report_uses(result));
+  const double small =
+      resolve_length(parse_length(options.small, "--small"), {t.reference_diagonal(), t.unit_in_m}, "--small");
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (t.edge_length[e] < small)
+      result.findings.push_back(
+          {FindingKind::kShortEdge, t.edge_label(e), t.vertex_xyz[t.edge_vertices[2 * e]], t.edge_length[e], false});
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    result.area += t.face_area[f];
+    if (t.face_width[f] < small)
+      result.findings.push_back(
+          {FindingKind::kSliverFace, t.face_label(f), t.face_box[f].center(), t.face_width[f], false});
+  }
+  if (result.is_closed) result.volume = t.volume.value_or(0);
+  for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
+}
+
+}  // namespace
+
+ImportResult import_facets(FacetInput input, const ImportOptions& options, const std::string& path) {
+  require_known(options, path);
+  const ModelUnit unit = choose_unit(std::nullopt, options.unit);
+  ImportResult result;
+  result.format = "facets";
+  try {
+    result.findings = repair_facets(input);
+    FacetMesh mesh = find_smooth_faces(input, radians(options.feature_deg));
+    cut_into_charts(mesh);
+    FacetModel model = make_facet_model(mesh, input.part_name, radians(options.feature_deg));
+    result.tables = std::move(model.tables);
+    result.facets = std::move(model.shape);
+  } catch (const Error& e) {
+    throw Error(e.code(), path + ": " + e.what());
+  }
+  result.tables.unit = unit.name;
+  result.tables.unit_in_m = unit.in_m;
+  result.has_assumed_unit = true;
+  occt::report_groups(apply_groups(options.groups, result.tables, edge_boxes(result.facets, result.tables)), result);
+  report(options, result);
+  result.file_faces.assign(static_cast<std::size_t>(result.tables.n_faces()), kNone);
+  if (options.require_closed) occt::require_closed(result, path);
+  return result;
+}
+
+}  // namespace st

@@ -1,0 +1,71 @@
+#include "geometry/facet/facet_cuts.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geometry/facet/facet_faces.h"
+#include "geometry/shape/flatten.h"
+#include "unit/geometry/facet_inputs.h"
+
+namespace st {
+namespace {
+
+FacetMesh charts_of(const FacetInput& input) {
+  FacetMesh mesh = find_smooth_faces(input, radians(40));
+  cut_into_charts(mesh);
+  return mesh;
+}
+
+std::int32_t n_charts(const FacetMesh& mesh) { return 1 + *std::max_element(mesh.face.begin(), mesh.face.end()); }
+
+/// Every face is one disc whose parameters have no flips and stretch less than kMostStretch.
+void expect_charts(const FacetMesh& mesh) {
+  for (std::int32_t f = 0; f < n_charts(mesh); ++f) {
+    std::vector<std::int32_t> own;
+    for (std::int32_t t = 0; t < mesh.n_triangles(); ++t)
+      if (mesh.face[t] == f) own.push_back(t);
+    const std::vector<FacetPatch> patches = find_patches(mesh, own);
+    ASSERT_EQ(patches.size(), 1u);
+    const FacetPatch& p = patches.front();
+    std::vector<Vec2> uv(p.x.size());
+    for (std::size_t i = 0; i < p.triangles.size(); ++i)
+      for (int k = 0; k < 3; ++k) uv[p.corners[i][k]] = mesh.uv[p.triangles[i]][k];
+    EXPECT_LE(largest_stretch(p.x, p.corners, uv), kMostStretch);
+    const PatchTopology t = find_topology(p.x, p.corners);
+    EXPECT_TRUE(t.is_manifold && t.genus == 0 && !t.loops.empty());
+  }
+}
+
+TEST(FacetCuts, leave_alone_what_is_flat) {
+  const FacetMesh mesh = charts_of(test::cube_facets());
+  EXPECT_EQ(n_charts(mesh), 6);
+  EXPECT_EQ(mesh.n_triangles(), 12);
+  expect_charts(mesh);
+}
+
+TEST(FacetCuts, open_a_sphere_a_torus_and_a_tube) {
+  for (const auto& [input, most] : {std::pair(test::sphere_facets(20), 4), std::pair(test::torus_facets(48, 24), 8),
+                                    std::pair(test::drum_facets(48, 6), 6)}) {
+    const FacetMesh mesh = charts_of(input);
+    EXPECT_LE(n_charts(mesh), most);
+    expect_charts(mesh);
+    for (const Corners& c : find_neighbours(mesh.corners)) EXPECT_EQ(std::count(c.begin(), c.end(), kNone), 0);
+  }
+}
+
+TEST(FacetCuts, keep_the_surface) {
+  const FacetInput torus = test::torus_facets(48, 24);
+  EXPECT_NEAR(test::area_of(charts_of(torus)), test::area_of(find_smooth_faces(torus, radians(40))), 1e-11);
+}
+
+TEST(FacetCuts, of_a_tube_run_along_it) {
+  const FacetInput tube = test::grid_facets(48, 40, [](int i, int j) {
+    const double a = kPi * (i % 48) / 24;
+    return Vec3{std::cos(a), std::sin(a), 0.2 * j};
+  });
+  EXPECT_EQ(n_charts(charts_of(tube)), 2);
+}
+
+}  // namespace
+}  // namespace st

@@ -1,0 +1,93 @@
+#include "geometry/facet/facet_repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "unit/geometry/facet_inputs.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+double volume_of(const FacetInput& in) {
+  double volume = 0;
+  for (const Corners& c : in.corners) volume += dot(in.x[c[0]], cross(in.x[c[1]], in.x[c[2]])) / 6;
+  return volume;
+}
+
+void append_facets(FacetInput& in, const FacetInput& more) {
+  const auto first = static_cast<std::int32_t>(in.x.size());
+  in.x.insert(in.x.end(), more.x.begin(), more.x.end());
+  for (const Corners& c : more.corners) in.corners.push_back({first + c[0], first + c[1], first + c[2]});
+  in.part.resize(in.corners.size(), 0);
+}
+
+bool has_kind(const std::vector<ImportFinding>& findings, FindingKind kind) {
+  return std::any_of(findings.begin(), findings.end(), [&](const ImportFinding& f) { return f.kind == kind; });
+}
+
+TEST(FacetRepair, leaves_alone_what_is_sound) {
+  FacetInput in = test::torus_facets(20, 10);
+  const auto corners = in.corners;
+  EXPECT_TRUE(repair_facets(in).empty());
+  EXPECT_EQ(in.corners, corners);
+}
+
+TEST(FacetRepair, turns_facets_as_most_of_their_neighbours_are) {
+  FacetInput in = test::sphere_facets(12);
+  for (std::size_t t = 0; t < in.corners.size(); t += 5) std::swap(in.corners[t][0], in.corners[t][1]);
+  EXPECT_TRUE(has_kind(repair_facets(in), FindingKind::kTurnedFacets));
+  EXPECT_NEAR(volume_of(in), volume_of(test::sphere_facets(12)), 1e-12);
+}
+
+TEST(FacetRepair, turns_a_body_that_is_inside_out_but_no_cavity) {
+  FacetInput in = test::sphere_facets(12);
+  for (Corners& c : in.corners) std::swap(c[0], c[1]);
+  FacetInput hollow = test::sphere_facets(12, 2);
+  append_facets(hollow, in);
+  const double volume = volume_of(hollow);
+  repair_facets(in);
+  EXPECT_GT(volume_of(in), 0);
+  EXPECT_TRUE(repair_facets(hollow).empty());
+  EXPECT_EQ(volume_of(hollow), volume);
+}
+
+TEST(FacetRepair, drops_duplicates_points_and_unused_nodes) {
+  FacetInput in = test::cube_facets();
+  in.corners.push_back({in.corners[3][2], in.corners[3][1], in.corners[3][0]});
+  in.corners.push_back({1, 1, 2});
+  in.x.push_back({9, 9, 9});
+  in.part.assign(in.corners.size(), 0);
+  EXPECT_TRUE(has_kind(repair_facets(in), FindingKind::kDuplicateFacets));
+  EXPECT_EQ(in.corners, test::cube_facets().corners);
+  EXPECT_EQ(in.x.size(), 8u);
+}
+
+TEST(FacetRepair, joins_free_nodes_in_almost_one_place) {
+  FacetInput in = test::cube_facets();
+  in.x.push_back(in.x[0] + Vec3{1e-7, 0, 0});
+  in.corners[0][0] = 8;
+  EXPECT_TRUE(has_kind(repair_facets(in), FindingKind::kJoinedNodes));
+  EXPECT_EQ(in.x.size(), 8u);
+  FacetInput far = test::cube_facets();
+  far.x.push_back(far.x[0] + Vec3{1e-3, 0, 0});
+  far.corners[0][0] = 8;
+  EXPECT_FALSE(has_kind(repair_facets(far), FindingKind::kJoinedNodes));
+}
+
+TEST(FacetRepair, refuses_one_side_alone_and_nothing) {
+  FacetInput strip;  // a Moebius strip of five facets
+  for (int n = 0; n < 5; ++n) strip.x.push_back({std::cos(1.2566 * n), std::sin(1.2566 * n), 0.1 * n});
+  for (int n = 0; n < 5; ++n) strip.corners.push_back({n, (n + 1) % 5, (n + 2) % 5});
+  strip.part.assign(5, 0);
+  EXPECT_ERROR(repair_facets(strip), kGeometry, "one side alone");
+  FacetInput nothing;
+  nothing.x = {{0, 0, 0}, {1, 0, 0}};
+  nothing.corners = {{0, 1, 1}};
+  nothing.part = {0};
+  EXPECT_ERROR(repair_facets(nothing), kGeometry, "no facet");
+}
+
+}  // namespace
+}  // namespace st
