@@ -113,11 +113,13 @@ class Refused(ToolTest):
 
     def test_other_kinds_of_file_are_named(self):
         kinds = {"PNG": b"\x89PNG\r\n\x1a\n" + bytes(200), "web page": b"<!DOCTYPE html><html></html>",
-                 "STL": b"solid x\nendsolid\n", "PDF": b"%PDF-1.4\n"}
+                 "PDF": b"%PDF-1.4\n"}
         for kind, data in kinds.items():
             path = self.folder / "model.step"
             path.write_bytes(data)
             self.expect_refused(path, kind, "not a")
+        (self.folder / "model.step").write_bytes(b"solid x\nendsolid\n")
+        self.expect_refused(self.folder / "model.step", "no whole triangles", "STL")
         with zipfile.ZipFile(self.folder / "model.step", "w") as archive:
             archive.writestr("model.step", "ISO-10303-21;")
         self.expect_refused(self.folder / "model.step", "zip archive")

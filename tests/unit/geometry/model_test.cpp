@@ -11,7 +11,7 @@ namespace {
 
 TEST(Model, refuses_bytes_that_are_no_brep) {
   ImportResult r = test::import_shape("box");
-  EXPECT_ERROR(Model(r.tables, {}), kInput, "st-import");
+  EXPECT_ERROR(Model(r.tables, std::vector<std::byte>()), kInput, "st-import");
   EXPECT_ERROR(Model(r.tables, std::vector<std::byte>(1000, std::byte{'x'})), kInput, "st-import");
   r.brep.resize(r.brep.size() / 2);
   EXPECT_ERROR(Model(r.tables, r.brep), kInput, "st-import");
