@@ -3,9 +3,9 @@
 #
 # usage: scripts/wheel.sh BUILD_DIR [OUT_DIR]         default OUT_DIR: BUILD_DIR
 #
-# The wheel runs where the C and C++ libraries are as new as here, with numpy and h5py of the system. What only draws on screens or
-# reads from the network is not in it: libraries that need such parts get stubs, which are never called. Needs patchelf
-# and binutils besides what the build needs. Prints the name of the wheel.
+# The wheel runs where the C and C++ libraries are as new as here, with numpy and h5py of the system. What only draws on
+# screens or reads from the network is not in it: libraries that need such parts get stubs, which are never called.
+# Needs patchelf and binutils besides what the build needs. Prints the name of the wheel.
 set -eu -o pipefail
 build=$(realpath "${1:?usage: scripts/wheel.sh BUILD_DIR [OUT_DIR]}") out=$(realpath -m "${2:-$1}")
 source=$(realpath "$(dirname "$0")/..")

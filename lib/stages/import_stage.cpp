@@ -379,8 +379,7 @@ ImportResult import_file(const ImportStageOptions& o, ImportOptions options) {
   return import_model(o.model, options);
 }
 
-StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
-  const Timer timer;
+ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& groups) {
   ImportOptions options;
   options.unit = o.unit;
   options.small = o.small;
@@ -395,7 +394,12 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   options.check_only = o.check;
   options.require_closed = o.require_closed;
   options.groups = groups.rules;
-  ImportResult r = import_file(o, options);
+  return options;
+}
+
+StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
+  const Timer timer;
+  ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
   nlohmann::json json = report(o.model, r);
   if (o.check) json["wing_edges"] = list_wing_edges(r);
@@ -417,8 +421,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
     if (!o.replace_farfield.empty()) used["replace_farfield"] = o.replace_farfield;
     if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
-    for (const auto& [name, is_asked] : {std::pair{"unite", o.unite}, {"join", o.join}, {"cap", o.cap}})
-      if (is_asked) used[name] = true;
+    for (const auto& [name, given] : {std::pair{"unite", o.unite}, {"join", o.join}, {"cap", o.cap}})
+      if (given) used[name] = true;
     if (o.feature_angle) used["feature_angle"] = *o.feature_angle;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
     g.header.options_json = json_text(used);
