@@ -37,10 +37,10 @@ void return_freed_memory() {
 
 void prefer_large_pages([[maybe_unused]] void* array, [[maybe_unused]] std::size_t bytes) {
 #ifdef MADV_HUGEPAGE
-  const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGE_SIZE));
-  const auto at = reinterpret_cast<std::uintptr_t>(array), begin = (at + page - 1) / page * page,
-             end = (at + bytes) / page * page;
-  if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  const auto page = static_cast<std::size_t>(sysconf(_SC_PAGE_SIZE));
+  const std::size_t skipped = (page - reinterpret_cast<std::uintptr_t>(array) % page) % page;
+  if (bytes >= skipped + page)
+    madvise(static_cast<std::byte*>(array) + skipped, (bytes - skipped) / page * page, MADV_HUGEPAGE);
 #endif
 }
 
