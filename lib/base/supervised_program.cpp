@@ -193,13 +193,14 @@ void require_started(int failure, const std::string& program) {
 /// Its status, as waitpid() says it.
 int wait_for_end(pid_t process) {
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
-  }
+  while (waitpid(process, &status, 0) < 0)
+    if (errno != EINTR) throw Error(ExitCode::kInternal, std::string("waitpid: ") + std::strerror(errno));
   return status;
 }
 
-/// In both processes.
+/// In both processes. A parent may have left SIGCHLD ignored: nobody could wait for a child then.
 pid_t fork_or_throw() {
+  std::signal(SIGCHLD, SIG_DFL);
   const pid_t child = fork();
   if (child < 0)
     throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");

@@ -184,6 +184,8 @@ StageSummary Campaign::run() {
     if (jobs.empty()) break;
     int status = 0;
     const pid_t process = waitpid(-1, &status, 0);
+    if (process < 0 && errno != EINTR)
+      throw Error(ExitCode::kInternal, std::string("waitpid: ") + std::strerror(errno));
     const auto job = std::find_if(jobs.begin(), jobs.end(), [&](const Job& j) { return j.process == process; });
     if (job == jobs.end()) continue;
     finish(*job, status);

@@ -101,6 +101,14 @@ TEST(SupervisedProgram, signals_are_passed_on_to_a_fork) {
   EXPECT_EQ(end.passed_signal, SIGTERM);
 }
 
+TEST(SupervisedProgram, its_end_is_seen_where_a_daemon_left_ends_of_children_ignored) {
+  signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(run_shell("exit 5").exit_code, 5);
+  signal(SIGCHLD, SIG_IGN);
+  EXPECT_EQ(run_forked([] { return 7; }).exit_code, 7);
+  signal(SIGCHLD, SIG_DFL);
+}
+
 TEST(SupervisedProgram, children_that_a_fork_leaves_have_ended_as_it_returns) {
   int ends[2];
   ASSERT_EQ(pipe(ends), 0);
