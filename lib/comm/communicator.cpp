@@ -21,9 +21,7 @@
 #include "comm/task_farm.h"
 
 namespace st {
-namespace {
 
-/// Number of ranks that a launcher says it started, 0 without a launcher, -1 when it does not say how many.
 int launched_ranks() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
     if (const char* text = std::getenv(name)) return std::max(1, std::atoi(text));
@@ -34,6 +32,8 @@ int launched_ranks() {
   }
   return 0;
 }
+
+namespace {
 
 /// Many containers forbid what Open MPI copies large messages with, and it complains.
 bool may_read_other_processes() {

@@ -54,6 +54,9 @@ class Communicator : public Executor {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Number of ranks that a launcher says it started, 0 without a launcher, -1 when it does not say how many.
+int launched_ranks();
+
 /// Runs `mpirun -np n <same command without --np>` with the Open MPI settings it needs (root, more ranks than cores,
 /// idle ranks that yield, no binding) and waits for its end. Returns the exit code of the job; nothing, and nothing was
 /// run, when n == 1 or a launcher already started us. Without mpirun's banners: a rank that a signal ended is a

@@ -169,6 +169,13 @@ class Errors(RunTest):
             self.assertNotIn(".st-run.", run.err)
             self.expect_only("bad.step")
 
+    def test_ranks_of_a_launcher_are_refused(self):
+        done = subprocess.run([BIN / "st-run", self.model], cwd=self.folder, capture_output=True, text=True, timeout=60,
+                              env=os.environ | {"OMPI_COMM_WORLD_SIZE": "2"})
+        self.assertEqual(done.returncode, USAGE, done)
+        self.assertRegex(done.stderr, "^st-run: error: each of 2 ranks would do the whole run.* by --np\n$")
+        self.expect_only()
+
     def test_what_cannot_be_written_is_found_before_the_work(self):
         for words in (["-o", "no/m.hdf"], ["--export", "no/m.stl"], ["--report", "no/r.html"], ["--keep", "box.step"],
                       ["--keep", "box.step/k"]):
@@ -238,6 +245,15 @@ class Campaign(RunTest):
         rows = self.run_all("--lmax", "0.05%", "--wall-limit", "1")[1]
         self.assertEqual({r["reason"] for r in rows[:2]}, {"st-run: input"})
         self.assertIn("not done within 1 s", rows[0]["message"])
+
+    def test_a_daemon_that_ignores_ends_of_children_changes_nothing(self):
+        def ignore():
+            signal.signal(signal.SIGCHLD, signal.SIG_IGN)
+
+        for models in (["bad.step"], ["bad.step", "none.step"]):
+            done = subprocess.run([BIN / "st-run", *models], cwd=self.folder, capture_output=True, preexec_fn=ignore,
+                                  timeout=60)
+            self.assertEqual(done.returncode, INPUT if len(models) == 1 else INCOMPLETE, done)
 
     def test_what_is_for_one_model_is_refused(self):
         for words in (["-o", "m.hdf"], ["--export", "m.stl"], ["--report", "r.html"], ["--keep", "k"]):

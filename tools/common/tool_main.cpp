@@ -22,6 +22,7 @@
 #include "base/supervised_program.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "comm/communicator.h"
 #include "common/crash_handler.h"
 #include "common/option_file.h"
 #include "common/wall_limit.h"
@@ -463,6 +464,10 @@ int ToolMain::run_in_worker(int argc, char** argv, const Worker& worker) {
       print_text(*text);
       return ExitCode::kOk;
     }
+    if (launched_ranks() > 1)
+      throw Error(ExitCode::kUsage, "each of " + std::to_string(launched_ranks()) +
+                                        " ranks would do the whole run; start " + name_ +
+                                        " without a launcher, and give it the number of ranks by --np");
     worker.prepare();
     ProgramEnd end;
     for (;; count_try()) {
