@@ -181,6 +181,8 @@ class Module(unittest.TestCase):
                 st.mesh(MODELS / "box.step", WORK / "x", **options)
             self.assertEqual(caught.exception.code, 2)
             self.assertIn(says, caught.exception.message)
+        with self.assertRaisesRegex(TypeError, r"o\.toml.*st-raster"):
+            st.mesh(MODELS / "box.step", WORK / "x", options="o.toml", **{"st-raster": {"lmax": "2%"}})
         (WORK / "no.hdf").write_text("no artifact")
         self.assertRaises(OSError, st.read, WORK / "no.hdf")
 
