@@ -99,7 +99,9 @@ class Meshes(RunTest):
         self.assertEqual((self.folder / "k" / "st-run.toml").read_text().count("allow-incomplete = true"), 3)
 
     def test_ranks_change_nothing(self):
-        must("st-run", self.model, "--np", "2", "--lmax", "4%", "-o", "a.hdf", cwd=self.folder)
+        run = must("st-run", self.model, "--np", "2", "--lmax", "4%", "-o", "a.hdf", cwd=self.folder)
+        for tool in ("st-raster", "st-mesh"):
+            self.assertRegex(run.err, f"(?m)^{tool} +on 2 ranks, ")
         must("st-run", self.model, "--lmax", "4%", "-o", "b.hdf", cwd=self.folder)
         self.assertEqual((self.folder / "a.hdf").read_bytes(), (self.folder / "b.hdf").read_bytes())
         self.expect_only("a.hdf", "b.hdf")
@@ -149,6 +151,17 @@ class Talk(RunTest):
         self.assertTrue(said["passes"])
         self.assertEqual(said["triangles"], said["stages"]["st-merge"]["triangles"])
         self.assertEqual(said["stages"]["st-import"]["output"], "geometry.hdf")
+
+    def test_a_warning_of_ranks_may_quote_an_error(self):
+        for tool in ("st-run", "st-mesh"):
+            shutil.copy(BIN / tool, self.folder)
+        raster = self.folder / "st-raster"
+        raster.write_text(f'#!/bin/sh\necho "st-raster: warning: a: error: b" >&2\nexec {BIN}/st-raster "$@"\n')
+        raster.chmod(0o755)
+        done = subprocess.run([self.folder / "st-run", self.model, "--np", "2"], cwd=self.folder, capture_output=True,
+                              text=True, timeout=60)
+        self.assertEqual(done.returncode, OK, done)
+        self.assertIn("st-raster: warning: a: error: b\n", done.stderr)
 
     def test_quiet_says_nothing(self):
         run = must("st-run", self.model, "-q", cwd=self.folder)

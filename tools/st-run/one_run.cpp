@@ -60,9 +60,9 @@ class CapturedOutput {
 };
 
 /// What a tool says on stderr, without its errors, which are told otherwise, and its tables, where they are not wanted.
-void pass_on_line(const std::string& line) {
+void pass_on_line(const std::string& line, const std::string& tool) {
   const bool is_table = line.starts_with("  ") && verbosity() < Verbosity::kNormal;
-  if (line.find(": error: ") == std::string::npos && !is_table && !relay_progress(line))
+  if (!line.starts_with(tool + ": error: ") && !is_table && !relay_progress(line))
     std::fputs(without_hidden_folders(line).c_str(), stderr);
 }
 
@@ -113,7 +113,7 @@ StageSummary OneRun::run_ranks(RunPart part, const std::vector<std::string>& inp
   words.insert(words.end(), {"-o", output});
   words.insert(words.end(), of_ranks_.begin(), of_ranks_.end());
   const CapturedOutput said;
-  const ProgramEnd end = run_supervised(words, pass_on_line);
+  const ProgramEnd end = run_supervised(words, [&](const std::string& line) { pass_on_line(line, tool_of(part)); });
   const auto code = static_cast<ExitCode>(end.exit_code);
   const std::string text = said.text();
   const auto json = nlohmann::json::parse(text.substr(0, text.find_last_not_of('\n') + 1), nullptr, false);
@@ -142,6 +142,10 @@ void OneRun::begin_part(RunPart part) {
 StageSummary OneRun::run() {
   if (n_tries() > 0) options.first = RunPart::kMesh;
   options.on_part = [this](RunPart part) { begin_part(part); };
+  if (!of_ranks_.empty())
+    options.run_ranks = [this](RunPart part, const auto& inputs, const std::string& output) {
+      return run_ranks(part, inputs, output);
+    };
   return run_all(
       options, [this](const std::string& name, std::uint64_t bytes) { return place(name, bytes); }, Communicator());
 }
