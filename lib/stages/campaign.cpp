@@ -5,14 +5,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
 #include "base/error.h"
+#include "base/hash.h"
+#include "io/file/text_file.h"
 
 namespace st {
 namespace {
@@ -66,16 +70,23 @@ json last_line(const std::string& said) {
   return found.is_discarded() ? json() : found;
 }
 
+/// null where it is missing, or null itself
+json at(const json& object, const char* path) {
+  const json::json_pointer pointer(path);
+  return object.contains(pointer) ? object[pointer] : json();
+}
+
 void add_mesh(const json& said, CampaignRow& row) {
-  const json& check = said["stages"]["st-check"];
-  row.verdict = said.value("passes", false) ? "passes" : "fails";
-  for (const json& name : said["failed"]) row.reason += (row.reason.empty() ? "" : " ") + name.get<std::string>();
-  row.triangles = std::to_string(said["triangles"].get<std::int64_t>());
-  row.quality = fmt::format("{:.3f}", check["quality"]["min"].get<double>());
-  const json surfaces = check.value("lifting_surfaces", json::array());
+  row.verdict = at(said, "/passes") == true ? "passes" : "fails";
+  for (const json& name : at(said, "/failed")) row.reason += (row.reason.empty() ? "" : " ") + name.get<std::string>();
+  if (const json n = at(said, "/triangles"); n.is_number()) row.triangles = std::to_string(n.get<std::int64_t>());
+  if (const json q = at(said, "/stages/st-check/quality/min"); q.is_number())
+    row.quality = fmt::format("{:.3f}", q.get<double>());
+  const json surfaces = at(said, "/stages/st-check/lifting_surfaces");
   row.surfaces = std::to_string(surfaces.size());
   double held = 1;
-  for (const json& s : surfaces) held = std::min(held, s.value("held", 1.0));
+  for (const json& s : surfaces)
+    if (const json h = at(s, "/held"); h.is_number()) held = std::min(held, h.get<double>());
   if (!surfaces.empty()) row.held = fmt::format("{:.2f}", held);
 }
 
@@ -160,6 +171,37 @@ CampaignRow campaign_row(const std::string& model, const std::string& name, int 
       row.message.starts_with("st-") && colon != std::string::npos ? row.message.substr(0, colon) : "st-run";
   row.reason = fmt::format("{}: {}", stage, name_of(code));
   return row;
+}
+
+std::string campaign_key(const std::string& settings, std::span<const std::string> files) {
+  try {
+    std::string all = std::string(ST_VERSION) + settings;
+    for (const std::string& file : files) {
+      const std::string content = read_text_file(file);
+      all += hash_hex(content.data(), content.size());
+    }
+    return hash_hex(all.data(), all.size());
+  } catch (const Error&) {
+    return "";
+  }
+}
+
+std::vector<std::string> campaign_names(std::span<const std::string> models, std::span<const CampaignRow> earlier) {
+  std::set<std::string> taken, used;
+  for (const CampaignRow& row : earlier) taken.insert(row.name);
+  std::vector<std::string> names;
+  for (const std::string& model : models) {
+    const auto own = std::find_if(earlier.begin(), earlier.end(), [&](const CampaignRow& row) {
+      return row.model == model && !used.contains(row.name);
+    });
+    const std::string stem = std::filesystem::path(model).stem().string();
+    std::string name = own != earlier.end() ? own->name : stem;
+    if (own == earlier.end())
+      for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}", stem, n);
+    used.insert(name);
+    names.push_back(name);
+  }
+  return names;
 }
 
 std::string campaign_table(std::span<const CampaignRow> rows) {

@@ -18,12 +18,18 @@ struct CampaignRow {
   std::string quality;                    ///< smallest
   std::string seconds;
   std::string message;  ///< of an error
-  std::string key;      ///< digest of model and options: a row with the same key need not run again
+  std::string key;      ///< campaign_key(): a row with the same one need not run again
 };
 
 /// From what st-run says with --json (the last line of `said`, perhaps nothing) and its exit code.
 CampaignRow campaign_row(const std::string& model, const std::string& name, int code, const std::string& said,
                          double seconds);
+
+/// Digest of the version, the settings and the content of the files; empty where one cannot be read.
+std::string campaign_key(const std::string& settings, std::span<const std::string> files);
+
+/// Names of their own for folders: those of earlier rows of the same models, else stems of the files.
+std::vector<std::string> campaign_names(std::span<const std::string> models, std::span<const CampaignRow> earlier);
 
 /// CSV (RFC 4180) with a heading.
 std::string campaign_table(std::span<const CampaignRow> rows);

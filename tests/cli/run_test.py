@@ -250,9 +250,42 @@ class Campaign(RunTest):
         shutil.copy(MODELS / "block_with_hole.step", self.folder / "sub" / "box.step")
         run, rows = self.run_all()
         changed = {name: (self.folder / f"runs/{name}/said.json").stat().st_mtime_ns != before[name] for name in before}
-        self.assertEqual(changed, {"box": False, "box_2": True, "bad": False}, run)
+        self.assertEqual(changed, {"box": False, "box_2": True, "bad": True}, run)
         self.assertEqual([r["key"] == f["key"] for r, f in zip(rows, first)], [True, False, True])
         self.assertNotEqual(self.run_all("--lmax", "4%")[1][0]["triangles"], rows[0]["triangles"])
+
+    def ran_again(self, *words):
+        """Whether the box is meshed by this call."""
+        run = Run("st-run", "box.step", "--table", "t.csv", "--page", "p.html", *words, cwd=self.folder)
+        self.assertEqual(run.code, OK, run)
+        return "1 of 1 models are done already" not in run.err
+
+    def test_what_a_row_stands_for_counts_by_content(self):
+        sources = self.folder / "s.toml"
+        for text in ("length = 0.5", "length = 0.4"):
+            sources.write_text(f'[[source]]\ntype = "point"\nat = [5, 5, 5]\nradius = 1\n{text}\n')
+            self.assertTrue(self.ran_again("--sources", sources))
+            self.assertFalse(self.ran_again("--sources", sources))
+        self.assertTrue(self.ran_again("--sources", sources, "--into", "other"))
+        (self.folder / "other/box/mesh.hdf").unlink()
+        self.assertTrue(self.ran_again("--sources", sources, "--into", "other"))
+
+    def test_rows_of_other_models_stay_in_the_table(self):
+        self.run_all()
+        must("st-run", "sub/box.step", "--page", "p.html", cwd=self.folder)
+        self.run_all()
+        rows = list(csv.DictReader((self.folder / "runs/results.csv").read_text().splitlines()))
+        shutil.copy(self.model, self.folder / "new.step")
+        must("st-run", "new.step", "--page", "p.html", cwd=self.folder)
+        more = list(csv.DictReader((self.folder / "runs/results.csv").read_text().splitlines()))
+        self.assertEqual(more[:3], rows)
+        self.assertEqual([r["name"] for r in more], ["box", "box_2", "bad", "new"])
+
+    def test_a_mesh_that_cannot_be_read_has_no_picture(self):
+        self.ran_again()
+        (self.folder / "runs/box/mesh.hdf").write_text("damaged")
+        self.assertFalse(self.ran_again())
+        self.assertNotIn("data:image", (self.folder / "p.html").read_text())
 
     def test_a_limit_of_time_is_for_each_model(self):
         rows = self.run_all("--lmax", "0.05%", "--wall-limit", "1")[1]

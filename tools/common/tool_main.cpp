@@ -326,6 +326,14 @@ std::vector<std::string> ToolMain::all_input_files() const {
   return files;
 }
 
+std::vector<std::string> ToolMain::settings_files() const {
+  std::vector<std::string> files;
+  if (!options_file_.empty()) files.push_back(options_file_);
+  for (const OptionSet* set : stages_)
+    for (const std::string& path : set->input_files()) files.push_back(path);
+  return files;
+}
+
 ToolMain::OutputPaths ToolMain::outputs_by_origin() const {
   const auto is_replaced = [](const CLI::Option* option) {
     const auto& others = option->get_excludes();

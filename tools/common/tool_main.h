@@ -37,6 +37,8 @@ class ToolMain : public OptionSet {
   void stage(OptionSet& set) { stages_.push_back(&set); }
   /// What is set for the tool and its stages, as an option file with a table for each.
   const std::string& settings() const { return settings_; }
+  /// The option file, and the files that options of stages name.
+  std::vector<std::string> settings_files() const;
   /// Command lines that stand at the end of --help.
   void examples(const std::vector<std::string>& command_lines);
 

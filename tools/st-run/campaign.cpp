@@ -12,11 +12,9 @@
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <thread>
 
 #include "base/error.h"
-#include "base/hash.h"
 #include "base/log.h"
 #include "base/threads.h"
 #include "io/file/json_text.h"
@@ -30,31 +28,6 @@ namespace st {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Names of their own for folders: stems of the files.
-std::vector<std::string> names_of(const std::vector<std::string>& models) {
-  std::set<std::string> taken;
-  std::vector<std::string> names;
-  for (const std::string& model : models) {
-    const std::string stem = fs::path(model).stem().string();
-    std::string name = stem;
-    for (int n = 2; !taken.insert(name).second; ++n) name = fmt::format("{}_{}", stem, n);
-    names.push_back(name);
-  }
-  return names;
-}
-
-/// "" for what cannot be read: it runs again.
-std::string key_of(const std::string& model, const std::string& settings) {
-  try {
-    Hasher hasher;
-    hasher.add(std::string_view(read_text_file(model)));
-    hasher.add(std::string_view(settings));
-    return hasher.hex();
-  } catch (const Error&) {
-    return "";
-  }
-}
 
 /// The child: becomes st-run, with its output in these files. `words`: made before the fork.
 [[noreturn]] void become(std::vector<char*> words, const std::string& said, const std::string& log) {
@@ -72,6 +45,15 @@ std::string key_of(const std::string& model, const std::string& settings) {
 std::string text_or_nothing(const std::string& path) {
   try {
     return read_text_file(path);
+  } catch (const Error&) {
+    return "";
+  }
+}
+
+/// "" where the mesh cannot be read.
+std::string picture_of(const std::string& mesh) {
+  try {
+    return thumbnail(read_mesh(mesh).mesh);
   } catch (const Error&) {
     return "";
   }
@@ -104,21 +86,28 @@ void Campaign::prepare(const ToolMain& tool) {
                 std::to_string(tool.n_ranks()),
                 "--wall-limit",
                 fmt::format("{}", tool.wall_limit())};
-  const std::vector<std::string> names = names_of(o_.models);
+  const std::vector<CampaignRow> earlier = read_campaign_table(text_or_nothing(o_.table));
+  const std::vector<std::string> names = campaign_names(o_.models, earlier);
+  const std::string settings_key = campaign_key(tool.settings() + o_.into, tool.settings_files());
   for (std::size_t i = 0; i < names.size(); ++i) {
     CampaignRow row;
     row.model = o_.models[i];
     row.name = names[i];
-    row.key = key_of(row.model, tool.settings());
+    row.key = settings_key.empty() ? "" : campaign_key(settings_key, {&row.model, 1});
     rows_.push_back(std::move(row));
   }
-  take_earlier_rows();
+  take_earlier_rows(earlier);
 }
 
-void Campaign::take_earlier_rows() {
-  for (CampaignRow& earlier : read_campaign_table(text_or_nothing(o_.table)))
-    for (CampaignRow& row : rows_)
-      if (!row.key.empty() && row.key == earlier.key && row.name == earlier.name) row = earlier;
+void Campaign::take_earlier_rows(const std::vector<CampaignRow>& earlier) {
+  for (const CampaignRow& e : earlier) {
+    const auto row = std::find_if(rows_.begin(), rows_.end(), [&](const CampaignRow& r) { return r.name == e.name; });
+    if (row == rows_.end())
+      others_.push_back(e);
+    else if (!row->key.empty() && row->key == e.key && e.verdict != "error" &&
+             fs::exists(o_.into + "/" + e.name + "/mesh.hdf"))
+      *row = e;
+  }
 }
 
 Campaign::Job Campaign::start(std::size_t model) const {
@@ -153,7 +142,7 @@ void Campaign::finish(const Job& job, int status) {
 }
 
 void Campaign::write_table() const {
-  std::vector<CampaignRow> done;
+  std::vector<CampaignRow> done = others_;
   for (const CampaignRow& row : rows_)
     if (!row.verdict.empty()) done.push_back(row);
   write_text_file(o_.table, campaign_table(done));
@@ -163,8 +152,7 @@ void Campaign::write_page() const {
   if (o_.page.empty()) return;
   std::vector<std::string> pictures;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const std::string mesh = folder(i) + "/mesh.hdf";
-    pictures.push_back(rows_[i].verdict == "error" || !fs::exists(mesh) ? "" : thumbnail(read_mesh(mesh).mesh));
+    pictures.push_back(rows_[i].verdict == "error" ? "" : picture_of(folder(i) + "/mesh.hdf"));
   }
   const fs::path beside = fs::absolute(o_.page).parent_path();
   write_text_file(o_.page, campaign_page(rows_, pictures, fs::absolute(o_.into).lexically_relative(beside).string()));

@@ -44,7 +44,7 @@ class Campaign {
   };
   std::string folder(std::size_t model) const { return o_.into + "/" + rows_[model].name; }
   bool is_done(std::size_t model) const { return !rows_[model].verdict.empty(); }
-  void take_earlier_rows();
+  void take_earlier_rows(const std::vector<CampaignRow>& earlier);
   Job start(std::size_t model) const;
   void finish(const Job& job, int status);
   void write_table() const;
@@ -53,6 +53,7 @@ class Campaign {
   CampaignOptions o_;
   std::vector<std::string> arguments_;  ///< of each run, besides model and outputs
   std::vector<CampaignRow> rows_;       ///< as o_.models
+  std::vector<CampaignRow> others_;     ///< of the table: models of other calls
   std::size_t n_done_ = 0;
 };
 

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "io/file/text_file.h"
+#include "unit/io/temporary_directory.h"
+
 namespace st {
 namespace {
 
@@ -42,6 +45,42 @@ TEST(Campaign, failures_have_a_class) {
   EXPECT_EQ(three_rows()[2].message, "st-import: a.step: is empty, <see>");
   EXPECT_EQ(campaign_row("a", "a", 139, "", 1).reason, "st-run: signal");
   EXPECT_EQ(campaign_row("a", "a", 70, "no json", 1).reason, "st-run: internal");
+}
+
+TEST(Campaign, a_mesh_without_figures_has_a_row) {
+  for (const char* said : {"{\"passes\":false,\"triangles\":null,\"failed\":[\"empty\"],\"stages\":{\"st-check\":{"
+                           "\"quality\":{\"min\":null},\"lifting_surfaces\":[{\"held\":null}]}}}",
+                           "{\"failed\":[\"empty\"],\"stages\":{\"st-check\":{\"quality\":null}}}"}) {
+    const CampaignRow row = campaign_row("a", "a", 5, said, 1);
+    EXPECT_EQ(row.verdict + ":" + row.reason, "fails:empty");
+    EXPECT_EQ(row.triangles + row.quality, "");
+  }
+}
+
+TEST(Campaign, the_key_is_that_of_settings_and_content) {
+  const TemporaryDirectory folder;
+  const std::vector<std::string> files{folder / "a", folder / "b"};
+  write_text_file(files[0], "1");
+  EXPECT_EQ(campaign_key("", files), "");
+  write_text_file(files[1], "2");
+  const std::string key = campaign_key("", files);
+  EXPECT_EQ(key.size(), 32U);
+  EXPECT_EQ(campaign_key("", files), key);
+  EXPECT_NE(campaign_key("lmax = 1", files), key);
+  write_text_file(files[1], "3");
+  EXPECT_NE(campaign_key("", files), key);
+}
+
+TEST(Campaign, a_model_keeps_its_folder_and_takes_no_other_ones) {
+  const std::vector<std::string> first{"m/a.step", "n/a.step", "b.step"}, later{"n/a.step", "o/a.step", "c.step"};
+  const std::vector<std::string> names = campaign_names(first, {});
+  EXPECT_EQ(names, (std::vector<std::string>{"a", "a_2", "b"}));
+  std::vector<CampaignRow> rows(3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows[i].model = first[i];
+    rows[i].name = names[i];
+  }
+  EXPECT_EQ(campaign_names(later, rows), (std::vector<std::string>{"a_2", "a_3", "c"}));
 }
 
 TEST(Campaign, a_table_is_read_as_it_was_written) {
