@@ -19,14 +19,20 @@ namespace fs = std::filesystem;
 
 constexpr char kStart[] = ".st-run.";
 
-/// A folder of this user's own, open and locked; -1 where somebody holds it, or it is none.
+constexpr int kTaken = -1, kNoLocks = -2;  // no descriptors
+
+/// A folder of this user's own, open and locked; kTaken where somebody holds it, or it is none; kNoLocks where folders
+/// cannot be locked.
 int lock_folder(const std::string& path) {
   const int file = open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   struct stat info {};
-  if (file >= 0 && fstat(file, &info) == 0 && info.st_uid == geteuid() && flock(file, LOCK_EX | LOCK_NB) == 0)
-    return file;
-  if (file >= 0) close(file);
-  return -1;
+  if (file < 0) return errno == ENOENT || errno == ENOTDIR || errno == ELOOP ? kTaken : kNoLocks;
+  if (fstat(file, &info) == 0 && info.st_uid == geteuid()) {
+    if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+    if (errno != EWOULDBLOCK) return close(file), kNoLocks;
+  }
+  close(file);
+  return kTaken;
 }
 
 void remove_folder(const std::string& path) {
@@ -54,7 +60,7 @@ std::string make_folder(const std::string& parent, int& lock) {
     path = parent + "/" + kStart + "XXXXXX";
     if (!mkdtemp(path.data())) return "";
     lock = lock_folder(path);
-    if (lock >= 0 && access(path.c_str(), F_OK) == 0) break;  // else another run took it for a left one
+    if (lock == kNoLocks || (lock >= 0 && access(path.c_str(), F_OK) == 0)) break;  // else another run took it for a left one
     if (lock >= 0) close(lock);
   }
   return path;

@@ -1,13 +1,28 @@
 #include "io/file/run_folder.h"
 
 #include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 
 #include "base/error.h"
 #include "unit/io/temporary_directory.h"
+
+namespace {
+bool g_run_folder_no_locks = false;
+}
+
+/// In place of the one of libc: a file system without locks, on demand.
+extern "C" int flock(int file, int operation) noexcept {
+  if (!g_run_folder_no_locks) return static_cast<int>(syscall(SYS_flock, file, operation));
+  errno = ENOLCK;
+  return -1;
+}
 
 namespace st {
 namespace {
@@ -70,6 +85,17 @@ TEST(RunFolder, removes_what_a_killed_run_left_and_nothing_else) {
   EXPECT_TRUE(fs::exists(disk / "mine"));
   EXPECT_TRUE(fs::exists(disk / ".st-run.file"));
   EXPECT_NE(alive.find("a.hdf"), "");
+}
+
+TEST(RunFolder, is_one_folder_where_nothing_can_be_locked) {
+  const TemporaryDirectory disk;
+  g_run_folder_no_locks = true;
+  {
+    const RunFolder run(disk.path(), "/no/such/folder");
+    EXPECT_EQ(n_entries(disk.path()), 1U);
+  }
+  g_run_folder_no_locks = false;
+  EXPECT_EQ(n_entries(disk.path()), 0U);
 }
 
 TEST(RunFolder, a_folder_that_is_none_is_an_output_error) {
