@@ -60,7 +60,8 @@ std::string make_folder(const std::string& parent, int& lock) {
     path = parent + "/" + kStart + "XXXXXX";
     if (!mkdtemp(path.data())) return "";
     lock = lock_folder(path);
-    if (lock == kNoLocks || (lock >= 0 && access(path.c_str(), F_OK) == 0)) break;  // else another run took it for a left one
+    if (lock == kNoLocks) break;
+    if (lock >= 0 && access(path.c_str(), F_OK) == 0) break;  // else another run took it for a left one
     if (lock >= 0) close(lock);
   }
   return path;
