@@ -81,12 +81,13 @@ def _option_file(tables):
 def mesh(model, out, ranks=1, **options):
     """From a CAD file to out/mesh.hdf, all artifacts beside it, by st-run. `options`: those of st-run, and those of a
     stage by its tool's name, as in mesh("wing.step", "out", preset="rans", **{"st-raster": {"lmax": "2%"}}); the
-    latter not with options=FILE, which raises TypeError. Returns what each tool said, by tool; a mesh that does not pass its checks is no error, st-check says so."""
+    latter not with options=FILE, which raises TypeError. Returns what each tool said, by tool; a mesh that does not
+    pass its checks is no error, st-check says so."""
     stages = {name: value for name, value in options.items() if name.startswith("st-")}
     own = {name: value for name, value in options.items() if name not in stages}
     if stages and own.get("options"):
-        raise TypeError(f"mesh(): options={str(own['options'])!r} and tables by tool ({', '.join(stages)}) exclude each "
-                        "other; write the tables into the file")
+        raise TypeError(f"mesh(): options={str(own['options'])!r} and tables by tool ({', '.join(stages)}) exclude "
+                        "each other; write the tables into the file")
     if ranks > 1:
         own.setdefault("np", ranks)
     with tempfile.NamedTemporaryFile("w", suffix=".toml", encoding="utf-8") as file:
