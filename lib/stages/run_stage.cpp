@@ -29,6 +29,7 @@ class Run {
       : o_(std::move(options)), place_(place), comm_(comm) {}
 
   StageSummary run() {
+    if (!o_.said.empty()) json_ = nlohmann::json::parse(o_.said);
     import_model();
     size();
     mesh();
@@ -112,6 +113,7 @@ class Run {
       throw Error(ExitCode::kMemory, out_of_memory(tool + ": ").what());
     }
     json_[tool] = nlohmann::json::parse(s.json);
+    o_.on_said(json_.dump());
     if (part == RunPart::kProlong) expected_triangles_ = json_[tool]["expected_triangles"].get<double>();
     if (part == RunPart::kCheck) {
       verdict_ = std::move(s);

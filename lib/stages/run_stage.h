@@ -36,6 +36,8 @@ struct RunStageOptions {
   MergeStageOptions merge;  ///< with the exports
   CheckStageOptions check;
   RunPart first = RunPart::kImport;  ///< what comes before is there already: of an earlier try of this run
+  std::string said;                  ///< what the parts before said, see on_said
+  std::function<void(const std::string& json)> on_said = [](const std::string&) {};  ///< after a part: what all said
   /// Runs the tool of kRaster or kMesh with ranks, on these inputs and this output; empty: all is done in this process.
   std::function<StageSummary(RunPart, const std::vector<std::string>& inputs, const std::string& output)> run_ranks;
   std::function<void(RunPart)> on_part = [](RunPart) {};  ///< a part begins

@@ -1,5 +1,6 @@
 """st-run: one command from CAD to a checked mesh: the bits of the single tools, errors, what is left behind."""
 import csv
+import json
 import os
 import resource
 import shutil
@@ -16,6 +17,7 @@ from chain import WORK, content_hash, make_chain, must  # noqa: E402
 
 MEMORY = Path("/dev/shm")
 ARTIFACTS = ("geometry", "raster", "sizing", "patches", "mesh")
+STAGES = ["st-check", "st-import", "st-merge", "st-mesh", "st-prolong", "st-raster"]
 
 
 def one_by_one():
@@ -146,8 +148,7 @@ class Talk(RunTest):
 
     def test_json_has_what_each_tool_says(self):
         said = must("st-run", self.model, "--json", cwd=self.folder).json()
-        self.assertEqual(list(said["stages"]), ["st-check", "st-import", "st-merge", "st-mesh", "st-prolong",
-                                                "st-raster"])
+        self.assertEqual(list(said["stages"]), STAGES)
         self.assertTrue(said["passes"])
         self.assertEqual(said["triangles"], said["stages"]["st-merge"]["triangles"])
         self.assertEqual(said["stages"]["st-import"]["output"], "geometry.hdf")
@@ -348,13 +349,14 @@ class Ends(RunTest):
         self.expect_only("mesh.hdf")
 
     def test_a_face_that_crashes_is_left_out_by_another_worker(self):
-        process = self.start("--allow-incomplete", until="st-prolong")
-        time.sleep(0.4)
+        process = self.start("--allow-incomplete", "--json", until="st-prolong")
         self.worker_of(process, signal.SIGSEGV)
         out, err = process.communicate(timeout=120)
         self.assertRegex(err, r"st-run: warning: st-mesh: face \d: crashed there")
         self.assertRegex(err, r"(?m)^st-mesh +\d+ triangles on 5 of 6 faces")
-        self.assertRegex(out, r"(?m)^mesh.hdf: FAILS: ")
+        said = json.loads(out)
+        self.assertFalse(said["passes"])
+        self.assertEqual(list(said["stages"]), STAGES)
         self.assertEqual(process.returncode, INCOMPLETE)
         self.expect_only("mesh.hdf")
 

@@ -33,10 +33,20 @@ void make_folder(const std::string& path) {
                                        "); choose another one with --keep");
 }
 
+int memory_file() { return memfd_create("said", MFD_CLOEXEC); }
+
+std::string text_of(int file) {
+  std::string all;
+  char piece[4096];
+  for (ssize_t n = 0; (n = pread(file, piece, sizeof piece, static_cast<off_t>(all.size()))) > 0;)
+    all.append(piece, static_cast<std::size_t>(n));
+  return all;
+}
+
 /// What is written to stdout while it lives, by programs that are started, too.
 class CapturedOutput {
  public:
-  CapturedOutput() : saved_(dup(STDOUT_FILENO)), file_(memfd_create("said", MFD_CLOEXEC)) {
+  CapturedOutput() : saved_(dup(STDOUT_FILENO)), file_(memory_file()) {
     std::fflush(stdout);
     dup2(file_, STDOUT_FILENO);
   }
@@ -47,13 +57,7 @@ class CapturedOutput {
   }
   CapturedOutput(const CapturedOutput&) = delete;
   CapturedOutput& operator=(const CapturedOutput&) = delete;
-  std::string text() const {
-    std::string all;
-    char piece[4096];
-    for (ssize_t n = 0; (n = pread(file_, piece, sizeof piece, static_cast<off_t>(all.size()))) > 0;)
-      all.append(piece, static_cast<std::size_t>(n));
-    return all;
-  }
+  std::string text() const { return text_of(file_); }
 
  private:
   int saved_, file_;
@@ -68,7 +72,7 @@ void pass_on_line(const std::string& line, const std::string& tool) {
 
 }  // namespace
 
-OneRun::OneRun() {
+OneRun::OneRun() : said_(memory_file()) {
   declare(import_, options.import_options);
   declare(raster_, options.raster);
   declare(prolong_, options.prolong);
@@ -140,7 +144,13 @@ void OneRun::begin_part(RunPart part) {
 }
 
 StageSummary OneRun::run() {
-  if (n_tries() > 0) options.first = RunPart::kMesh;
+  if (n_tries() > 0) {
+    options.first = RunPart::kMesh;
+    options.said = text_of(said_);
+  }
+  options.on_said = [this](const std::string& json) {  // grows from part to part
+    if (pwrite(said_, json.data(), json.size(), 0) < 0) log_warning("what a stage said cannot be kept in memory");
+  };
   options.on_part = [this](RunPart part) { begin_part(part); };
   if (!of_ranks_.empty())
     options.run_ranks = [this](RunPart part, const auto& inputs, const std::string& output) {

@@ -37,6 +37,7 @@ class OneRun {
   std::optional<RunFolder> folder_;
   std::string settings_;               ///< option file of this run, where tools need one
   std::vector<std::string> of_ranks_;  ///< options of tools that are started with ranks
+  const int said_;                     ///< file in memory that forks share: what the stages said
   int* part_ = nullptr;                ///< of RunPart; memory that forks share
 };
 
