@@ -100,11 +100,11 @@ std::string first_status(const BRepCheck_ListOfStatus& list) {
 
 /// Why the checker calls `shape` invalid: its own status, else that of the first wire or edge in it.
 std::string cause(const BRepCheck_Analyzer& checker, const TopoDS_Shape& shape) {
-  if (const auto own = checker.Result(shape); !own.IsNull())
+  if (const auto& own = checker.Result(shape); !own.IsNull())
     if (std::string text = first_status(own->Status()); !text.empty()) return text;
   for (const auto kind : {TopAbs_FACE, TopAbs_WIRE, TopAbs_EDGE, TopAbs_VERTEX})
     for (TopExp_Explorer e(shape, kind); e.More(); e.Next()) {
-      const auto part = checker.Result(e.Current());
+      const auto& part = checker.Result(e.Current());
       if (part.IsNull()) continue;
       if (std::string text = first_status(part->Status()); !text.empty()) return text;
       for (part->InitContextIterator(); part->MoreShapeInContext(); part->NextShapeInContext())
