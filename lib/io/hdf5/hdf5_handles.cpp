@@ -8,13 +8,6 @@
 #include "base/hash.h"
 
 namespace st {
-namespace {
-
-// HDF5 1.10 keeps a file whose closing failed (disk full) and crashes over it at exit. Its clean-up is not needed:
-// every file is closed by its handle.
-[[maybe_unused]] const herr_t kNoCleanUp = H5dont_atexit();
-
-}  // namespace
 
 bool is_provenance(const std::string& dataset) { return dataset.ends_with("/previous_id"); }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/hdf5/hdf5_file.h"
+#include "io/hdf5/hdf5_open.h"
 
 namespace st {
 

@@ -9,6 +9,10 @@
 
 namespace st {
 
+/// HDF5 1.10 keeps a file whose closing failed (disk full) and crashes over it at exit. Its clean-up is not needed:
+/// every file is closed by its handle. Set here, before whatever else calls HDF5 first.
+inline const herr_t kNoCleanUp = H5dont_atexit();
+
 /// Opens for reading, without HDF5's messages, locks and plug-ins; negative when it cannot. Closing the file closes
 /// what was opened in it.
 hid_t open_hdf5(const std::string& path);
