@@ -4,7 +4,7 @@ namespace st {
 
 void declare(OptionSet& set, ImportStageOptions& o) {
   set.unit("--unit", o.unit,
-           "length unit of the artifact: mm, cm, m, in or ft; default: the unit of the file; needed for facets");
+           "length unit of the artifact: mm, cm, m, in or ft, needed for facets; default: the unit of the file");
   set.length("--small", o.small, "0.01%", "list edges shorter and faces narrower than this");
   set.length("--sew", o.sew, "0.01%", "join free edges that are at most this far apart");
   set.text("--symmetry", o.symmetry, "AXIS=VALUE",
