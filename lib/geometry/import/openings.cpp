@@ -118,27 +118,24 @@ class RunGrower {
   std::vector<Vec3> points_;  // of its edges
 };
 
+/// As long as it can be, of at most so many edges.
+Run grown_run(const Rim& rim, std::size_t first, std::size_t most, double tolerance) {
+  RunGrower grower(rim, first % rim.size(), tolerance);
+  while (grower.run().n < most && grower.take()) {
+  }
+  return grower.run();
+}
+
 /// Each run as long as it can be, from this edge on; none where there are too many, or an edge lies in no plane.
 std::vector<Run> runs_from(const Rim& rim, std::size_t start, double tolerance) {
   std::vector<Run> runs;
   for (std::size_t done = 0; done < rim.size();) {
     if (runs.size() == kMostRuns) return {};
-    RunGrower grower(rim, (start + done) % rim.size(), tolerance);
-    while (done + grower.run().n < rim.size() && grower.take()) {
-    }
-    if (!grower.run().plane) return {};
-    done += grower.run().n;
-    runs.push_back(grower.run());
+    runs.push_back(grown_run(rim, start + done, rim.size() - done, tolerance));
+    if (!runs.back().plane) return {};
+    done += runs.back().n;
   }
   return runs;
-}
-
-/// The first edge that a run from here does not take.
-std::size_t end_of_run(const Rim& rim, std::size_t start, double tolerance) {
-  RunGrower grower(rim, start, tolerance);
-  while (grower.run().n < rim.size() && grower.take()) {
-  }
-  return (start + std::max<std::size_t>(grower.run().n, 1)) % rim.size();
 }
 
 /// The fewest runs. The first edge may lie inside a run, so it is looked for again from where a run ends.
@@ -149,7 +146,7 @@ std::vector<Run> fewest_runs(const Rim& rim, double tolerance) {
     std::vector<Run> runs = runs_from(rim, start, tolerance);
     if (runs.size() == 1) return runs;
     if (!runs.empty() && (best.empty() || runs.size() < best.size())) best = std::move(runs);
-    start = end_of_run(rim, start, tolerance);
+    start = (start + std::max<std::size_t>(grown_run(rim, start, rim.size(), tolerance).n, 1)) % rim.size();
   }
   return best;
 }
