@@ -6,20 +6,16 @@
 
 #include "mesh/checks.h"
 #include "support/meshed.h"
+#include "unit/meshing/put_faces.h"
 
 namespace st {
 namespace {
 
-/// A box put together again, one of its faces with this patch.
-struct Box {
-  test::Meshed meshed{"box", 4};
-  EdgeMesh edges;
-  MeshedFaces faces{meshed.model, meshed.topology, test::one_rank, true, edges};
+/// A box put together again, one of its faces with a fold where asked.
+struct Box : test::PutFaces {
   static constexpr FaceId kFace = 2;
 
-  explicit Box(bool has_fold) {
-    faces.set_edges(meshed.result.edges);
-    for (const FacePatch& p : meshed.result.patches) faces.put(p.face, FacePatch(p));
+  explicit Box(bool has_fold) : PutFaces("box", 4) {
     if (has_fold) fold();
     faces.search_crossings();
   }

@@ -3,29 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "meshing/engine/refinement_policy.h"
-#include "support/meshed.h"
+#include "unit/meshing/put_faces.h"
 
 namespace st {
 namespace {
 
-/// A meshed shape, its patches put together again.
-struct PutFaces {
-  test::Meshed meshed;
-  EdgeMesh edges;
-  MeshedFaces faces{meshed.model, meshed.topology, test::one_rank, true, edges};
-
-  PutFaces(const std::string& shape, double length) : meshed(shape, length) {
-    faces.set_edges(meshed.result.edges);
-    for (const FacePatch& p : meshed.result.patches) faces.put(p.face, FacePatch(p));
-    faces.search_crossings();
-  }
-  /// A triangle of the face, turned over.
-  FacePatch folded(FaceId f) const {
-    FacePatch patch = meshed.result.patches[f];
-    std::swap(patch.triangles[0].n[0], patch.triangles[0].n[1]);
-    return patch;
-  }
-};
+using test::PutFaces;
 
 TEST(MeshedFaces, go_back_to_the_patches_and_outcomes_from_before) {
   PutFaces put("box", 8);
@@ -53,7 +36,9 @@ TEST(MeshedFaces, find_a_triangle_that_is_turned_over_in_a_face_under_suspicion)
   outcome.n_folds = 1;
   outcome.fold_places = {{put.meshed.model.tables().face_box[2].center(), 1, 0}};
   faces.set(2, faces.place(2), outcome);
-  faces.put(2, put.folded(2));
+  FacePatch turned = put.meshed.result.patches[2];
+  std::swap(turned.triangles[0].n[0], turned.triangles[0].n[1]);
+  faces.put(2, std::move(turned));
   EXPECT_EQ(faces.suspects(), std::vector<FaceId>{2});
   const MeshedFaces::BadTriangles bad = faces.bad_triangles(faces.bring(faces.suspects()));
   ASSERT_EQ(bad.size(), 1u);
