@@ -21,14 +21,17 @@ double orient2d_exact(Vec2 a, Vec2 b, Vec2 c);
 double orient3d_exact(Vec3 a, Vec3 b, Vec3 c, Vec3 d);
 }  // namespace detail
 
-/// Twice the signed area of the triangle (a, b, c): positive when counter-clockwise, zero exactly when collinear. The
-/// sign is exact, the magnitude approximate. Swapping two arguments flips the sign exactly.
-inline double orient2d(Vec2 a, Vec2 b, Vec2 c) {
-  const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
+/// orient2d(a, b, c) where ac = a - c and bc = b - c are at hand.
+inline double orient2d_between(Vec2 ac, Vec2 bc, const Vec2& a, const Vec2& b, const Vec2& c) {
+  const double left = ac.x * bc.y, right = ac.y * bc.x;
   const double det = left - right;
   const double bound = detail::kOrient2dBound * (std::fabs(left) + std::fabs(right));
   return det >= bound || -det >= bound ? det : detail::orient2d_exact(a, b, c);
 }
+
+/// Twice the signed area of the triangle (a, b, c): positive when counter-clockwise, zero exactly when collinear. The
+/// sign is exact, the magnitude approximate. Swapping two arguments flips the sign exactly.
+inline double orient2d(Vec2 a, Vec2 b, Vec2 c) { return orient2d_between(a - c, b - c, a, b, c); }
 
 /// Six times the signed volume of the tetrahedron (a, b, c, d), ((b-a) x (c-a)) . (d-a): positive when d lies on the
 /// side that the normal of (a, b, c) points to, zero exactly when coplanar. The sign is exact, the magnitude

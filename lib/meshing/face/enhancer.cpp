@@ -73,13 +73,26 @@ class Enhancer {
   }
   bool is_inner(std::int32_t node) const { return node >= m_.n_boundary + 4; }
 
+  /// The side from one node to another; the square of its length where no sizes are stretched.
+  struct Spoke {
+    Vec3 way;
+    double length2 = 0;
+    Spoke(const MeshNode& from, const MeshNode& to) : way(to.x - from.x) {
+      if constexpr (!kStretched) length2 = norm2(way);
+    }
+  };
+
   /// 4 sqrt(3) A / sum l^2 in space, less where the normal is far off the surface's, negative where it is turned
   /// against it.
   double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
-    const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
+    return quality(a, b, c, Spoke(a, b), Spoke(a, c));
+  }
+  double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c, const Spoke& to_b, const Spoke& to_c) const {
+    const Vec3 ab = to_b.way, ac = to_c.way, bc = c.x - b.x;
     const Vec3 n = cross(ab, ac);
-    const double sum = mean_length2<kStretched>(ab, a, b, c) + mean_length2<kStretched>(ac, a, b, c) +
-                       mean_length2<kStretched>(bc, a, b, c);
+    double sum = to_b.length2 + to_c.length2;
+    if constexpr (kStretched) sum = mean_length2<true>(ab, a, b, c) + mean_length2<true>(ac, a, b, c);
+    sum += mean_length2<kStretched>(bc, a, b, c);
     if (!(sum > 0)) return 0;
     double area = norm(n), q = 3.4641016151377544 * area / sum;
     if constexpr (kStretched) q *= std::sqrt(area_share2(a, b, c)) * angle_share(norm2(ab), norm2(ac), norm2(bc));
@@ -174,11 +187,12 @@ class Enhancer {
   }
 
   void try_relax(std::int32_t t, int k) {
+    const PlaneTriangle& r = m_.triangles[t];
+    if (r.n[k] < t || degree_[r.v[k]] <= 5 || degree_[r.v[kNext[k]]] <= 5) return;  // each edge once
     Quad q;
-    if (!quad_at(t, k, q) || q.o < q.t) return;  // each edge once
+    if (!quad_at(t, k, q)) return;
     if (!is_inner(q.a) || !is_inner(q.b) || !is_inner(q.c) || !is_inner(q.d)) return;
     if (degree_[q.a] + degree_[q.b] - degree_[q.c] - degree_[q.d] < 3) return;
-    if (degree_[q.a] <= 5 || degree_[q.b] <= 5) return;
     const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
     if (after < kRelaxLeast || !may_swap(q, k)) return;
     swap(q, k);
@@ -218,8 +232,16 @@ class Enhancer {
     ring_quality_.resize(around_.size());
     const double least = std::min(before.worst + 1e-4, before.fair());
     const std::size_t n = around_.size();
+    const MeshNode* node = &m_.nodes[around_[0]];
+    const Spoke first(centre, *node);
+    Spoke spoke = first;
     for (std::size_t i = 0; i < n; ++i) {
-      const double q = quality(centre, m_.nodes[around_[i]], m_.nodes[around_[following(i, n)]]);
+      const bool is_last = i + 1 == n;
+      const MeshNode& next = m_.nodes[around_[is_last ? 0 : i + 1]];
+      const Spoke to_next = is_last ? first : Spoke(centre, next);
+      const double q = quality(centre, *node, next, spoke, to_next);
+      node = &next;
+      spoke = to_next;
       ring.worst = std::min(ring.worst, q);
       if (q <= least) return ring;
       ring.mean += q;
@@ -246,7 +268,7 @@ class Enhancer {
       weights += weight;
     }
     const Vec3 target = apex_of(old, middle, edge) / weights;
-    const Metric metric = metric_of(old);
+    const Metric metric = metric_of<kStretched>(old);
     const Eigen::Matrix2d form = symmetric(metric.e, metric.f, metric.g);
     for (double part : {1.0, 0.4}) {
       const auto step = solve(form, along_tangents(old.du, old.dv, part * (target - old.x)), 0);
@@ -297,7 +319,7 @@ class Enhancer {
         if (t.n[k] > static_cast<std::int32_t>(i)) continue;  // each edge once
         const MeshNode &a = m_.nodes[t.v[k]], &b = m_.nodes[t.v[kNext[k]]];
         const double h = 0.5 * (a.h + b.h);
-        if (length2(a.x - b.x, a, b) <= kShortEdge * kShortEdge * h * h)
+        if (mean_length2<kStretched>(a.x - b.x, a, b) <= kShortEdge * kShortEdge * h * h)
           at_short_edge_[t.v[k]] = at_short_edge_[t.v[kNext[k]]] = 1;
       }
     }

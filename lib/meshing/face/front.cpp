@@ -63,18 +63,27 @@ class Front {
   };
 
   double edge_length2(std::int32_t a, std::int32_t b) const { return w_.template edge_length2<kStretched>(a, b); }
+  static double edge_in_space(const MeshNode& a, const MeshNode& b) {
+    return std::sqrt(mean_length2<kStretched>(b.x - a.x, a, b));
+  }
   template <typename... Squares>
   double circumradius2(const PlaneTriangle& t, Squares... of_edges) const {
     return w_.template circumradius2<kStretched>(t, of_edges...);
   }
 
-  bool is_finished(const PlaneTriangle& t, double radius2) const {
+  /// Square of the circumradius below which a triangle may be finished.
+  double finished_radius2(const PlaneTriangle& t) const {
     const double h = (m_.nodes[t.v[0]].h + m_.nodes[t.v[1]].h + m_.nodes[t.v[2]].h) / 3;
     const double finished = finished_radius(t) * h;
-    if (!(radius2 < finished * finished)) return false;
+    return finished * finished;
+  }
+  bool is_finished(const PlaneTriangle& t, double radius2) const {
+    return radius2 < finished_radius2(t) && !turns_where_large(t, radius2);
+  }
+  bool turns_where_large(const PlaneTriangle& t, double radius2) const {
     const double request = (m_.nodes[t.v[0]].request + m_.nodes[t.v[1]].request + m_.nodes[t.v[2]].request) / 3;
     const double least = kTurningFloor * kFinishedRadius * request;
-    return !(radius2 > least * least && turns_too_far(t));
+    return radius2 > least * least && turns_too_far(t);
   }
 
   /// Larger where sizes are stretched: rows make right-angled triangles.
@@ -192,9 +201,9 @@ class Front {
   /// The ideal point of side a-b, brought to the surface; false when Newton leaves for elsewhere.
   bool ideal_point(const MeshNode& a, const MeshNode& b, double& r, MeshNode& p) {
     const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
-    const Metric m = metric_of(du, dv, a, b);
+    const Metric m = metric_of<kStretched>(du, dv, a, b);
     const Vec2 e = b.p - a.p;
-    const double base = side_length(a, b), e2 = m.length2(e), det = m.e * m.g - m.f * m.f;
+    const double base = edge_in_space(a, b), e2 = m.length2(e), det = m.e * m.g - m.f * m.f;
     if (!(e2 > 0) || !(det > 0)) return false;
     const double height = std::sqrt(std::max(r * r - 0.25 * base * base, 0.04 * r * r));
     const double f = height / std::sqrt(e2 * det);
@@ -208,17 +217,19 @@ class Front {
         limit_turning(a, b, p, r);
       }
       const Vec3 ra = p.x - a.x, rb = p.x - b.x;
-      const double la = std::sqrt(length2(ra, a, p)), lb = std::sqrt(length2(rb, b, p));
+      const double la = std::sqrt(mean_length2<kStretched>(ra, a, p)),
+                   lb = std::sqrt(mean_length2<kStretched>(rb, b, p));
       if (std::abs(la - r) < 0.06 * r && std::abs(lb - r) < 0.06 * r) return true;
       if (step == 3) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
       Eigen::Matrix2d m;  // half the derivatives of la^2 and lb^2
-      m << product(ra, p.du, a, p), product(ra, p.dv, a, p), product(rb, p.du, b, p), product(rb, p.dv, b, p);
+      m << mean_product<kStretched>(ra, p.du, a, p), mean_product<kStretched>(ra, p.dv, a, p),
+          mean_product<kStretched>(rb, p.du, b, p), mean_product<kStretched>(rb, p.dv, b, p);
       const double size = std::abs(m(0, 0) * m(1, 1)) + std::abs(m(0, 1) * m(1, 0));
       const double det_m = m.determinant();
       if (!(std::abs(det_m) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
       const Eigen::Vector2d missing = 0.5 * Eigen::Vector2d(r * r - la * la, r * r - lb * lb);
       Vec2 move = to_vec2(adjugate(m) * missing / det_m);
-      const double length = std::sqrt(length2(move.x * p.du + move.y * p.dv, p));
+      const double length = std::sqrt(mean_length2<kStretched>(move.x * p.du + move.y * p.dv, p));
       if (length > 0.5 * r) move = (0.5 * r / length) * move;
       p.p = p.p + move;
     }
@@ -310,7 +321,7 @@ class Front {
 
   bool place(std::int32_t t, std::int32_t ia, std::int32_t ib) {
     const MeshNode &a = m_.nodes[ia], &b = m_.nodes[ib];
-    const double base = side_length(a, b);
+    const double base = edge_in_space(a, b);
     if (!(base > 0)) return false;
     const double h = 0.5 * (a.h + b.h);
     double r = std::max(std::min(h, kGrowth * std::max(base, kShortBase * h)), 0.62 * base);
@@ -324,7 +335,7 @@ class Front {
     if (m_.nodes.size() >= w_.max_nodes || !std::isfinite(norm2(p.x) + norm(p.p))) return false;
     const std::int32_t at = m_.locate(p.p, start);
     if (at == kNone || m_.triangles[at].state == kOutside || m_.triangles[at].state == kLaid) return false;
-    const Metric metric = metric_of(p);
+    const Metric metric = metric_of<kStretched>(p);
     for (const std::int32_t v : m_.triangles[at].v)  // most crowded places show here, before the cavity is looked for
       if (is_near(p, m_.nodes[v], metric, r)) return false;
     if (!m_.find_cavity(p.p, metric, at)) return false;
@@ -347,7 +358,8 @@ class Front {
   }
 
   /// Sets the states of the triangles about the last node. Each has it as its third corner, and begins on the rim where
-  /// the one before ends: the edges to the node are measured once.
+  /// the one before ends: the edges to the node are measured once. A circle is at least as wide as each edge is long:
+  /// most triangles that are not finished show by these edges.
   void finish_fan() {
     const std::int32_t node = static_cast<std::int32_t>(m_.nodes.size()) - 1;
     const double first2 = edge_length2(m_.triangles[fan_.front()].v[0], node);
@@ -355,14 +367,20 @@ class Front {
     for (std::size_t i = 0; i < fan_.size(); ++i) {
       PlaneTriangle& t = m_.triangles[fan_[i]];
       const double to2 = i + 1 == fan_.size() ? first2 : edge_length2(t.v[1], node);
-      t.state = is_finished(t, circumradius2(t, edge_length2(t.v[0], t.v[1]), to2, from2)) ? kFinished : kUnfinished;
+      const double largest2 = finished_radius2(t);
+      t.state = kUnfinished;
+      if (to2 < 4 * largest2 && from2 < 4 * largest2) {
+        const double radius2 = circumradius2(t, edge_length2(t.v[0], t.v[1]), to2, from2);
+        if (radius2 < largest2 && !turns_where_large(t, radius2)) t.state = kFinished;
+      }
       from2 = to2;
     }
   }
 
   static bool is_near(const MeshNode& p, const MeshNode& node, const Metric& metric, double r) {
     const double near2 = kNearNode * kNearNode * r * r;
-    return length2(node.x - p.x, p, node) < near2 && (node.is_pole || metric.length2(node.p - p.p) < 4 * near2);
+    return mean_length2<kStretched>(node.x - p.x, p, node) < near2 &&
+           (node.is_pole || metric.length2(node.p - p.p) < 4 * near2);
   }
 
   bool is_crowded(const MeshNode& p, const Metric& metric, double r) const {
@@ -445,24 +463,6 @@ class Front {
 };
 
 }  // namespace
-
-namespace {
-
-/// A pole has a direction without length.
-Metric with_floor(Metric m) {
-  const double floor = 1e-9 * (m.e + m.g);
-  m.e += floor;
-  m.g += floor;
-  return m;
-}
-
-}  // namespace
-
-Metric metric_of(const MeshNode& n) { return with_floor({length2(n.du, n), product(n.du, n.dv, n), length2(n.dv, n)}); }
-
-Metric metric_of(Vec3 du, Vec3 dv, const MeshNode& a, const MeshNode& b) {
-  return with_floor({length2(du, a, b), product(du, dv, a, b), length2(dv, a, b)});
-}
 
 Vec3 squeeze_of(const LocalSize& local, Vec3 normal) {
   const Vec3 s = local.squeeze();

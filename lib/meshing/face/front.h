@@ -92,9 +92,17 @@ double FaceWork::circumradius2(const PlaneTriangle& t, double a2, double b2, dou
   return std::clamp(a2 * b2 * c2 / area4_2, longest2 / 4, 100 * longest2);
 }
 
-/// Lengths of steps in the plane at a node, or from one to another.
-Metric metric_of(const MeshNode& n);
-Metric metric_of(Vec3 du, Vec3 dv, const MeshNode& a, const MeshNode& b);
+/// Lengths of steps in the plane, from the derivatives at a node, or on the mean of two.
+template <bool kStretched = true, typename... Nodes>
+Metric metric_of(Vec3 du, Vec3 dv, const Nodes&... nodes) {
+  const double e = mean_length2<kStretched>(du, nodes...), g = mean_length2<kStretched>(dv, nodes...);
+  const double floor = 1e-9 * (e + g);  // a pole has a direction without length
+  return {e + floor, mean_product<kStretched>(du, dv, nodes...), g + floor};
+}
+template <bool kStretched = true>
+Metric metric_of(const MeshNode& n) {
+  return metric_of<kStretched>(n.du, n.dv, n);
+}
 
 /// Advances the front from the boundary until every triangle is finished or retired, then splits what is still too
 /// large.

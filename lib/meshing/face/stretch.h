@@ -29,6 +29,11 @@ double mean_length2(Vec3 d, const Nodes&... nodes) {
   if constexpr (kStretched) return length2(d, nodes...);
   return norm2(d);
 }
+template <bool kStretched, typename... Nodes>
+double mean_product(Vec3 d, Vec3 e, const Nodes&... nodes) {
+  if constexpr (kStretched) return product(d, e, nodes...);
+  return dot(d, e);
+}
 inline double side_length(const MeshNode& a, const MeshNode& b) { return std::sqrt(length2(b.x - a.x, a, b)); }
 
 /// Square of the area of a triangle in the mean metric over that in space.

@@ -13,13 +13,6 @@ namespace {
 constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
 
-/// Does the circle through a, b, c (counter-clockwise) hold the origin, in the metric? Plain doubles: validity never
-/// rests on it.
-bool in_circle(const Metric& m, Vec2 a, Vec2 b, Vec2 c) {
-  const double a2 = m.length2(a), b2 = m.length2(b), c2 = m.length2(c);
-  return a2 * cross(b, c) - b2 * cross(a, c) + c2 * cross(a, b) > 0;
-}
-
 /// Position along a Hilbert-like order: interleaved bits of the quantised plane.
 std::uint64_t morton(Vec2 p, Vec2 lo, double scale) {
   const auto spread = [](std::uint64_t x) {
@@ -141,38 +134,52 @@ std::int32_t Triangulation::triangle_towards(std::int32_t node, Vec2 p) const {
   return kNone;
 }
 
+// Each node is seen from p once, and each product of two such sights is computed once. The circles are plain doubles:
+// validity never rests on them.
 bool Triangulation::find_cavity(Vec2 p, const Metric& metric, std::int32_t start) {
   cavity_.clear();
   ring_.clear();
   stack_.clear();
   cavity_.push_back(start);
-  for (int k = 2; k >= 0; --k) stack_.push_back({start, k});
+  Vec2 seen[3];
+  double seen2[3];
+  for (int k = 0; k < 3; ++k) {
+    seen[k] = nodes[triangles[start].v[k]].p - p;
+    seen2[k] = metric.length2(seen[k]);
+  }
+  for (int k = 2; k >= 0; --k) {
+    const int l = kNext[k];
+    stack_.push_back({start, k, seen[k], seen[l], seen2[k], seen2[l], cross(seen[l], seen[k])});
+  }
   while (!stack_.empty()) {
-    const auto [t, k] = stack_.back();
+    CavitySide side = stack_.back();
     stack_.pop_back();
-    const PlaneTriangle& r = triangles[t];
-    const std::int32_t a = r.v[k], b = r.v[kNext[k]], other = r.n[k];
-    const bool constrained = r.constrained >> k & 1;
-    const bool must_join = t == start && orient2d(nodes[a].p, nodes[b].p, p) <= 0;
-    if (must_join && (constrained || other == kNone)) return false;
-    bool joins = false;
-    if (!constrained && other != kNone) {
-      const PlaneTriangle& o = triangles[other];
-      const int j = neighbour_index(other, t);
-      const std::int32_t apex = o.v[kPrev[j]];
-      const Vec2 pa = nodes[a].p, pb = nodes[b].p, pc = nodes[apex].p;
-      if (must_join || in_circle(metric, pb - p, pa - p, pc - p)) {
-        // the other two edges, a -> apex and apex -> b, strictly seen from p
-        joins = orient2d(pa, pc, p) > 0 && orient2d(pc, pb, p) > 0;
-        if (must_join && !joins) return false;
+    for (;;) {  // over the triangles that join, along the first of their two other sides
+      const PlaneTriangle& r = triangles[side.t];
+      const int k = side.k;
+      const std::int32_t a = r.v[k], b = r.v[kNext[k]], other = r.n[k];
+      const bool constrained = r.constrained >> k & 1, may_join = !constrained && other != kNone;
+      const bool must_join = side.t == start && orient2d_between(side.a, side.b, nodes[a].p, nodes[b].p, p) <= 0;
+      if (must_join && !may_join) return false;
+      const int j = other == kNone ? 0 : neighbour_index(other, side.t);
+      if (may_join) {
+        const Vec2& apex = nodes[triangles[other].v[kPrev[j]]].p;
+        const Vec2 c = apex - p;
+        const double c2 = metric.length2(c), a_by_c = cross(side.a, c), b_by_c = cross(side.b, c);
+        // the circle through b, a and the apex holds p, and both other sides are strictly seen from p
+        if ((must_join || side.b2 * a_by_c - side.a2 * b_by_c + c2 * side.b_by_a > 0) &&
+            orient2d_between(side.a, c, nodes[a].p, apex, p) > 0 &&
+            orient2d_between(c, side.b, apex, nodes[b].p, p) > 0) {
+          cavity_.push_back(other);
+          stack_.push_back({other, kPrev[j], c, side.b, c2, side.b2, b_by_c});
+          side = {other, kNext[j], side.a, c, side.a2, c2, -a_by_c};
+          continue;
+        }
+        if (must_join) return false;
       }
-      if (joins) {
-        cavity_.push_back(other);
-        stack_.push_back({other, kPrev[j]});
-        stack_.push_back({other, kNext[j]});
-      }
+      ring_.push_back({a, b, other, static_cast<std::int8_t>(j), constrained, (r.toggles >> k & 1) != 0});
+      break;
     }
-    if (!joins) ring_.push_back({a, b, other, constrained, (r.toggles >> k & 1) != 0});
   }
   return true;
 }
@@ -192,17 +199,12 @@ void Triangulation::fill_cavity(std::int32_t node) {
   for (std::size_t i = 0; i < n; ++i) {
     const RingEdge& e = ring_[i];
     PlaneTriangle& r = triangles[fan_[i]];
-    const std::int32_t old_owner_unknown = e.outer;
     r = {{e.a, e.b, node},
-         {e.outer, fan_[(i + 1) % n], fan_[(i + n - 1) % n]},
+         {e.outer, fan_[i + 1 == n ? 0 : i + 1], fan_[i == 0 ? n - 1 : i - 1]},
          static_cast<std::uint8_t>(e.constrained ? 1 : 0),
          static_cast<std::uint8_t>(e.toggles ? 1 : 0),
          state == kOutside ? static_cast<std::uint8_t>(kOutside) : static_cast<std::uint8_t>(kUnfinished)};
-    if (old_owner_unknown != kNone) {
-      PlaneTriangle& o = triangles[old_owner_unknown];
-      for (int k = 0; k < 3; ++k)
-        if (o.v[k] == e.b && o.v[kNext[k]] == e.a) o.n[k] = fan_[i];
-    }
+    if (e.outer != kNone) triangles[e.outer].n[e.outer_side] = fan_[i];
     node_triangle_[e.a] = fan_[i];
   }
   node_triangle_[node] = fan_[0];
@@ -428,16 +430,25 @@ void Triangulation::classify() {
 
 bool Triangulation::ring_of(std::int32_t node, std::vector<std::int32_t>& around,
                             std::vector<std::int32_t>& tris) const {
-  around.clear();
-  tris.clear();
+  constexpr std::size_t kUsual = 16, kMost = 1000;
+  std::size_t n = 0;
+  around.resize(kUsual);
+  tris.resize(kUsual);
   const std::int32_t first = node_triangle_[node];
   std::int32_t t = first;
   do {
+    const PlaneTriangle& r = triangles[t];
     const int i = index_of(t, node);
-    around.push_back(triangles[t].v[kNext[i]]);
-    tris.push_back(t);
-    t = triangles[t].n[kPrev[i]];
-  } while (t != first && t != kNone && tris.size() < 1000);
+    if (n == kUsual) {
+      around.resize(kMost);
+      tris.resize(kMost);
+    }
+    around[n] = r.v[kNext[i]];
+    tris[n++] = t;
+    t = r.n[kPrev[i]];
+  } while (t != first && t != kNone && n < kMost);
+  around.resize(n);
+  tris.resize(n);
   return t == first;
 }
 

@@ -94,6 +94,7 @@ class Triangulation {
   bool find_cavity(Vec2 p, const Metric& metric, std::int32_t start);
   struct RingEdge {
     std::int32_t a, b, outer;  ///< counter-clockwise; triangle beyond, kNone at the rim
+    std::int8_t outer_side;    ///< of that triangle
     bool constrained, toggles;
   };
   const std::vector<std::int32_t>& cavity() const { return cavity_; }
@@ -139,7 +140,14 @@ class Triangulation {
   std::vector<std::int32_t> node_triangle_;
   std::vector<std::int32_t> cavity_, fan_;
   std::vector<RingEdge> ring_;
-  std::vector<std::pair<std::int32_t, int>> stack_;
+  /// A side of a triangle of the cavity, across which it may grow: from `a` to `b`, as find_cavity()'s point sees them.
+  struct CavitySide {
+    std::int32_t t;
+    int k;
+    Vec2 a, b;              ///< from the point
+    double a2, b2, b_by_a;  ///< squares of their lengths in the metric; their cross product
+  };
+  std::vector<CavitySide> stack_;
 };
 
 }  // namespace st
