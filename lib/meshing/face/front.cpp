@@ -104,6 +104,7 @@ class Front {
         t.state = is_finished(t, circumradius2(t)) ? kFinished : kUnfinished;
     for (std::size_t i = 0; i < m_.triangles.size(); ++i)
       if (m_.triangles[i].state == kUnfinished) push_front_edges(static_cast<std::int32_t>(i));
+    std::stable_sort(queue_.begin(), queue_.end(), [](const Entry& e, const Entry& f) { return e.a < f.a; });
   }
 
   /// Where a face closes on itself at a seam with little room, as at the tip of a cone or along a needle: rings of

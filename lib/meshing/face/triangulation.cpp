@@ -1,6 +1,7 @@
 #include "meshing/face/triangulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numeric>
 
@@ -58,16 +59,25 @@ void Triangulation::start_box() {
 
 std::vector<LoopConflict> Triangulation::build(const std::vector<std::pair<std::int32_t, std::int32_t>>& segments) {
   n_boundary = checked_id(nodes.size(), "nodes on the boundary of one face", kMaxTriangles / 4);
+  std::vector<LoopConflict> conflicts;
+  for (std::int32_t i = 0; i < n_boundary; ++i)  // a place that is no number has no side of a line
+    if (!std::isfinite(nodes[i].p.x) || !std::isfinite(nodes[i].p.y)) conflicts.push_back({i, i, i, i});
+  if (!conflicts.empty()) return conflicts;
   start_box();
   Vec2 lo = nodes[n_boundary].p, hi = nodes[n_boundary + 2].p;
   const double scale = 1.0 / std::max(hi.x - lo.x, hi.y - lo.y);
   std::vector<std::pair<std::uint64_t, std::int32_t>> order(n_boundary);
   for (std::int32_t i = 0; i < n_boundary; ++i) order[i] = {morton(nodes[i].p, lo, scale), i};
   std::sort(order.begin(), order.end());
-  std::vector<LoopConflict> conflicts;
   std::int32_t hint = 0;
-  for (const auto& [key, i] : order)
+  const auto insert = [&](std::size_t at) {
+    const std::int32_t i = order[at].second;
     if (!insert_boundary_node(i, hint)) conflicts.push_back({i, i, i, i});
+  };
+  // in rounds, each of as many nodes as there are already, between these: cavities stay small (Amenta, Choi, Rote 2003)
+  if (!order.empty()) insert(0);
+  for (std::size_t step = std::bit_floor(order.size()); step > 0; step /= 2)
+    for (std::size_t at = step; at < order.size(); at += 2 * step) insert(at);
   if (!conflicts.empty()) return conflicts;
   for (const auto& [a, b] : segments)
     if (const auto conflict = insert_segment(a, b)) conflicts.push_back(*conflict);
@@ -110,7 +120,7 @@ std::int32_t Triangulation::seen_left_of(std::int32_t a, std::int32_t b, Vec2 fr
 
 /// From triangle t on, which the way leaves across its edge `exit`, if it does.
 std::int32_t Triangulation::go_straight(Vec2 from, Vec2 p, std::int32_t t, int exit) const {
-  for (;;) {
+  for (std::size_t step = 0; step < triangles.size(); ++step) {
     const PlaneTriangle& r = triangles[t];
     if (orient2d(nodes[r.v[exit]].p, nodes[r.v[kNext[exit]]].p, p) >= 0) return t;
     const std::int32_t o = r.n[exit];
@@ -119,6 +129,7 @@ std::int32_t Triangulation::go_straight(Vec2 from, Vec2 p, std::int32_t t, int e
     t = o;
     exit = orient2d(from, p, nodes[triangles[o].v[kPrev[entry]]].p) > 0 ? kNext[entry] : kPrev[entry];
   }
+  return kNone;  // p is no place
 }
 
 std::int32_t Triangulation::triangle_towards(std::int32_t node, Vec2 p) const {
