@@ -17,8 +17,9 @@ namespace st {
 namespace {
 
 // Of the diagonal: what an eye sees of the whole model.
-constexpr double kDeflection = 1e-3;
-constexpr double kTurn = radians(5);  // between two segments of an edge
+constexpr double kDeflection = 2e-4;
+constexpr double kFacetTurn = radians(8);  // of the normal along a facet: flat shading shows more
+constexpr double kTurn = radians(5);       // between two segments of an edge
 constexpr int kMaxSegments = 256;
 constexpr std::uint8_t kPoint = 1, kLine = 3, kTriangle = 5;  // VTK's cell types
 
@@ -99,7 +100,7 @@ void add_edges(const Model& model, const FindingNumbers& findings, CellAdder& ce
 Facets facets_to_see(const Model& model) {
   const ModelTables& t = model.tables();
   return make_facets(model, std::vector<std::uint8_t>(t.n_faces(), 1),
-                     {.deflection = kDeflection * t.reference_diagonal()});
+                     {.deflection = kDeflection * t.reference_diagonal(), .angle = kFacetTurn, .is_exact = true});
 }
 
 std::vector<Vec3> line_to_see(const Curve& curve) {

@@ -587,6 +587,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
   options["chord_cells"] = o.chord_cells;
   if (o.no_surface) options["no_surface"] = true;
   if (o.max_aspect > 1) options["max_aspect"] = o.max_aspect;
+  if (!o.preset.empty()) options["preset"] = o.preset;
   header.options_json = json_text(options);
   header.unit = geometry.unit;
   header.unit_in_m = geometry.unit_in_m;

@@ -42,6 +42,7 @@ struct RasterStageOptions {
   static constexpr NumberOption kTimeLimit{"--time-limit", "SECONDS", "[0.1, 1e9]",
                                            "do not sample a face that takes longer"};
   std::string trace;              ///< table of the time of each task, see TaskTrace; empty: none
+  std::string preset;             ///< where options come from, for the record alone; empty: no preset
   bool asks_for_wings = false;    ///< somebody set `edge_size`: trailing edges that get none of it are warned of
   bool no_surface = false;        ///< leave out the coarse surface of a closed model: st-prolong lets no length pass it
   bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled

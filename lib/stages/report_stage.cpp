@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -25,6 +24,8 @@
 #include "stages/merge_stage.h"
 #include "stages/mesh_export.h"
 #include "stages/report_cad.h"
+#include "stages/report_faces.h"
+#include "stages/report_origin.h"
 #include "stages/report_page.h"
 #include "stages/report_sizes.h"
 #include "stages/stored_model.h"
@@ -38,7 +39,8 @@ constexpr std::size_t kMostCells = 100000;  // of a slice: 2 MB of the page
 
 /// The files of one run, by kind; empty: not given.
 struct RunFiles {
-  std::string mesh, patches, geometry, sizing;
+  std::string mesh, patches, geometry, sizing, raster;
+  bool is_merged_here = false;  ///< the mesh is a temporary file, of the patches
 };
 
 /// Throws Error(kUsage) for two artifacts of one kind, and without anything to look at.
@@ -55,6 +57,7 @@ RunFiles sort_files(const ReportStageOptions& o) {
     if (kind == "patches") take(files.patches, path, "patches artifact");
     if (kind == "geometry") take(files.geometry, path, "geometry");
     if (kind == "sizing") take(files.sizing, path, "sizing");
+    if (kind == "raster") take(files.raster, path, "raster");
   }
   if (!o.geometry.empty()) take(files.geometry, o.geometry, "geometry");
   if (!o.sizing.empty()) take(files.sizing, o.sizing, "sizing");
@@ -62,6 +65,7 @@ RunFiles sort_files(const ReportStageOptions& o) {
     throw Error(ExitCode::kUsage,
                 "none of these artifacts can be looked at; give mesh.hdf, patches.hdf of a run that failed, or "
                 "geometry.hdf before meshing");
+  if (files.raster.empty() && !files.sizing.empty()) files.raster = raster_beside(files.sizing);
   return files;
 }
 
@@ -82,6 +86,21 @@ Verdict check(const RunFiles& files) {
   return verdict;
 }
 
+/// The mesh before a remeshing, checked against what of the run belongs to it; "null" without one.
+std::string check_before(const std::string& before, const RunFiles& files) {
+  if (before.empty()) return "null";
+  const ArtifactHeader mesh = read_header(before);
+  if (mesh.schema != "mesh")
+    throw Error(ExitCode::kUsage, fmt::format("--before {}: is a {} artifact; give a mesh", before, mesh.schema));
+  RunFiles own;
+  own.mesh = before;
+  if (!files.geometry.empty() && read_header(files.geometry).content_hash == mesh.geometry_hash) {
+    own.geometry = files.geometry;
+    own.sizing = files.sizing;
+  }
+  return check(own).json;
+}
+
 /// Quality, length over requested length; after st-remesh 1 where a triangle is new; with the geometry, distance from
 /// the CAD. [n_triangles] each
 std::vector<TriangleValues> values_to_show(const Model* model, const MeshArtifact& mesh) {
@@ -93,14 +112,6 @@ std::vector<TriangleValues> values_to_show(const Model* model, const MeshArtifac
   }
   if (model) values.push_back({"deviation", triangle_deviations(*model, mesh.mesh)});
   return values;
-}
-
-/// Triangles by group, in their order within each.
-std::vector<TriangleId> by_group(const SurfaceMesh& mesh) {
-  std::vector<TriangleId> order(mesh.triangles.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](TriangleId t) { return mesh.triangle_group[t]; });
-  return order;
 }
 
 /// The box of nothing is the origin.
@@ -197,31 +208,6 @@ Json import_findings(std::span<const ImportFinding> findings) {
     list.push_back({{"words", f.what() + (f.entity.empty() ? "" : ", " + f.entity)},
                     {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}},
                     {"repair", f.is_repair}});
-  return list;
-}
-
-Json unmeshed_faces(const std::vector<FaceFailure>& failures, const FaceLabels& labels) {
-  Json list = Json::array();
-  for (const FaceFailure& f : failures)
-    list.push_back({{"face", f.face + 1},
-                    {"name", labels.face_name[f.face]},
-                    {"cause", f.cause},
-                    {"remedy", f.remedy},
-                    {"is_closed", f.is_closed},
-                    {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}});
-  return list;
-}
-
-/// [[stage, seconds], ...] in the order of the chain, of the files <stage>.seconds in a folder.
-Json stage_times(const std::string& folder) {
-  Json list = Json::array();
-  if (folder.empty()) return list;
-  for (const char* stage : {"st-import", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check"}) {
-    std::ifstream file(std::filesystem::path(folder) / (std::string(stage) + ".seconds"));
-    if (double seconds = 0; file >> seconds) list.push_back({stage, seconds});
-  }
-  if (list.empty())
-    throw Error(ExitCode::kInput, folder + ": has no files such as st-mesh.seconds; give the folder OUT/log of make");
   return list;
 }
 
@@ -326,8 +312,16 @@ Json cad_in_words(const Contents& c) {
   return {{"faces", t.n_faces()}, {"edges", t.n_edges()}, {"closed", c.is_closed}, {"of_group", faces}};
 }
 
+/// Faces and parts under the pointer, and what the artifacts of the run say of themselves.
+void describe_origin(const RunFiles& files, const Contents& c, std::span<const TriangleId> order, Json& meta) {
+  meta["faces"] = faces_to_pick(c.mesh.mesh, order, c.model ? &c.model->tables() : nullptr);
+  meta["parts"] = c.mesh.mesh.labels.part_path;
+  meta["origins"] = origins(std::array{files.geometry, files.raster, files.sizing, files.patches,
+                                       files.is_merged_here ? std::string() : files.mesh});
+}
+
 std::string make_page(const ReportStageOptions& o, const RunFiles& files, const std::string& shown_as,
-                      const std::string& check_json) {
+                      const Verdict& verdict) {
   Progress progress("writing the report", 1);
   progress.step("reading", 0);
   const Contents c = read_contents(files);
@@ -335,7 +329,7 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
   progress.step("values of triangles", 0.2);
   std::vector<TriangleValues> values;
   if (c.is_meshed) values = values_to_show(c.model ? &*c.model : nullptr, c.mesh);
-  const std::vector<TriangleId> order = by_group(mesh);
+  const std::vector<TriangleId> order = by_group_and_face(mesh);
   progress.step("causes of sizes", 0.5);
   SizePart sizes;
   sizes.meta = nullptr;  // none are given
@@ -352,10 +346,12 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
   meta["lines"] = lines.meta;
   meta["edges"] = lines.edges;
   meta["times"] = stage_times(o.times);
+  describe_origin(files, c, order, meta);
   meta["sizes"] = sizes.meta;
   const std::vector<std::pair<std::string, std::string>> places = {
       {"META", script_text(json_text(meta))},
-      {"CHECK", script_text(check_json)},
+      {"CHECK", script_text(verdict.json)},
+      {"BEFORE", script_text(check_before(o.before, files))},
       {"INFO", script_text(run_info(c.is_meshed ? files.mesh : files.geometry).json)},
       {"NODES", encoded_points(mesh.node_xyz, box.center())},
       {"CORNERS", encoded_corners(mesh, order)},
@@ -381,10 +377,11 @@ StageSummary run_report(const ReportStageOptions& o) {
   if (files.mesh.empty() && !files.patches.empty()) {
     merged.emplace(o.output + ".mesh");
     files.mesh = merged->name();
+    files.is_merged_here = true;
     merge_what_there_is(files.patches, files.mesh);
   }
   const Verdict verdict = check(files);
-  const std::string page = make_page(o, files, shown_as, verdict.json);
+  const std::string page = make_page(o, files, shown_as, verdict);
   write_text_file(o.output, page);
   Json summary = {{"tool", "st-report"}, {"mesh", shown_as}, {"output", o.output}};
   if (verdict.passes) summary["passes"] = *verdict.passes;

@@ -13,6 +13,7 @@ struct ReportStageOptions {
   std::string geometry;                ///< optional: findings by cause, deviation from the CAD
   std::string sizing;                  ///< optional: lengths compared with the requested ones, slice, causes of sizes
   std::string times;                   ///< optional: folder of <stage>.seconds, as the workflow writes them
+  std::string before;                  ///< optional: the mesh before a remeshing, to be compared with
   std::string output = "report.html";  ///< self-contained: page, mesh and figures
 };
 

@@ -92,7 +92,7 @@ class Run {
   void report() {
     if (o_.report.empty()) return;
     ReportStageOptions o;
-    o.artifacts = {o_.output};
+    o.artifacts = {o_.output, o_.raster.output};
     o.geometry = geometry_;
     o.sizing = sizing_;
     o.output = o_.report;

@@ -54,6 +54,44 @@ setTimeout(() => {
       said.cleared = coloured() - before;
     }
     canvas.setPointerCapture = () => {};  // made for real pointers
+    said.out = axes().out;
+    lookFrom("+z");
+    said.from_above = axes().out;
+    lookFrom("");
+    const pick = (x, y) => {
+      const at = { clientX: x, clientY: y, bubbles: true };
+      for (const type of ["pointerdown", "pointerup"]) canvas.dispatchEvent(new PointerEvent(type, at));
+      canvas.dispatchEvent(new MouseEvent("click", at));
+    };
+    $("lined").checked = false;
+    const all = canvas.getBoundingClientRect(), pixel = 2 * camera.half / all.height;
+    const middle = f => ballOf(f).centre.map((x, k) => x - camera.focus[k]);
+    const onScreen = c => [all.left + all.width / 2 + dot(axes().right, c) / pixel,
+      all.top + all.height / 2 - dot(axes().up, c) / pixel];
+    const target = cadFaces.map(f => onScreen(middle(f))).find(([x, y]) => faceAt(x, y));
+    if (target) {
+      pick(...target);
+      said.picked_face = $("picked_faces").textContent;
+      said.face_rule = $("rule").textContent;
+      $("meaning_of_faces").value = "size"; $("meaning_of_faces").onchange();
+      said.size_rule = $("rule").textContent;
+      $("takes").value = "group";
+      pick(...target); pick(...target);
+      said.group_rule = $("rule").textContent;
+      pick(...target);
+      said.no_face = $("picked").hidden;
+      $("meaning_of_faces").value = "";
+      hovering = target; sayUnder(); hovering = null;
+      said.under = $("under").textContent;
+      const named = { number: 1, name: "a" }, wild = { number: 1, name: "a*" }, same = { number: 2, name: "a" };
+      const three = [1, 2, 4].map(number => ({ number, name: "" }));
+      said.listed = [listed(three, []), listed([named], [named]), listed([wild], [wild]), listed([named], [named, same])];
+    }
+    said.json_shown = [...document.querySelectorAll("pre")].some(e => !e.closest("details") && e.textContent.includes("{"));
+    said.asked = $("asked").textContent;
+    said.compared = $("compared").textContent;
+    said.charts = $("charts").textContent;
+    said.surfaces = document.querySelectorAll("#wings figure").length;
     if (cadEdges.length) {
       $("lined").checked = true;
       const box = canvas.getBoundingClientRect(), s = 2 * camera.half / box.height, { right, up } = axes();
@@ -66,6 +104,7 @@ setTimeout(() => {
         canvas.dispatchEvent(new MouseEvent("click", place));
       };
       click();
+      said.picked_faces = $("picked_faces").textContent;
       said.picked = $("picked_edges").textContent;
       said.rule = $("rule").textContent;
       said.on_edge = cadEdges.some(e => said.picked.startsWith("edge " + e.number));
@@ -90,6 +129,10 @@ def script(page, name):
     return re.search(f'<script type="[^"]*" id="{name}">(.*?)</script>', page, re.S).group(1)
 
 
+HEADLESS = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+            "--force-prefers-reduced-motion", "--virtual-time-budget=8000"]
+
+
 class Browser(ToolTest):
     def browse(self, file):
         """What the probe says in a browser, or None without one."""
@@ -99,9 +142,7 @@ class Browser(ToolTest):
             return None
         probed = self.folder / "probed.html"
         probed.write_text(file.read_text(encoding="utf-8").replace("</body>", PROBE), encoding="utf-8")
-        done = subprocess.run([browser, "--headless", "--no-sandbox", "--use-angle=swiftshader",
-                               "--enable-unsafe-swiftshader", "--force-prefers-reduced-motion",
-                               "--virtual-time-budget=8000", "--window-size=1300,900",
+        done = subprocess.run([browser, *HEADLESS, "--window-size=1300,900",
                                f"--user-data-dir={self.folder / 'browser'}", "--dump-dom", f"file://{probed}"],
                               capture_output=True, text=True, timeout=120)
         title = re.search("<title>(.*?)</title>", done.stdout, re.S)
@@ -160,8 +201,64 @@ class Report(Browser):
         self.assertGreater(said["covered"], 0.02, said)
         self.assertAlmostEqual(said["cleared"], 0, delta=0.001)
         self.assertTrue(said["on_edge"] and said["unpicked"], said)
-        self.assertRegex(said["rule"], r"^\[\[size\]\]\nedges = \[\d+\]\ntrailing_edge = true$")
+        self.assertRegex(said["rule"], r"^\[\[size\]\]\nedges = \d+\ntrailing_edge = true$")
+        self.assertEqual(said["picked_faces"], "", "a click on an edge takes no face behind it")
         self.assertEqual(said["wings"], "")
+        self.expect_faces_to_be_picked(said)
+
+    def expect_faces_to_be_picked(self, said):
+        self.assertRegex(said["picked_face"], r"^face \d+.*, group .*, area \S+ mm²$")
+        self.assertIn(said["picked_face"], said["under"])
+        self.assertRegex(said["face_rule"], r'^\[\[group\]\]\nname = "my group"\nfaces = (\d+|".+")$')
+        self.assertRegex(said["size_rule"], r'^\[\[size\]\]\nfaces = .+\nlmax = "LENGTH"$')
+        self.assertRegex(said["group_rule"], r"^\[\[size\]\]\nfaces = .+\nlmax")
+        self.assertTrue(said["no_face"], said)
+        self.assertEqual(said["listed"], ['["1-2", 4]', '"a"', 1, 1])
+
+    def test_says_what_was_asked_for_and_hides_raw_data(self):
+        made = artifacts_of("two_boxes")
+        _, file = self.report("two_boxes", "--geometry", made / "geometry.hdf", "--sizing", made / "sizing.hdf")
+        meta = json.loads(script(file.read_text(encoding="utf-8"), "meta"))
+        self.assertEqual([o["tool"] for o in meta["origins"]], ["st-import", "st-raster", "st-prolong", "st-merge"])
+        self.assertEqual(sum(f[1] for f in meta["faces"]), sum(g["count"] for g in meta["groups"]))
+        said = self.browse(file)
+        if said is None:
+            return
+        self.assertRegex(said["asked"], r"largest length \S+ mm.*growth of length per distance 0\.\d")
+        self.assertFalse(said["json_shown"], "raw data are folded away")
+        self.assertIn("requested", said["charts"])
+
+    def test_a_preset_is_named(self):
+        geometry = artifacts_of("two_boxes") / "geometry.hdf"
+        must("st-raster", geometry, "--preset", "preview", cwd=self.folder)
+        options = must("st-info", "raster.hdf", "--json", cwd=self.folder).json()["options"]
+        self.assertEqual(options["preset"], "preview")
+        must("st-report", geometry, "raster.hdf", cwd=self.folder)
+        said = self.browse(self.folder / "report.html")
+        if said is not None:
+            self.assertIn("preset preview", said["asked"])
+
+    def test_a_half_is_looked_at_from_outside(self):
+        for side in ("y=5", "y=5-", "z=5-", "x=5"):
+            must("st-import", MODELS / "box.brep", "--symmetry", side, "-o", "geometry.hdf", cwd=self.folder)
+            must("st-report", "geometry.hdf", cwd=self.folder)
+            said = self.browse(self.folder / "report.html")
+            if said is None:
+                return
+            out = said["out"]["xyz".index(side[0])]
+            self.assertGreater(-out if side.endswith("-") else out, 0.2, (side, said["out"]))
+            self.assertAlmostEqual(said["from_above"][2], 1)
+
+    def test_prints_on_one_page(self):
+        made = artifacts_of("two_boxes")
+        _, file = self.report("two_boxes", "--geometry", made / "geometry.hdf", "--sizing", made / "sizing.hdf")
+        browser = shutil.which("chromium")
+        if not browser:
+            self.skipTest("no chromium")
+        pdf = self.folder / "page.pdf"
+        subprocess.run([browser, *HEADLESS, f"--user-data-dir={self.folder / 'browser'}", "--no-pdf-header-footer",
+                        f"--print-to-pdf={pdf}", f"file://{file}"], capture_output=True, timeout=120, check=True)
+        self.assertEqual(len(re.findall(rb"/Type\s*/Page\b(?!s)", pdf.read_bytes())), 1)
 
     def test_a_mesh_that_fails_gets_its_report(self):
         _, file = self.report("plate_with_hole")
@@ -189,6 +286,16 @@ class Report(Browser):
         self.assertEqual(set(is_new), {0.0, 1.0})
         said = self.browse(file)
         self.assertNotIn("error", said or {})
+        self.assertEqual((said or {}).get("compared", ""), "")
+        must("st-report", "new.hdf", geometry, "sizing.hdf", "--before", mesh, cwd=self.folder)
+        said = self.browse(file)
+        if said is not None:
+            self.assertNotIn("error", said)
+            before = must("st-info", mesh, "--json").json()["counts"]["triangles"]
+            self.assertRegex(said["compared"], rf"triangles kept.*triangles{before:,}")
+            self.assertIn("before", said["charts"])
+        self.expect_error(USAGE, "st-report", "new.hdf", "--before", geometry, "-o", "r.html", cwd=self.folder,
+                          says="give a mesh")
 
     def test_a_mesh_with_a_face_missing_says_so(self):
         made = artifacts_of("two_boxes")
@@ -265,6 +372,9 @@ class Report(Browser):
             page = (self.folder / "report.html").read_text(encoding="utf-8")
             arrays = ("meta", "nodes", "values", "causes", "cells", "lengths")
             pages.append({name: script(page, name) for name in arrays})
+            meta = json.loads(pages[-1]["meta"])
+            meta.pop("origins")  # names each file
+            pages[-1]["meta"] = meta
         self.assertEqual(pages[0], pages[1])
         n_triangles = len(base64.b64decode(pages[0]["values"])) // 12
         self.assertEqual(len(base64.b64decode(pages[0]["causes"])), 2 * n_triangles)
@@ -308,6 +418,8 @@ class Aircraft(Browser):
         self.assertGreater(said["near"], 0.05, said)
         self.assertGreater(said["cells"], 1000, said)
         self.assertIn("Lifting surfaces", said["wings"])
+        self.assertEqual(said["surfaces"], 4, "a table for each")
+        self.assertIn("trailing edge", said["wings"])
 
 
 if __name__ == "__main__":

@@ -69,6 +69,8 @@ class OptionSet {
   void flag(const std::string& flag, bool& value, const std::string& help);
   /// --preset: what neither the command line nor the option file sets is taken from a preset (presets.h).
   void preset();
+  /// The preset that is asked for; empty: none.
+  const std::string& preset_name() const { return preset_; }
   /// Whether the command line, an option file or a preset sets an option.
   bool is_set(const std::string& flag) const;
   const std::string& name() const { return name_; }

@@ -57,6 +57,7 @@ void declare(OptionSet& set, RasterStageOptions& o) {
 }
 
 void note_what_is_set(const OptionSet& set, RasterStageOptions& o) {
+  o.preset = set.preset_name();
   o.asks_for_wings = set.is_set("--edge-size") && o.edge_size != "none";
 }
 

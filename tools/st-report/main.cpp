@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
               "artifacts of one run, in any order: a mesh, patches or a geometry, and others");
   tool.optional_input("--geometry", o.geometry, "geometry artifact: findings by cause, distance from the CAD");
   tool.optional_input("--sizing", o.sizing, "sizing artifact: lengths compared, slice, causes of sizes");
+  tool.optional_input("--before", o.before, "the mesh before a remeshing: both are compared");
   tool.text("--times", o.times, "FOLDER", "folder with <stage>.seconds of the stages, as make writes it: OUT/log");
   tool.output(o.output, "HTML file to write");
   tool.examples({"st-report geometry.hdf sizing.hdf mesh.hdf -o report.html",

@@ -52,8 +52,8 @@ TEST(Report, is_one_page_without_a_place_left_empty) {
   ExitCode code;
   const std::string page = page_of(4, code);
   EXPECT_EQ(code, ExitCode::kOk);
-  for (const char* place : {"@META@", "@CHECK@", "@INFO@", "@NODES@", "@CORNERS@", "@VALUES@", "@CAUSES@", "@CELLS@",
-                            "@LEVELS@", "@LENGTHS@"}) {
+  for (const char* place : {"@META@", "@CHECK@", "@BEFORE@", "@INFO@", "@NODES@", "@CORNERS@", "@VALUES@", "@CAUSES@",
+                            "@CELLS@", "@LEVELS@", "@LENGTHS@"}) {
     EXPECT_NE(report_page().find(place), std::string::npos) << place;
     EXPECT_EQ(page.find(place), std::string::npos) << place;
   }
