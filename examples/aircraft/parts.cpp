@@ -149,73 +149,109 @@ Part make_belly_fairing(NameTable& names) {
 
 namespace wing {
 constexpr double kRootY = 0.4, kKinkY = 6.2, kTipY = 16.0, kWingletLength = 2.6;
-constexpr double kDihedral = 5.5 * kDegree, kWingletCant = 72 * kDegree;
+constexpr double kWingletCant = 72 * kDegree;
 
 double lerp(double a, double b, double t) { return a + (b - a) * t; }
 
-/// Section of the planar part.
-Section main_section(double y) {
-  const double inner = std::min(y, kKinkY) / kKinkY, outer = std::max(0.0, y - kKinkY) / (kTipY - kKinkY);
-  Section s;
-  s.leading_edge = gp_Pnt(12.0 + 0.52 * y, y, -1.15 + std::tan(kDihedral) * y);
-  s.chord = lerp(lerp(8.0, 4.4, inner), 1.7, outer);
-  s.twist = kDegree * lerp(lerp(3.5, 1.0, inner), -1.0, outer);
-  s.thickness = lerp(lerp(0.14, 0.115, inner), 0.1, outer);
-  s.camber = 0.016;
-  return s;
-}
+/// The wing of a variant.
+class Planform {
+ public:
+  explicit Planform(const Shape& shape) : dihedral_(shape.dihedral_deg * kDegree), aft_(shape.aft_per_span) {}
 
-/// Section at the distance `d` along the winglet, which bends up from the tip.
-Section winglet_section(double d) {
-  Section s = main_section(kTipY);
-  double y = kTipY, z = s.leading_edge.Z(), bend = 0;
-  const int n_steps = 200;
-  for (int i = 0; i < n_steps; ++i) {  // integrate the path by midpoints
-    bend = (kWingletCant - kDihedral) * smoothstep(d * (i + 0.5) / n_steps / 1.5);
-    y += std::cos(kDihedral + bend) / std::cos(kDihedral) * d / n_steps;
-    z += std::sin(kDihedral + bend) / std::cos(kDihedral) * d / n_steps;
+  /// Section of the planar part.
+  Section main_section(double y) const {
+    const double inner = std::min(y, kKinkY) / kKinkY, outer = std::max(0.0, y - kKinkY) / (kTipY - kKinkY);
+    Section s;
+    s.leading_edge = gp_Pnt(12.0 + aft_ * y, y, -1.15 + std::tan(dihedral_) * y);
+    s.chord = lerp(lerp(8.0, 4.4, inner), 1.7, outer);
+    s.twist = kDegree * lerp(lerp(3.5, 1.0, inner), -1.0, outer);
+    s.thickness = lerp(lerp(0.14, 0.115, inner), 0.1, outer);
+    s.camber = 0.016;
+    return s;
   }
-  s.leading_edge = gp_Pnt(s.leading_edge.X() + 0.52 * d + 0.06 * d * d, y, z);
-  s.chord -= 0.2755 * d + 0.02 * d * d;
-  s.roll = (kWingletCant - kDihedral) * smoothstep(d / 1.5);
-  return s;
-}
 
-Panel inboard_panel() {
-  Panel panel;
-  panel.parameters = linspace(kRootY, kKinkY, 6);
-  for (double y : panel.parameters) panel.sections.push_back(main_section(y));
-  panel.span_splits = {kRootY, 3.0, 4.7, kKinkY};
-  return panel;
-}
-
-Panel outboard_panel() {
-  Panel panel;
-  panel.parameters = linspace(kKinkY, kTipY, 10);
-  for (double y : panel.parameters) panel.sections.push_back(main_section(y));
-  for (double d : linspace(0, kWingletLength, 14)) {
-    if (d == 0) continue;
-    panel.parameters.push_back(kTipY + d);
-    panel.sections.push_back(winglet_section(d));
+  /// Section at the distance `d` along the winglet, which bends up from the tip.
+  Section winglet_section(double d) const {
+    Section s = main_section(kTipY);
+    double y = kTipY, z = s.leading_edge.Z(), bend = 0;
+    const int n_steps = 200;
+    for (int i = 0; i < n_steps; ++i) {  // integrate the path by midpoints
+      bend = (kWingletCant - dihedral_) * smoothstep(d * (i + 0.5) / n_steps / 1.5);
+      y += std::cos(dihedral_ + bend) / std::cos(dihedral_) * d / n_steps;
+      z += std::sin(dihedral_ + bend) / std::cos(dihedral_) * d / n_steps;
+    }
+    s.leading_edge = gp_Pnt(s.leading_edge.X() + aft_ * d + 0.06 * d * d, y, z);
+    s.chord -= 0.2755 * d + 0.02 * d * d;
+    s.roll = (kWingletCant - dihedral_) * smoothstep(d / 1.5);
+    return s;
   }
-  panel.span_splits = {kKinkY, 8.2, 10.2, 12.2, 14.2, 15.9, 17.5, kTipY + kWingletLength};
-  return panel;
-}
+
+  Panel inboard_panel() const {
+    Panel panel;
+    panel.parameters = linspace(kRootY, kKinkY, 6);
+    for (double y : panel.parameters) panel.sections.push_back(main_section(y));
+    panel.span_splits = {kRootY, 3.0, 4.7, kKinkY};
+    return panel;
+  }
+
+  Panel outboard_panel() const {
+    Panel panel;
+    panel.parameters = linspace(kKinkY, kTipY, 10);
+    for (double y : panel.parameters) panel.sections.push_back(main_section(y));
+    for (double d : linspace(0, kWingletLength, 14)) {
+      if (d == 0) continue;
+      panel.parameters.push_back(kTipY + d);
+      panel.sections.push_back(winglet_section(d));
+    }
+    panel.span_splits = {kKinkY, 8.2, 10.2, 12.2, 14.2, 15.9, 17.5, kTipY + kWingletLength};
+    return panel;
+  }
+
+  /// A flap of 22 % of the chord, whose nose is just below and ahead of the trailing edge, turned down by `angle`.
+  Panel flap_panel(double angle) const {
+    Panel panel;
+    panel.parameters = linspace(kFlapBegin, kFlapEnd, 5);
+    for (double y : panel.parameters) {
+      const Section wing = main_section(y);
+      const gp_Pnt edge = lower_point(wing, 1.0);
+      Section s;
+      s.leading_edge = gp_Pnt(edge.X() - 0.01 * wing.chord, y, edge.Z() - 0.035 * wing.chord);
+      s.chord = 0.22 * wing.chord;
+      s.thickness = 0.12;
+      s.twist = wing.twist - angle;
+      panel.sections.push_back(s);
+    }
+    panel.span_splits = {kFlapBegin, 9.9, kFlapEnd};
+    return panel;
+  }
+
+ private:
+  static constexpr double kFlapBegin = 7.2, kFlapEnd = 12.6;
+  double dihedral_, aft_;
+};
 }  // namespace wing
 
-Part make_wing(NameTable& names) {
+Part make_wing(const wing::Planform& planform, NameTable& names) {
   Patchwork patches(names);
   const std::vector<double> chord_splits = {0.18, 0.65};
-  const PanelRims inboard = add_panel(patches, wing::inboard_panel(), chord_splits, "wing");
-  const PanelRims outboard = add_panel(patches, wing::outboard_panel(), chord_splits, "wing");
+  const PanelRims inboard = add_panel(patches, planform.inboard_panel(), chord_splits, "wing");
+  const PanelRims outboard = add_panel(patches, planform.outboard_panel(), chord_splits, "wing");
   patches.add_planar(inboard.first, "wing_root");
   patches.add_planar(outboard.last, "wing_tip");
   return {"wing", patches.solid("wing")};
 }
 
+Part make_flap(const wing::Planform& planform, double angle, NameTable& names) {
+  Patchwork patches(names);
+  const PanelRims rims = add_panel(patches, planform.flap_panel(angle), {0.2, 0.65}, "flap");
+  patches.add_planar(rims.first, "flap_end");
+  patches.add_planar(rims.last, "flap_end");
+  return {"flap", patches.solid("flap")};
+}
+
 /// Slender pod below the trailing edge at span y.
-Part make_flap_fairing(NameTable& names, double y) {
-  const Section s = wing::main_section(y);
+Part make_flap_fairing(const wing::Planform& planform, NameTable& names, double y) {
+  const Section s = planform.main_section(y);
   const double c = s.chord, x0 = s.leading_edge.X(), z_front = lower_point(s, 0.5).Z() + 0.03 * c,
                z_te = lower_point(s, 1.0).Z();
   EllipticBody body = closed_body(x0 + 0.5 * c, x0 + 1.22 * c, 2, [&](double x) {
@@ -231,22 +267,33 @@ Part make_flap_fairing(NameTable& names, double y) {
 
 // -------------------------------------------------------------------------------- engine
 
-namespace engine {
-constexpr double kY = 5.75, kX = 11.4, kLength = 3.7, kRadius = 1.03;
-double axis_z() { return wing::main_section(kY).leading_edge.Z() - 1.75; }
-}  // namespace engine
+constexpr double kEngineX = 11.4, kEngineY = 5.75, kEngineRadius = 1.03;
+
+/// An engine as large as `scale` times the inner one, at another place: x of that one is `shift` + `scale` * x.
+struct Engine {
+  double y, scale, shift = 0;
+  Section wing;  ///< the wing's section there
+
+  Engine(const wing::Planform& planform, double at, double size) : y(at), scale(size), wing(planform.main_section(at)) {
+    const double nose = 12.0 + 0.52 * kEngineY;  // of the wing above the inner engine of the bundled example
+    shift = wing.leading_edge.X() - nose * scale;
+  }
+  double x_of(double x) const { return shift + scale * x; }
+  double radius() const { return kEngineRadius * scale; }
+  double axis_z() const { return wing.leading_edge.Z() - 1.75 * scale; }
+};
 
 /// Through-flow nacelle: a ring with the section of an aerofoil.
-Part make_nacelle(NameTable& names) {
-  using namespace engine;
+Part make_nacelle(const Engine& engine, NameTable& names) {
   Section profile;
-  profile.chord = kLength;
+  profile.chord = 3.7 * engine.scale;
   profile.thickness = 0.09;
   EllipticBody body;
   body.parameters = profile_parameters();
   for (double p : body.parameters) {
     const gp_Pnt q = profile_point(profile, p);
-    body.sections.push_back({kX + q.X(), kRadius + q.Z(), kRadius + q.Z(), kY, axis_z()});
+    const double r = engine.radius() + q.Z();
+    body.sections.push_back({engine.x_of(kEngineX) + q.X(), r, r, engine.y, engine.axis_z()});
   }
   body.splits = profile_splits({0.12, 0.6});
   body.angles_deg = {-45, 45, 135, 225, 315};
@@ -257,15 +304,14 @@ Part make_nacelle(NameTable& names) {
 }
 
 /// Pylon: starts inside the wall of the nacelle, leaves it before its trailing edge and ends inside the wing.
-Part make_pylon(NameTable& names) {
-  using namespace engine;
-  const Section s = wing::main_section(kY);
-  const double wall = axis_z() + kRadius, wing_z = s.leading_edge.Z() - 0.01;
-  EllipticBody body = closed_body(kX + 0.85, 18.4, 6, [&](double x) {
-    const double ramp = wall + 0.08 + 0.3 * (x - kX - 0.85), gap = ramp - wing_z;
-    const double top = 0.5 * (ramp + wing_z - std::sqrt(gap * gap + 0.15 * 0.15));
-    const double bottom = wall + (wing_z - 0.06 - wall) * smoothstep((x - 13.4) / (18.4 - 13.4));
-    return Ellipse{0, 0.2, 0.5 * (top - bottom), kY, 0.5 * (top + bottom)};
+Part make_pylon(const Engine& engine, NameTable& names) {
+  const double k = engine.scale, begin = kEngineX + 0.85, end = 18.4;
+  const double wall = engine.axis_z() + engine.radius(), wing_z = engine.wing.leading_edge.Z() - 0.01 * k;
+  EllipticBody body = closed_body(engine.x_of(begin), engine.x_of(end), 6, [&](double place) {
+    const double x = (place - engine.shift) / k, ramp = wall + 0.08 * k + 0.3 * k * (x - kEngineX - 0.85);
+    const double gap = ramp - wing_z, top = 0.5 * (ramp + wing_z - std::sqrt(gap * gap + 0.15 * k * 0.15 * k));
+    const double bottom = wall + (wing_z - 0.06 * k - wall) * smoothstep((x - 13.4) / (18.4 - 13.4));
+    return Ellipse{0, 0.2 * k, 0.5 * (top - bottom), engine.y, 0.5 * (top + bottom)};
   });
   body.splits = {0, 0.4, 0.62, 1};
   body.angles_deg = {0, 90, 180, 270, 360};
@@ -276,24 +322,50 @@ Part make_pylon(NameTable& names) {
 
 // -------------------------------------------------------------------------------- tail
 
-Part make_horizontal_tail(NameTable& names) {
-  constexpr double kRootY = 0.2, kTipY = 6.3;
+/// Nose of the tailplane where it meets the symmetry plane, and how it rises.
+struct TailPlace {
+  double x = 30.9, z = 0.85, root_y = 0.2, rise = 0.1;  ///< rise: per span
+};
+
+Part make_horizontal_tail(const TailPlace& place, NameTable& names) {
+  constexpr double kTipY = 6.3;
   Panel panel;
-  panel.parameters = linspace(kRootY, kTipY, 5);
+  panel.parameters = linspace(place.root_y, kTipY, 5);
   for (double y : panel.parameters) {
     Section s;
-    s.leading_edge = gp_Pnt(30.9 + 0.6 * y, y, 0.85 + 0.1 * y);
+    s.leading_edge = gp_Pnt(place.x + 0.6 * y, y, place.z + place.rise * y);
     s.chord = 4.2 - 0.43 * y;
     s.twist = -1.5 * kDegree;
     s.thickness = 0.1;
     panel.sections.push_back(s);
   }
-  panel.span_splits = {kRootY, 2.5, 4.4, kTipY};
+  panel.span_splits = {place.root_y, 2.5, 4.4, kTipY};
   Patchwork patches(names);
   const PanelRims rims = add_panel(patches, panel, {0.2, 0.65}, "htail");
   patches.add_planar(rims.first, "htail_root");
   patches.add_planar(rims.last, "htail_tip");
   return {"horizontal tail", patches.solid("horizontal tail")};
+}
+
+/// One side of a V.
+Part make_v_tail(NameTable& names) {
+  constexpr double kCant = 38 * kDegree, kLength = 6.5;
+  Panel panel;
+  panel.parameters = linspace(0, kLength, 5);
+  for (double d : panel.parameters) {
+    Section s;
+    s.leading_edge = gp_Pnt(29.9 + 0.6 * d, 0.3 + std::cos(kCant) * d, 0.7 + std::sin(kCant) * d);
+    s.chord = 4.6 - 0.45 * d;
+    s.thickness = 0.1;
+    s.roll = kCant;
+    panel.sections.push_back(s);
+  }
+  panel.span_splits = {0, 2.6, 4.6, kLength};
+  Patchwork patches(names);
+  const PanelRims rims = add_panel(patches, panel, {0.2, 0.65}, "v_tail");
+  patches.add_planar(rims.first, "v_tail_root");
+  patches.add_planar(rims.last, "v_tail_tip");
+  return {"V tail", patches.solid("V tail")};
 }
 
 /// The half of the vertical tail beyond the symmetry plane.
@@ -321,11 +393,28 @@ Part make_vertical_tail(NameTable& names) {
 
 }  // namespace
 
-std::vector<Part> make_parts(NameTable& names) {
-  std::vector<Part> parts = {make_fuselage(names),     make_belly_fairing(names), make_wing(names),
-                             make_nacelle(names),      make_pylon(names),         make_horizontal_tail(names),
-                             make_vertical_tail(names)};
-  for (double y : {3.7, 8.7, 11.2, 13.3}) parts.push_back(make_flap_fairing(names, y));
+namespace {
+void add_tail(Tail tail, std::vector<Part>& parts, NameTable& names) {
+  // roots on the other side of the symmetry plane: the air cuts them
+  constexpr TailPlace kTop{32.2, 7.8, -0.4, 0}, kMiddle{31.0, 4.3, -0.4, 0.05};
+  if (tail == Tail::kNone) return;
+  if (tail == Tail::kV) return parts.push_back(make_v_tail(names));
+  parts.push_back(make_horizontal_tail(tail == Tail::kT ? kTop : tail == Tail::kCross ? kMiddle : TailPlace(), names));
+  parts.push_back(make_vertical_tail(names));
+}
+}  // namespace
+
+std::vector<Part> make_parts(const Shape& shape, NameTable& names) {
+  const wing::Planform planform(shape);
+  std::vector<Part> parts = {make_fuselage(names), make_belly_fairing(names), make_wing(planform, names)};
+  const Engine engines[] = {{planform, kEngineY, 1}, {planform, 9.95, 0.72}};
+  for (int i = 0; i < shape.n_engines; ++i) {
+    parts.push_back(make_nacelle(engines[i], names));
+    parts.push_back(make_pylon(engines[i], names));
+  }
+  add_tail(shape.tail, parts, names);
+  for (double y : {3.7, 8.7, 11.2, 13.3}) parts.push_back(make_flap_fairing(planform, names, y));
+  if (shape.flaps_deg > 0) parts.push_back(make_flap(planform, shape.flaps_deg * kDegree, names));
   return parts;
 }
 
