@@ -1,9 +1,10 @@
 """ST from Python: its artifacts as numpy arrays, its tools as functions. Needs h5py and numpy.
 
     import st
-    run = st.mesh("wing.step", "out", **{"st-raster": {"lmax": "2%"}})
-    mesh = st.read("out/mesh.hdf")
-    print(mesh.area_of("WING"), st.read("out/sizing.hdf").size(mesh.points).min())
+    mesh = st.mesh("wing.step", preset="rans", progress=print)
+    print(mesh.points.shape, mesh.triangles.shape, mesh.area_of("WING"), mesh.size.min())
+    st.mesh("wing.step", "out", **{"st-raster": {"lmax": "2%"}})
+    print(st.read("out/sizing.hdf").size(mesh.points).min())
 """
 from .artifact import Artifact, Failures, Geometry, Mesh, Patches, Raster, Sizing, read
 from .tools import ToolError, mesh, run

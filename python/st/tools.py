@@ -5,7 +5,10 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import weakref
 from pathlib import Path
+
+from .artifact import Mesh
 
 _WHEEL = Path(__file__).parent / "bin"  # where a wheel has the tools
 
@@ -44,20 +47,38 @@ def _arguments(options):
                 yield from (flag, str(v))
 
 
-def run(tool, *inputs, allow=(), **options):
+def _start(command, progress):
+    """Exit code, stdout and stderr of a command, each line of stderr given to `progress` as soon as it is there."""
+    with tempfile.TemporaryFile("w+", encoding="utf-8") as out:
+        with subprocess.Popen(command, stdout=out, stderr=subprocess.PIPE, text=True, errors="replace") as child:
+            said = []
+            try:
+                for line in child.stderr:
+                    said.append(line.rstrip("\n"))
+                    if progress:
+                        progress(said[-1])
+            except BaseException:  # of the callback, too: nothing goes on behind it
+                child.terminate()
+                raise
+        out.seek(0)
+        return child.returncode, out.read(), "\n".join(said)
+
+
+def run(tool, *inputs, allow=(), progress=None, **options):
     """Runs a tool and returns what it says with --json. `allow`: exit codes that are no errors, such as 5 of st-check
-    (the dictionary then has it as "exit_code"). Raises ToolError."""
+    (the dictionary then has it as "exit_code"). `progress`: called with each line that the tool prints while it works;
+    what it raises ends the tool. Raises ToolError."""
     command = [program(tool), *map(str, inputs), *_arguments(options), "--json"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    lines = done.stdout.strip().splitlines()
+    code, printed, said = _start(command, progress)
+    lines = printed.strip().splitlines()
     try:
         result = json.loads(lines[-1]) if lines else {}
     except ValueError:
         result = {}
-    if done.returncode not in (0, *allow):
-        said = [line for line in done.stderr.splitlines() if "error:" in line] or done.stderr.splitlines()[-1:]
-        raise ToolError(tool, done.returncode, " ".join(said) or "no message")
-    result["exit_code"] = done.returncode
+    if code not in (0, *allow):
+        errors = [line for line in said.splitlines() if "error:" in line] or said.splitlines()[-1:]
+        raise ToolError(tool, code, " ".join(errors) or "no message")
+    result["exit_code"] = code
     return result
 
 
@@ -78,11 +99,8 @@ def _option_file(tables):
     return "\n".join(lines) + "\n"
 
 
-def mesh(model, out, ranks=1, **options):
-    """From a CAD file to out/mesh.hdf, all artifacts beside it, by st-run. `options`: those of st-run, and those of a
-    stage by its tool's name, as in mesh("wing.step", "out", preset="rans", **{"st-raster": {"lmax": "2%"}}); the
-    latter not with options=FILE, which raises TypeError. Returns what each tool said, by tool; a mesh that does not
-    pass its checks is no error, st-check says so."""
+def _run_all(model, ranks, options):
+    """What each tool said, by tool."""
     stages = {name: value for name, value in options.items() if name.startswith("st-")}
     own = {name: value for name, value in options.items() if name not in stages}
     if stages and own.get("options"):
@@ -94,7 +112,29 @@ def mesh(model, out, ranks=1, **options):
         file.write(_option_file(stages))
         file.flush()
         own["options"] = own.get("options") or file.name
-        said = run("st-run", model, keep=out, allow=(5,), **own)
+        said = run("st-run", model, allow=(5,), **own)
     if not said.get("stages"):
         raise ToolError("st-run", 5, said.get("error", "incomplete"))
     return said["stages"]
+
+
+def mesh(model, out=None, ranks=1, progress=None, **options):
+    """From a CAD file to a checked mesh, by st-run. `options`: those of st-run, and those of a stage by its tool's
+    name, as in mesh("wing.step", preset="rans", **{"st-raster": {"lmax": "2%"}}); the latter not with options=FILE,
+    which raises TypeError. `progress`: see run().
+
+    With a folder `out`: all artifacts go there, and what each tool said is returned, by tool. Without it: the Mesh,
+    whose points, triangles, groups and sizes are numpy arrays; its `said` is that dictionary. Its file goes with it. A
+    mesh that does not pass its checks is no error: said["st-check"]["passes"] tells."""
+    if out is not None:
+        return _run_all(model, ranks, {"keep": out, "progress": progress, **options})
+    folder = tempfile.mkdtemp(prefix="st-mesh-")
+    try:
+        said = _run_all(model, ranks, {"output": Path(folder) / "mesh.hdf", "progress": progress, **options})
+        result = Mesh(said["st-merge"]["output"])
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+    result.said = said
+    weakref.finalize(result, shutil.rmtree, folder, ignore_errors=True)
+    return result

@@ -3,6 +3,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -76,6 +77,30 @@ class Module(unittest.TestCase):
         self.assertAlmostEqual(options["lmax"], 0.06 * numpy.linalg.norm(points.max(axis=0) - points.min(axis=0)))
         self.assertEqual(said["st-check"]["checks"]["folds"]["allowed"], 2)
         self.assertTrue((out / "m.stl").exists())
+
+    def test_without_a_folder_there_is_a_mesh_of_arrays(self):
+        lines = []
+        mesh = st.mesh(MODELS / "box.step", preset="preview", progress=lines.append)
+        self.assertEqual((mesh.points.shape[1], mesh.triangles.shape[1]), (3, 3))
+        self.assertEqual(len(mesh.group), len(mesh.triangles))
+        self.assertEqual(len(mesh.size), len(mesh.points))
+        self.assertTrue(mesh.said["st-check"]["passes"])
+        self.assertEqual(len(mesh["/VTKHDF/Types"]), len(mesh.triangles), "its file is there as long as it is")
+        for tool in ("st-import", "st-raster", "st-prolong", "st-mesh", "st-merge"):
+            self.assertTrue(any(line.startswith(tool) for line in lines), (tool, lines))
+        folder = Path(mesh.path).parent
+        del mesh
+        self.assertFalse(folder.exists())
+
+    def test_what_a_callback_raises_ends_the_run(self):
+        def stop(line):
+            raise KeyError(line)
+        before = set(Path(tempfile.gettempdir()).glob("st-mesh-*"))
+        with self.assertRaises(KeyError):
+            st.mesh(MODELS / "box.step", progress=stop)
+        with self.assertRaisesRegex(st.ToolError, "no such file"):
+            st.mesh("missing.step")
+        self.assertEqual(set(Path(tempfile.gettempdir()).glob("st-mesh-*")), before)
 
     def test_every_kind_is_read_as_what_it_is(self):
         kinds = {"geometry": st.Geometry, "raster": st.Raster, "sizing": st.Sizing, "patches": st.Patches,
