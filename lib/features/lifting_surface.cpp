@@ -20,6 +20,7 @@
 #include "features/profile_facets.h"
 #include "features/station_gaps.h"
 #include "features/thin_surface.h"
+#include "features/trailing_chains.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -28,8 +29,12 @@ namespace {
 constexpr int kStations = kPlacesPerEdge;
 constexpr double kDeflection = 1e-3;           // of the reference diagonal: of the facets
 constexpr double kOffSurface = 0.75;           // of the reach: a nose on facets further from the CAD is none
+constexpr double kOffBeside = 0.02;            // of the chord: likewise pieces of the cut beside a nose
+constexpr double kSharpNose = radians(30);     // what is its own nose, as a lens, may be a wing's tip if no less sharp
 constexpr double kSeen = 0.9;                  // of the way with noses: less asks for exact facets
+constexpr double kSeenSmall = 0.95;            // likewise of what is short beside the model
 constexpr double kLongBlade = 0.05;            // of the reference diagonal: extent of a blade's edges at least
+constexpr double kLargeBody = 5;               // of a small blade's extent: the diagonal of its faces at most
 constexpr double kStraightBlade = 0.7;         // the same over their length
 constexpr double kLeastNoseWay = 0.25;         // of the way along the trailing edge: way along the noses
 constexpr double kOnPlane = 1e-6;              // of the reference diagonal: from a plane of symmetry
@@ -41,34 +46,10 @@ constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
 constexpr double kNarrowStrip = 0.05;          // width of a strip of the skin over the length of its edge, at most
 constexpr double kSameDirection = 0.998;       // cosine: 4 degrees
 constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
+constexpr double kLens = 0.75;                 // of the way where the nose is on the edge itself: does not count
 
 constexpr const char *kRimOfEnd = "they are rims of a tip or a root",
                      *kRimOfPlate = "its base is square to both sides: the rim of a plate";
-
-/// Trailing edges that hang together at vertices or across their base.
-std::vector<std::vector<WingEdge>> trailing_chains(const ModelTables& t, std::span<const WingEdge> edges) {
-  std::vector<WingEdge> trailing;
-  for (const WingEdge& w : edges)
-    if (w.kind != WingEdgeKind::kLeading) trailing.push_back(w);
-  DisjointSets sets(static_cast<std::int64_t>(trailing.size()));
-  std::map<std::int32_t, std::int32_t> at_vertex, at_base;  // the first of them
-  for (std::size_t i = 0; i < trailing.size(); ++i) {
-    const auto own = static_cast<std::int32_t>(i);
-    const auto join_at = [&](std::map<std::int32_t, std::int32_t>& first, std::int32_t key) {
-      const auto [known, is_new] = first.emplace(key, own);
-      if (!is_new) sets.join(own, known->second);
-    };
-    if (trailing[i].base != kNone) join_at(at_base, trailing[i].base);
-    for (const std::size_t k : {0, 1})
-      join_at(at_vertex, t.edge_vertices[2 * static_cast<std::size_t>(trailing[i].edge) + k]);
-  }
-  std::vector<std::vector<WingEdge>> chains;
-  for (const std::vector<std::int32_t>& chain : sets.groups()) {
-    chains.emplace_back();
-    for (const std::int32_t i : chain) chains.back().push_back(trailing[i]);
-  }
-  return chains;
-}
 
 /// A lifting surface that is not finished; see SurfaceMeasurer.
 struct SurfaceDraft {
@@ -124,6 +105,7 @@ struct CutRules {
   std::vector<EdgeId> rims;   // sharp edges of the chain on planes across that
   double reach = 0;           // how far from a place the cut may begin
   double diagonal = 0;        // reference diagonal
+  ChainLine line;             // of the chain
 };
 
 class SurfaceMeasurer {
@@ -135,7 +117,8 @@ class SurfaceMeasurer {
         along_(rules.along),
         rims_(rules.rims),
         reach_(rules.reach),
-        diagonal_(rules.diagonal) {}
+        diagonal_(rules.diagonal),
+        line_(rules.line) {}
 
   /// What profiles show; stations and faces may reach into other bodies yet. Where they show too little along the whole
   /// chain, that of its edges with profiles: others may be the rims of a thin tip or root. Else why there is none.
@@ -166,6 +149,10 @@ class SurfaceMeasurer {
       return find_part(part);
     }
     why = {why_no_wing(surface), false};
+    if (why.text.empty() && has_nose_on(surface, surface)) {
+      const bool is_sharp = std::ranges::all_of(chain, [](const WingEdge& w) { return w.angle <= kSharpNose; });
+      why = {"it is its own nose, as the rim of a lens", is_sharp};  // or nose and trailing edge meet at a tip
+    }
     if (!why.text.empty()) return std::nullopt;
     return SurfaceDraft{std::move(surface), std::move(axis)};
   }
@@ -226,8 +213,7 @@ class SurfaceMeasurer {
     if (surface.span < std::min(kLeastSpan * surface.median_chord, kSmallPart * diagonal_))
       return "it is shorter than half of the chord";
     if (surface.span < kShortest * surface.median_chord) return "it is shorter than a fifth of the chord";
-    if (!has_moving_noses(surface)) return "its profiles have one nose, as a body of revolution has";
-    return has_nose_on(surface, surface) ? "it is its own nose, as the rim of a lens" : "";
+    return has_moving_noses(surface) ? "" : "its profiles have one nose, as a body of revolution has";
   }
 
   std::optional<Profile> profile_at(const EdgePlace& place, const Vec3* axis) const {
@@ -287,6 +273,14 @@ class SurfaceMeasurer {
     return part;
   }
 
+  /// Of these the way where the nose is on the chain, too: a cut across a tooth of it, or a lens.
+  double way_with_own_nose(std::span<const EdgePlace> places, std::span<const std::optional<Profile>> profiles) const {
+    double way = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (profiles[i] && line_.is_near(profiles[i]->nose, kNearNose * profiles[i]->chord)) way += places[i].way;
+    return way;
+  }
+
   /// Cut square to the axis of the model that shows most; square to the edge only where that shows clearly more.
   std::vector<std::optional<Profile>> profiles_along(std::span<const EdgePlace> places, const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
@@ -295,12 +289,13 @@ class SurfaceMeasurer {
       const Vec3* axis = k < normals_.size() ? &normals_[k] : nullptr;
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
-      const double way = measured_way(places, own);
+      const double on_itself = way_with_own_nose(places, own), way = measured_way(places, own) - kLens * on_itself;
       if (way <= (axis ? 1.0 : kClearlyMore) * longest) continue;
       longest = way;
       best_axis = axis;
       best = std::move(own);
-      if (std::ranges::all_of(best, [](const auto& p) { return p.has_value(); })) break;  // none shows more
+      if (on_itself == 0 && std::ranges::all_of(best, [](const auto& p) { return p.has_value(); }))
+        break;  // none shows more
     }
     return best;
   }
@@ -382,8 +377,10 @@ class SurfaceMeasurer {
     LiftingSurface surface;
     for (const WingEdge& w : chain) {
       const bool is_half = w.base != kNone && w.mirror != kNone;
+      const auto has_same_base = [&](const WingEdge& other) { return other.edge != w.edge && other.base == w.base; };
+      const bool is_pair = w.base != kNone && !is_half && std::ranges::any_of(chain, has_same_base);
       surface.trailing.push_back({w.edge, w.base, is_half, w.base == kNone ? 0 : w.size, {}});
-      surface.span += w.base == kNone || is_half ? w.length : 0.5 * w.length;
+      surface.span += is_pair ? 0.5 * w.length : w.length;
       surface.is_blunt = surface.is_blunt || w.base != kNone;
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -403,9 +400,14 @@ class SurfaceMeasurer {
   void measure(const Profile& profile, ChordStation& station) const {
     station.nose = profile.nose;
     station.nose_face = profile.nose_face;
+    const auto is_near = [&](const CutPlace& place, double most) {
+      return closest_point(*model_.surface(place.face), place.x).distance <= most;
+    };
+    const double most = kOffSurface * reach_, most_beside = std::max(most, kOffBeside * profile.chord);
     station.is_measured =
         put_on_surface(profile, station) ||
-        closest_point(*model_.surface(profile.nose_face), profile.nose).distance <= kOffSurface * reach_;
+        (is_near({profile.nose_face, profile.nose}, most) &&
+         std::ranges::all_of(profile.beside_nose, [&](const CutPlace& p) { return is_near(p, most_beside); }));
     is_off_ = is_off_ || !station.is_measured;
     station.chord = distance(station.nose, station.trailing);
   }
@@ -512,6 +514,7 @@ class SurfaceMeasurer {
   const Vec3 along_;
   const std::vector<EdgeId> rims_;
   const double reach_, diagonal_;
+  const ChainLine& line_;
   mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
   mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
 };
@@ -661,8 +664,10 @@ class SurfaceFinder {
     for (const FaceRole role : roles.role) is_wall_.push_back(role == FaceRole::kWall);
   }
 
-  std::vector<LiftingSurface> run(Noseless noseless, std::vector<UnusedTrailing>* unused) {
-    for (const auto& chain : trailing_chains(model_.tables(), edges_)) find_with_noses(chain);
+  std::vector<LiftingSurface> run(std::span<const WingEdge> small, Noseless noseless,
+                                  std::vector<UnusedTrailing>* unused) {
+    for (const auto& chain : trailing_chains(model_, edges_)) find_with_noses(chain);
+    find_small(small);
     unite_surfaces();
     find_behind_noses();
     const bool has_aircraft = noseless == Noseless::kAll || !surfaces_.empty();
@@ -730,7 +735,7 @@ class SurfaceFinder {
       noses.back().kind = WingEdgeKind::kSharpTrailing;
     }
     const std::size_t n = surfaces_.size(), n_rest = rest_.size();
-    for (const auto& chain : trailing_chains(model_.tables(), noses)) find_with_noses(chain);
+    for (const auto& chain : trailing_chains(model_, noses)) find_with_noses(chain);
     rest_.resize(n_rest);
     surfaces_.erase(std::remove_if(surfaces_.begin() + static_cast<std::ptrdiff_t>(n), surfaces_.end(),
                                    [&](const LiftingSurface& s) { return !has_round_noses(model_, s); }),
@@ -846,8 +851,12 @@ class SurfaceFinder {
   void find_with_noses(const std::vector<WingEdge>& chain) {
     Reason why;
     std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), reach(), why);
-    if (why.is_inexact || (surface ? surface->covered() < kSeen : why.may_be_wing))
-      try_exact_facets(chain, surface, why);
+    if (why.is_inexact || (surface ? !is_seen(surface, kSeenSmall) : why.may_be_wing))
+      try_exact_facets(surface ? edges_of(*surface, chain) : chain, surface, why);
+    keep(chain, surface, why);
+  }
+
+  void keep(const std::vector<WingEdge>& chain, std::optional<LiftingSurface>& surface, Reason why) {
     if (surface && is_plate(chain, *surface)) {
       surface.reset();
       why = {kRimOfPlate, false};
@@ -860,47 +869,108 @@ class SurfaceFinder {
 
   std::optional<LiftingSurface> surface_at(const std::vector<WingEdge>& chain, const ProfileCutter& cutter,
                                            double reach, Reason& why) {
-    const SurfaceMeasurer measurer(
-        model_, cutter, {cut_normals(chain), direction_of(chain), rims_of(chain), reach, roles_.reference_diagonal});
+    const CutRules rules{cut_normals(chain),
+                         direction_of(chain),
+                         rims_of(chain),
+                         reach,
+                         roles_.reference_diagonal,
+                         ChainLine(places_along(model_, chain))};
+    const SurfaceMeasurer measurer(model_, cutter, rules);
     std::optional<SurfaceDraft> draft = measurer.find(chain, why);
     std::optional<LiftingSurface> surface;
     if (draft) {
-      if (is_concave_.empty()) is_concave_ = find_concave_edges(model_, roles_);
-      surface = measurer.finish(std::move(*draft), is_concave_, is_wall_);
+      surface = measurer.finish(std::move(*draft), concave_edges(), is_wall_);
       if (!surface) why = {"its profiles reach into other bodies"};
     }
     why.is_inexact = measurer.is_off();
     return surface;
   }
 
+  /// Without rims.
+  static std::vector<WingEdge> edges_of(const LiftingSurface& surface, const std::vector<WingEdge>& chain) {
+    std::vector<WingEdge> own;
+    for (const WingEdge& w : chain)
+      if (std::ranges::count(surface.trailing, w.edge, &ChordEdge::edge) > 0) own.push_back(w);
+    return own;
+  }
+
+  static bool is_seen(const std::optional<LiftingSurface>& surface, double share) {
+    return surface && surface->covered() >= share;
+  }
+
   /// Once more, for edges that span much of the model without turning much, as those of blades and wings do, between
   /// splines: facets between knots may miss the shape of the profile, and those for the model be coarse for a blade.
+  /// For edges that are short beside the model, by facets of their own faces, those that no concave edge parts from
+  /// them.
   void try_exact_facets(const std::vector<WingEdge>& chain, std::optional<LiftingSurface>& surface, Reason& why) {
-    Box3 box;
     double length = 0;
+    for (const WingEdge& w : chain) length += w.base == kNone ? w.length : 0.5 * w.length;
+    const double extent = extent_of(chain);
+    const bool is_small = extent < kLongBlade * roles_.reference_diagonal;
+    const bool is_enough = !why.is_inexact && is_seen(surface, kSeen);
+    if (extent < kStraightBlade * length || (!is_small && (is_enough || !is_of_spline(chain)))) return;
+    const std::optional<FaceRoles> body = is_small ? roles_of_body(chain, kLargeBody * extent) : std::nullopt;
+    if (is_small && !body) return;
+    const auto& [better, also] = exact_surface(chain, body ? *body : roles_, extent);
+    if (!better && !surface && is_small) why = also;
+    if (!better ||
+        (surface && !why.is_inexact && better->span * better->covered() <= surface->span * surface->covered()))
+      return;
+    if (!surface) why = also;
+    surface = better;
+  }
+
+  double extent_of(const std::vector<WingEdge>& chain) const {
+    Box3 box;
     for (const WingEdge& w : chain) {
       const auto curve = model_.curve(w.edge);
       box.add(curve->point(curve->t_min()));
       box.add(curve->point(curve->t_max()));
-      length += w.base == kNone ? w.length : 0.5 * w.length;
     }
-    const double extent = box.diagonal();
-    if (extent < kLongBlade * roles_.reference_diagonal || extent < kStraightBlade * length || !is_of_spline(chain))
-      return;
+    return box.diagonal();
+  }
+
+  /// Trailing edges that are too short for facets of the model.
+  void find_small(std::span<const WingEdge> small) {
+    for (const auto& chain : trailing_chains(model_, small)) {
+      Reason why{"it is short, and its faces are large"};
+      std::optional<LiftingSurface> surface;
+      try_exact_facets(chain, surface, why);
+      keep(chain, surface, why);
+    }
+  }
+
+  /// Walls are those alone that no concave edge parts from a chain; nullopt: they are larger than `diagonal`.
+  std::optional<FaceRoles> roles_of_body(const std::vector<WingEdge>& chain, double diagonal) {
+    LiftingSurface body;
+    body.trailing.resize(chain.size());
+    for (std::size_t k = 0; k < chain.size(); ++k) body.trailing[k].edge = chain[k].edge;
+    const std::vector<std::uint8_t> is_own = find_own_faces(model_.tables(), concave_edges(), is_wall_, body);
+    Box3 box;
+    FaceRoles own = roles_;
+    for (std::size_t f = 0; f < is_own.size(); ++f) {
+      if (is_own[f]) box.add(model_.tables().face_box[f]);
+      if (!is_own[f]) own.role[f] = FaceRole::kInterface;
+    }
+    return box.diagonal() <= diagonal ? std::optional(own) : std::nullopt;
+  }
+
+  const std::vector<std::uint8_t>& concave_edges() {
+    if (is_concave_.empty()) is_concave_ = find_concave_edges(model_, roles_);
+    return is_concave_;
+  }
+
+  /// Remembered: coarse facets that are added later do not change it.
+  const ExactSurface& exact_surface(const std::vector<WingEdge>& chain, const FaceRoles& roles, double extent) {
     std::vector<EdgeId> key;
     for (const WingEdge& w : chain) key.push_back(w.edge);
     const auto [known, is_new] = tried_.try_emplace(std::move(key));
-    if (is_new) known->second = exact_surface(chain, kDeflection * std::min(extent, roles_.reference_diagonal));
-    const auto& [better, also] = known->second;
-    if (!better ||
-        (surface && !why.is_inexact && better->span * better->covered() <= surface->span * surface->covered()))
-      return;
-    surface = better;
-    why = also;
+    if (is_new) known->second = make_exact(chain, roles, kDeflection * std::min(extent, roles_.reference_diagonal));
+    return known->second;
   }
 
-  ExactSurface exact_surface(const std::vector<WingEdge>& chain, double deflection) {
-    ProfileFacets exact(model_, roles_, {{.deflection = deflection, .is_exact = true}, 2 * deflection});
+  ExactSurface make_exact(const std::vector<WingEdge>& chain, const FaceRoles& roles, double deflection) {
+    ProfileFacets exact(model_, roles, {{.deflection = deflection, .is_exact = true}, 2 * deflection});
     exact.add_along(chain, SerialExecutor());
     const FaceId mirror = mirror_of(chain);
     const Facets whole =
@@ -1036,9 +1106,10 @@ NearestChord LiftingSurface::nearest_chord(Vec3 x) const {
 
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges, const Executor& executor,
-                                                  std::vector<UnusedTrailing>* unused, Noseless noseless) {
+                                                  std::vector<UnusedTrailing>* unused, Noseless noseless,
+                                                  std::span<const WingEdge> small) {
   const std::vector<WingEdge> tails = possible_tails(model.tables(), edges);
-  bool has_edges = !tails.empty();
+  bool has_edges = !tails.empty() || !small.empty();
   share(executor, has_edges);
   if (!has_edges) return {};
   const double deflection = kDeflection * roles.reference_diagonal;
@@ -1052,7 +1123,7 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
     std::vector<UnusedTrailing> rest;
     if (executor.is_root())
       surfaces = SurfaceFinder(model, roles, edges, has_all ? roles.own.facets : own.facets(), ends, tried)
-                     .run(noseless, unused ? &rest : nullptr);
+                     .run(small, noseless, unused ? &rest : nullptr);
     if (!has_all && own.add_beyond(ends, executor)) continue;  // a cut between the places crosses more
     if (unused) *unused = std::move(rest);
     return surfaces;

@@ -90,12 +90,13 @@ struct UnusedTrailing {
 /// axis of the model, each edge to its own, and square to the edge where that shows none or clearly fewer. By first
 /// edge. Collective; `edges` and what is returned are of rank 0. `unused`: gets the trailing edges that belong to none.
 /// Cost: a coarse triangulation of the walls that profiles cross, as tasks, unless `roles` has one of all; the rest is
-/// rank 0's.
+/// rank 0's. `small`: trailing edges that are too short for these facets (find_wing_edges()); each has its own.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges,
                                                   const Executor& executor = SerialExecutor(),
                                                   std::vector<UnusedTrailing>* unused = nullptr,
-                                                  Noseless noseless = Noseless::kOfAircraft);
+                                                  Noseless noseless = Noseless::kOfAircraft,
+                                                  std::span<const WingEdge> small = {});
 
 /// Appends the leading ones of `edges` that run along the noses of a surface. Local.
 void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSurface& surface);

@@ -207,7 +207,11 @@ std::optional<Profile> ProfileCutter::profile_of(const std::vector<Segment>& par
                   .nose = end_at_nose.x,
                   .nose_face = end_at_nose.face,
                   .chord = distance(end_at_nose.x, trailing_edge)};
-  for (const Segment& s : part) profile.faces.push_back(facets_.face[s.facet]);
+  for (const Segment& s : part) {
+    profile.faces.push_back(facets_.face[s.facet]);
+    if (s.end[0] == profile.nose || s.end[1] == profile.nose)
+      profile.beside_nose.push_back({profile.faces.back(), 0.5 * (s.end[0] + s.end[1])});
+  }
   if (!(profile.chord > 0)) return std::nullopt;
   const Vec3 forward = (profile.nose - trailing_edge) / profile.chord, across = cross(normal, forward);
   for (const Segment& s : part)

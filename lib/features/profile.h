@@ -12,14 +12,21 @@
 
 namespace st {
 
+/// A point of a cut, on a facet.
+struct CutPlace {
+  FaceId face;
+  Vec3 x;  ///< model unit
+};
+
 /// A cut through a lifting surface.
 struct Profile {
-  Vec3 normal = {};                ///< of the plane, unit
-  Vec3 nose = {};                  ///< the point furthest from the trailing edge, model unit
-  FaceId nose_face = kNone;        ///< that it lies on
-  double chord = 0;                ///< from the trailing edge to the nose, model unit
-  double thickness = 0;            ///< largest, over the chord
-  std::vector<FaceId> faces = {};  ///< that the cut crosses, ascending
+  Vec3 normal = {};                        ///< of the plane, unit
+  Vec3 nose = {};                          ///< the point furthest from the trailing edge, model unit
+  FaceId nose_face = kNone;                ///< that it lies on
+  double chord = 0;                        ///< from the trailing edge to the nose, model unit
+  double thickness = 0;                    ///< largest, over the chord
+  std::vector<FaceId> faces = {};          ///< that the cut crosses, ascending
+  std::vector<CutPlace> beside_nose = {};  ///< half way along the pieces of the cut that end at the nose
 };
 
 /// The point of a surface on the plane through `trailing_edge` that is furthest from it, near a profile's nose, which
@@ -50,11 +57,8 @@ struct WholeCut {
   bool is_own = true;    ///< the end furthest from the edge is on an own face, too
 };
 
-/// Where a cut ends: no further facet is there.
-struct CutEnd {
-  FaceId face;  ///< whose facet is the last one
-  Vec3 x;       ///< model unit
-};
+/// Where a cut ends: no further facet than one of this face is there.
+using CutEnd = CutPlace;
 
 /// Cuts a model's facets by planes and measures what is found.
 class ProfileCutter {

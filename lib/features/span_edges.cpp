@@ -11,7 +11,7 @@
 namespace st {
 namespace {
 
-constexpr double kLeastLength = 0.02;     // of the reference diagonal: of an edge
+constexpr double kLeastLength = 0.005;    // of the reference diagonal: of an edge
 constexpr double kSmooth = radians(30);   // between the faces there
 constexpr double kStraight = 0.7;         // between the ends of an edge over its length, at least
 constexpr double kChordMost = 2;          // over the length of the edge

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "base/disjoint_sets.h"
@@ -25,6 +26,7 @@ constexpr double kBluntWidth = 0.05;        // of its length, at most
 constexpr double kLargerThanRing = 5;       // likewise of those beside a ring
 constexpr double kSquareRing = radians(1);  // of a ring, from square to its sides
 constexpr double kLargerThanRound = 2;      // area of the faces beside a round trailing edge over its own, at least
+constexpr std::size_t kFlanks = 6;          // of teeth without another trailing edge: three teeth
 constexpr double kNoseTurn = radians(45);   // of the normal to either side of a leading edge, at least
 constexpr double kFlattened = 0.7;  // curvature there over the largest, at most: a circle stays at 1, a parabola falls
                                     // to 0.35
@@ -32,6 +34,7 @@ constexpr double kLargestNose = 0.02;        // of the reference diagonal: radiu
 constexpr double kNosePerLength = 0.25;      // radius of a leading edge over its length, at most
 constexpr double kStep = 0.125, kReach = 4;  // of the nose radius: steps and way to either side
 constexpr double kShortestChain = 0.005;     // of the reference diagonal
+constexpr double kSmallestChain = 0.0005;    // likewise: shorter ones are no small blade's, either
 
 /// Where a coedge runs, and which way its face lies.
 struct Side {
@@ -67,6 +70,9 @@ class WingEdgeFinder {
     is_turned_ = !is_turned_;  // nothing tells on which side of an open surface the material is
     return find(executor);
   }
+
+  /// Trailing edges that the last search left out as too short.
+  const std::vector<WingEdge>& small() const { return small_; }
 
   void declare(std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges) const {
     std::vector<std::optional<WingEdge>> found(uses_.size());
@@ -157,6 +163,7 @@ class WingEdgeFinder {
     classify_all(candidates, executor, found);
     std::vector<WingEdge> result;
     if (!executor.is_root()) return result;
+    add_flanks(found);
     drop_short_chains(found);
     for (const auto& w : found)
       if (w) result.push_back(*w);
@@ -403,9 +410,92 @@ class WingEdgeFinder {
     return s.sides[f == strip.face || std::ranges::count(strip.others, f) > 0 ? 1 : 0];
   }
 
+  // --- flanks of teeth
+
+  /// A base that is wider than a trailing edge's alone may be.
+  using Flank = std::array<WingEdge, 2>;
+
+  /// Those between trailing edges and each other, end to end, as a serrated trailing edge has them. What lies around a
+  /// tip ends at the nose.
+  void add_flanks(std::vector<std::optional<WingEdge>>& found) const {
+    std::vector<Flank> flanks;
+    for (const Strip& strip : strips_)
+      if (std::optional<Flank> own = flank_of(strip, found)) flanks.push_back(*own);
+    if (flanks.empty()) return;
+    std::vector<std::vector<std::int32_t>> at(static_cast<std::size_t>(t_.n_vertices()));  // bases, and sharp edges
+    for (const auto& w : found)
+      if (w && w->kind != WingEdgeKind::kLeading) note_at_ends(*w, at);
+    for (const Flank& flank : flanks)
+      for (const WingEdge& w : flank) note_at_ends(w, at);
+    const auto is_open = [&](const Flank& flank) {
+      return std::ranges::any_of(flank, [&](const WingEdge& w) {
+        return std::ranges::any_of(ends_of(w),
+                                   [&](std::int32_t v) { return at[static_cast<std::size_t>(v)].size() < 2; });
+      });
+    };
+    for (auto open = std::ranges::find_if(flanks, is_open); open != flanks.end();
+         open = std::ranges::find_if(flanks, is_open)) {
+      for (const WingEdge& w : *open)
+        for (const std::int32_t v : ends_of(w)) std::erase(at[static_cast<std::size_t>(v)], member_of(w));
+      flanks.erase(open);
+    }
+    keep_with_trailing(found, flanks);
+    for (const Flank& flank : flanks)
+      for (const WingEdge& w : flank) found[w.edge] = w;
+  }
+
+  /// One number for a base, and for a sharp edge.
+  std::int32_t member_of(const WingEdge& w) const { return w.base != kNone ? w.base : t_.n_faces() + w.edge; }
+  std::array<std::int32_t, 2> ends_of(const WingEdge& w) const {
+    const auto e = 2 * static_cast<std::size_t>(w.edge);
+    return {t_.edge_vertices[e], t_.edge_vertices[e + 1]};
+  }
+  void note_at_ends(const WingEdge& w, std::vector<std::vector<std::int32_t>>& at) const {
+    for (const std::int32_t v : ends_of(w)) {
+      auto& own = at[static_cast<std::size_t>(v)];
+      if (std::ranges::count(own, member_of(w)) == 0) own.push_back(member_of(w));
+    }
+  }
+
+  /// Those that hang together with a trailing edge, or are the flanks of several teeth.
+  void keep_with_trailing(const std::vector<std::optional<WingEdge>>& found, std::vector<Flank>& flanks) const {
+    DisjointSets vertices(t_.n_vertices());
+    const auto join = [&](const WingEdge& w) { vertices.join(ends_of(w)[0], ends_of(w)[1]); };
+    std::map<std::int32_t, std::size_t> n_flanks;
+    for (const auto& w : found)
+      if (w && w->kind != WingEdgeKind::kLeading) join(*w);
+    for (const Flank& flank : flanks)
+      for (const WingEdge& w : flank) join(w);
+    for (const auto& w : found)
+      if (w && w->kind != WingEdgeKind::kLeading) n_flanks[vertices.find(ends_of(*w)[0])] = kFlanks;
+    const auto own_set = [&](const Flank& flank) { return vertices.find(ends_of(flank[0])[0]); };
+    for (const Flank& flank : flanks) ++n_flanks[own_set(flank)];
+    std::erase_if(flanks, [&](const Flank& flank) { return n_flanks[own_set(flank)] < kFlanks; });
+  }
+
+  /// Corners along both edges of a strip that is no trailing edge by itself.
+  std::optional<Flank> flank_of(const Strip& strip, const std::vector<std::optional<WingEdge>>& found) const {
+    if (strip.cut_side || found[strip.edges[0]] || found[strip.edges[1]]) return std::nullopt;
+    const double width = median_width(strip);
+    if (is_narrow(strip, width)) return std::nullopt;
+    Places places;
+    for (std::size_t k = 0; k < 2; ++k) {
+      if (!is_candidate(strip.edges[k]) || mirror_of(strip.edges[k])) return std::nullopt;
+      places[k] = stations(strip.edges[k], surfaces_of(strip.edges[k]));
+      if (std::ranges::count_if(places[k], is_corner) < kAgreeing) return std::nullopt;
+    }
+    const auto is_square = [](const Station& s) { return std::abs(s.angle - kPi / 2) < kSquareRing; };
+    const bool is_plate = std::ranges::all_of(places[0], is_square) && std::ranges::all_of(places[1], is_square);
+    if (is_plate || count_blunt(strip, places) < kAgreeing || is_rim(strip, places)) return std::nullopt;
+    const auto edge = [&](std::size_t k) {
+      return make(strip.edges[k], WingEdgeKind::kBluntTrailing, places[k], width, strip.face);
+    };
+    return Flank{edge(0), edge(1)};
+  }
+
   // --- chains
 
-  void drop_short_chains(std::vector<std::optional<WingEdge>>& found) const {
+  void drop_short_chains(std::vector<std::optional<WingEdge>>& found) {
     constexpr std::int32_t kKinds = 2;  // trailing, leading
     const auto chain_kind = [](const WingEdge& w) { return w.kind == WingEdgeKind::kLeading ? 1 : 0; };
     const std::int32_t n = kKinds * t_.n_vertices();
@@ -419,8 +509,13 @@ class WingEdgeFinder {
     std::vector<double> length(n, 0.0);
     for (const auto& w : found)
       if (w) length[node(*w, 0)] += w->length;
-    for (auto& w : found)
-      if (w && length[node(*w, 0)] < kShortestChain * roles_.reference_diagonal) w.reset();
+    small_.clear();
+    for (auto& w : found) {
+      if (!w || length[node(*w, 0)] >= kShortestChain * roles_.reference_diagonal) continue;
+      const bool is_tiny = length[node(*w, 0)] < kSmallestChain * roles_.reference_diagonal;
+      if (w->kind != WingEdgeKind::kLeading && !is_tiny) small_.push_back(*w);
+      w.reset();
+    }
   }
 
   const Model& model_;
@@ -429,6 +524,7 @@ class WingEdgeFinder {
   std::span<const Strip> strips_;
   bool is_turned_ = false;  // normals point into the material
   std::vector<std::vector<Use>> uses_;
+  std::vector<WingEdge> small_;  // of the last search
 };
 
 }  // namespace
@@ -445,8 +541,11 @@ const char* name_of(WingEdgeKind kind) {
 }
 
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
-                                      const Executor& executor) {
-  return WingEdgeFinder(model, roles, strips).run(executor);
+                                      const Executor& executor, std::vector<WingEdge>* small) {
+  WingEdgeFinder finder(model, roles, strips);
+  std::vector<WingEdge> found = finder.run(executor);
+  if (small) *small = finder.small();
+  return found;
 }
 
 void declare_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,

@@ -224,6 +224,24 @@ void say_faults(const ImportStageOptions& o, const ImportResult& r) {
   }
 }
 
+/// Edges that end away from their vertices, as some fillets' do: no mesh with lengths like that way follows the CAD.
+void say_open_vertices(const ImportStageOptions& o, const ImportResult& r) {
+  constexpr double kSeen = 1e-4;  // of the reference diagonal: finer lengths are rare
+  const ImportFinding* worst = nullptr;
+  std::size_t n = 0;
+  for (const ImportFinding& f : r.findings) {
+    if (f.kind != FindingKind::kOpenVertex || f.size <= kSeen * r.tables.reference_diagonal()) continue;
+    ++n;
+    if (!worst || f.size > worst->size) worst = &f;
+  }
+  if (worst)
+    log_warning(fmt::format(
+        "{}: edges end away from {}, by up to {:.3g} at {} ({:.6g}, {:.6g}, {:.6g}); st-check fails meshes whose "
+        "lengths there are about as small: repair the CAD there, or ask for longer ones",
+        o.model, n == 1 ? "their vertex" : fmt::format("{} vertices", n), worst->size, worst->entity, worst->xyz.x,
+        worst->xyz.y, worst->xyz.z));
+}
+
 /// What --cap closed, and what it could not.
 void say_openings(const ImportStageOptions& o, const ImportResult& r) {
   for (const ImportFinding& f : r.findings) {
@@ -301,6 +319,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   say_bodies(o, r);
   say_crossing_faces(o, r);
   say_faults(o, r);
+  say_open_vertices(o, r);
   say_openings(o, r);
   const auto say_line = o.check ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);

@@ -831,14 +831,15 @@ class RasterRun {
   }
 
   void set_limits() {
-    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_);
+    std::vector<WingEdge> small;
+    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_, &small);
     std::vector<DeclaredEdge> declared;
     if (comm_.is_root()) {
       declared = declared_edges(rules_, model_.tables(), bases_, wings_.edges);
       declare_edges(model_, roles_, bases_, declared, wings_.edges);
     }
     std::vector<LiftingSurface>& wings = wings_.aircraft.wings;
-    wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft);
+    wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft, small);
     if (comm_.is_root())
       add_round_tails(model_, roles_, wings_.edges, edges_without_wing(model_.tables(), declared), wings);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);

@@ -52,9 +52,21 @@ SPANS = {
     "canard_and_delta": [2.5, 2.5, 1.51, 1, 1],  # deltas, fin, canards
     "delta": [2],
     "delta_with_edge": [2],
+    "serrated_wing": [4.66],  # 24 flanks of 0.194
+    "serrated_by_cuts": [5.12],  # 12 teeth: 0.167 along the span, two flanks of 0.13
+    "serrated_shallow": [4.16],
+    "wavy_wing": [4.21],
+    "dogtooth_wing": [4.03],
+    "notched_wing": [3.64],  # 4 without three notches of 0.12
+    "gurney_wing": [4],
+    "vortex_generators": [4] + 10 * [0.0158],
+    "small_propeller": [4.59, 4.59, 2.4, 1.79, 1.76, 1.76, 0.43, 0.129, 0.129],
+    "small_round_propeller": [4.59, 4.59, 2.4, 1.79, 1.76, 1.76, 0.43, 0.098, 0.098, 0.098],
+    "hull_with_screw": [0.129, 0.129],
+    "split_winglet": [3.99, 0.85],
 }
 PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal",
-         "oval_bar")
+         "oval_bar", "saw")
 
 
 class WingShapes(ToolTest):
@@ -100,6 +112,14 @@ class WingShapes(ToolTest):
             edges = wing["trailing_edges"] + wing.get("inside_along", [])
             rules.write_text(f"size = [{{ edges = {edges}, trailing_edge = false }}]\n")
             self.assertEqual(self.raster(name, "euler", "--sizes", rules).json()["lifting_surfaces"], [], name)
+
+    def test_edges_away_from_their_vertices_are_said_at_import(self):
+        for name, text in (("rudder", r"away from 28 vertices, by up to 0.00283 at vertex 3 \(0.903628, 0.0222602, 0.002"),
+                           ("wing_with_fairing", "away from their vertex, by up to 0.0625")):
+            model = self.folder / f"{name}.brep"
+            subprocess.run([WING_MODELS, name, model], check=True, capture_output=True, timeout=100)
+            done = must("st-import", model, "-o", self.folder / "geometry.hdf")
+            self.assertRegex(done.err, f"warning: .*edges end {text}")
 
     def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
         self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")

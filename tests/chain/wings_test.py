@@ -14,7 +14,7 @@ WINGS = {
     "aero_d150_half_with_tail.brep": 3,
     "aero_d150_wing.igs": 1,
     "aero_d150_wing_body_half.brep": 1,
-    "aero_evtol_bet.brep": 7,
+    "aero_evtol_bet.brep": 5,  # a boom parts each wing in two
     "aero_onera_m6_sharpte.brep": 1,
     "aero_tigl_simplewing.brep": 1,
     "aero_bladex_propeller_shaft.iges": 5,

@@ -601,6 +601,7 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"spindle_torus", [] { return BRepPrimAPI_MakeTorus(3, 5).Shape(); }},
       {"thin_plate", [] { return box(10, 10, 0.02); }},
+      {"notched_plate", [] { return BRepAlgoAPI_Cut(box(10, 10, 1), moved(box(2, 2, 2), 9, 4, -0.5)).Shape(); }},
       {"wedge_strip", [] { return tapered_bar(); }},
       {"helical_ribbon", helical_ribbon},
       {"thin_crescent",

@@ -508,6 +508,12 @@ TopoDS_Shape round_propeller() {
   return all;
 }
 
+/// A tenth of it, before the wing of an aircraft.
+TopoDS_Shape small_round_propeller() {
+  const TopoDS_Shape fan = moved(round_propeller(), [](gp_Trsf& t) { t.SetScale(gp_Pnt(), 0.12); });
+  return compound_of({aircraft(), shifted(fan, gp_Vec(3.2, -2, 0))});
+}
+
 /// The base of a rudder without corners: its long edges are rounded.
 TopoDS_Shape round_rudder() {
   const TopoDS_Shape blade = loft({.thickness = 0.18, .base = 0.02, .tail = Tail::kBlunt},
@@ -569,6 +575,107 @@ TopoDS_Shape sail() {
   }
   thru.Build();
   return thru.Shape();
+}
+
+// --- trailing edges that are no line ---
+
+/// Span 4, chord 1, with the profile's tail stretched by 0.1 at every second section: sharp flanks of 34 degrees.
+TopoDS_Shape serrated_wing() {
+  constexpr int kTeeth = 12;
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 2 * kTeeth; ++i)
+    frames.push_back(straight(gp_Pnt(0, 4.0 * i / (2 * kTeeth), 0), i % 2 ? 1.1 : 1));
+  return loft({}, frames);
+}
+
+/// The same outline cut from a blunt wing: flanks have bases whose width grows to the notches.
+TopoDS_Shape serrated_by_cuts(double depth) {
+  constexpr int kTeeth = 12;
+  constexpr double kPitch = 4.0 / kTeeth;
+  TopoDS_Shape wing = loft(kBlunt, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 4, 0), 1)});
+  for (int i = 0; i < kTeeth; ++i) {
+    const double y = kPitch * (i + 0.5);
+    BRepBuilderAPI_MakePolygon wire(gp_Pnt(1.1, y - 0.5 * kPitch, -1), gp_Pnt(1.1, y + 0.5 * kPitch, -1),
+                                    gp_Pnt(1 - depth, y, -1), true);
+    wing = cut(wing, BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 0, 2)).Shape());
+  }
+  return wing;
+}
+
+/// Five waves along a smooth trailing edge.
+TopoDS_Shape wavy_wing() {
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 40; ++i)
+    frames.push_back(straight(gp_Pnt(0, 0.1 * i, 0), 1 + 0.06 * std::sin(2 * M_PI * i / 8)));
+  return loft({}, frames, false);
+}
+
+/// Its leading edge steps forward at half of the span: a dogtooth.
+TopoDS_Shape dogtooth_wing() {
+  return fuse(loft({}, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0.5, 2, 0), 0.8)}),
+              loft({}, {straight(gp_Pnt(0.4, 2, 0), 0.9), straight(gp_Pnt(0.9, 4, 0), 0.6)}));
+}
+
+/// Rectangular notches in the trailing edge, as around the tracks of flaps.
+TopoDS_Shape notched_wing() {
+  TopoDS_Shape wing = loft(kBlunt, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 4, 0), 1)});
+  for (const double y : {0.8, 1.5, 2.9}) wing = cut(wing, box(0.85, y, -1, 0.3, 0.12, 2));
+  return wing;
+}
+
+/// A strip of 1.5 % of the chord stands below the trailing edge.
+TopoDS_Shape gurney_wing() {
+  const TopoDS_Shape wing = loft(kBlunt, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 4, 0), 1)});
+  return fuse(wing, box(0.996, 0, -0.017, 0.004, 4, 0.018));
+}
+
+/// Two blades of radius 0.15 and chord 0.03 on a hub.
+TopoDS_Shape small_fan() {
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 4; ++i) frames.push_back(straight(gp_Pnt(-0.015, 0, 0.01 + 0.035 * i), 0.03, 90, 60 - 10 * i));
+  const TopoDS_Shape blade = loft({.thickness = 0.1}, frames, false);
+  const TopoDS_Shape hub = fuselage({{-0.06, 0}, {-0.04, 0.02}, {0, 0.025}, {0.04, 0.02}, {0.06, 0}});
+  return fuse_all({hub, blade, turned(blade, gp::DX(), M_PI)});
+}
+
+/// Before the wing of an aircraft that is 10 long.
+TopoDS_Shape small_propeller() { return compound_of({aircraft(), shifted(small_fan(), gp_Vec(3.2, -2, 0))}); }
+
+/// Behind a hull without any other wing.
+TopoDS_Shape hull_with_screw() {
+  return compound_of({fuselage({{0, 0}, {0.4, 0.3}, {1.2, 0.47}, {2.5, 0.5}, {6, 0.5}, {8, 0.33}, {9, 0.2}, {9.8, 0}}),
+                      shifted(small_fan(), gp_Vec(10, 0, 0))});
+}
+
+/// Ten small fins of length 0.03 on a wing.
+TopoDS_Shape vortex_generators() {
+  TopoDS_Shape wing = loft(kBlunt, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 4, 0), 1)});
+  for (int i = 0; i < 10; ++i) {
+    const TopoDS_Shape fin = loft(
+        {.thickness = 0.08}, {straight(gp_Pnt(0.2, 0, 0.04), 0.03, 90), straight(gp_Pnt(0.21, 0, 0.075), 0.02, 90)});
+    wing = fuse(
+        wing,
+        shifted(moved(fin, [&](gp_Trsf& t) { t.SetRotation(gp_Ax1(gp_Pnt(0.2, 0, 0), gp::DZ()), i % 2 ? 0.3 : -0.3); }),
+                gp_Vec(0, 0.4 * i + 0.2, 0)));
+  }
+  return wing;
+}
+
+/// A sharp wing with a winglet, all edges of both cut at ten planes, each piece turned a little.
+TopoDS_Shape split_winglet() {
+  TopTools_ListOfShape wing, planes;
+  wing.Append(fuse(loft({}, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0.6, 4, 0), 0.5)}),
+                   loft({}, {straight(gp_Pnt(0.6, 3.99, -0.01), 0.5, 80), straight(gp_Pnt(0.9, 4.1, 0.8), 0.25, 80)})));
+  for (int i = 1; i < 10; ++i)
+    planes.Append(
+        BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 0.41 * i, 0), gp_Dir(0.02 * i, 1, 0.1)), -9, 9, -9, 9).Face());
+  for (int i = 1; i < 5; ++i)
+    planes.Append(BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(0, 4, 0.15 * i), gp_Dir(0.1, 0, 1)), -9, 9, -9, 9).Face());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(wing);
+  splitter.SetTools(planes);
+  splitter.Build();
+  return splitter.Shape();
 }
 
 // --- machine parts ---
@@ -670,6 +777,18 @@ TopoDS_Shape oval_bar() {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire).Face(), gp_Vec(0, 0, 120)).Shape();
 }
 
+/// A plate with triangular teeth, ground to an edge on one side.
+TopoDS_Shape saw() {
+  constexpr int kTeeth = 8;
+  TopoDS_Shape blade = prism({{0, 0, 0}, {100, 0, 0}, {100, 0, 2}, {95, 0, 2}, {0, 0, 2}}, 160);
+  for (int i = 0; i < kTeeth; ++i) {
+    BRepBuilderAPI_MakePolygon wire(gp_Pnt(101, 20.0 * i, -1), gp_Pnt(101, 20.0 * (i + 1), -1),
+                                    gp_Pnt(88, 20.0 * i + 10, -1), true);
+    blade = cut(blade, BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire()).Face(), gp_Vec(0, 3, 5)).Shape());
+  }
+  return blade;
+}
+
 /// A ring with a sharp lip.
 TopoDS_Shape seal() {
   const TopoDS_Face face = polygon({{0, 0, 40}, {12, 0, 40}, {12, 0, 46}, {8, 0, 46}});
@@ -695,9 +814,26 @@ const Makers& round_models() {
                           {"oval_blade", oval_blade},
                           {"round_hydrofoil", round_hydrofoil},
                           {"round_propeller", round_propeller},
+                          {"small_round_propeller", small_round_propeller},
                           {"round_strut", round_strut},
                           {"round_ring", round_ring},
                           {"round_rudder", round_rudder}};
+  return all;
+}
+
+/// Trailing edges that are no line, and small parts of large models.
+const Makers& rough_models() {
+  static const Makers all{{"serrated_wing", serrated_wing},
+                          {"serrated_by_cuts", [] { return serrated_by_cuts(0.1); }},
+                          {"serrated_shallow", [] { return serrated_by_cuts(0.02); }},
+                          {"wavy_wing", wavy_wing},
+                          {"dogtooth_wing", dogtooth_wing},
+                          {"notched_wing", notched_wing},
+                          {"gurney_wing", gurney_wing},
+                          {"small_propeller", small_propeller},
+                          {"hull_with_screw", hull_with_screw},
+                          {"vortex_generators", vortex_generators},
+                          {"split_winglet", split_winglet}};
   return all;
 }
 
@@ -714,6 +850,7 @@ const Makers& parts() {
                           {"part_cover", cover_plate},
                           {"part_rib", tapered_rib},
                           {"part_oval_bar", oval_bar},
+                          {"part_saw", saw},
                           {"part_seal", seal}};
   return all;
 }
@@ -767,7 +904,7 @@ const Makers& wings() {
 
 Makers models() {
   Makers all = wings();
-  for (const Makers* more : {&round_models(), &parts()}) all.insert(more->begin(), more->end());
+  for (const Makers* more : {&round_models(), &rough_models(), &parts()}) all.insert(more->begin(), more->end());
   return all;
 }
 

@@ -1,0 +1,123 @@
+#include "features/trailing_chains.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "base/disjoint_sets.h"
+
+namespace st {
+namespace {
+
+constexpr double kOneLine = 0.985;  // cosine, 10 degrees: between two edges and the way across the notch between them
+constexpr double kSquare = radians(1);  // of a base, from square to the side: a plate's has no noses before it
+
+/// Where an edge ends.
+struct End {
+  Vec3 x;
+  Vec3 out;  // unit, onwards
+};
+
+std::array<End, 2> ends_of(const Model& model, EdgeId e) {
+  const auto curve = model.curve(e);
+  const CurvePoint a = curve->evaluate(curve->t_min()), b = curve->evaluate(curve->t_max());
+  return {End{a.x, -normalized(a.d1)}, End{b.x, normalized(b.d1)}};
+}
+
+/// `widest`: of the notch.
+bool goes_on(const End& a, const End& b, double widest) {
+  const Vec3 way = b.x - a.x;
+  const double width = norm(way);
+  return width > 0 && width <= widest && dot(a.out, way) > kOneLine * width && -dot(b.out, way) > kOneLine * width;
+}
+
+std::vector<std::vector<WingEdge>> sets_of(DisjointSets& sets, std::span<const WingEdge> edges) {
+  std::vector<std::vector<WingEdge>> all;
+  for (const std::vector<std::int32_t>& set : sets.groups()) {
+    all.emplace_back();
+    for (const std::int32_t i : set) all.back().push_back(edges[static_cast<std::size_t>(i)]);
+  }
+  return all;
+}
+
+/// Joins each edge with the first one of the same key.
+class Joiner {
+ public:
+  explicit Joiner(DisjointSets& sets) : sets_(sets) {}
+  void add(std::int32_t key, std::size_t i) {
+    const auto [known, is_new] = first_.emplace(key, static_cast<std::int32_t>(i));
+    if (!is_new) sets_.join(static_cast<std::int32_t>(i), known->second);
+  }
+
+ private:
+  DisjointSets& sets_;
+  std::map<std::int32_t, std::int32_t> first_;
+};
+
+void join_across_notches(const Model& model, std::span<const WingEdge> edges, DisjointSets& sets) {
+  const ModelTables& t = model.tables();
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> edge_faces;
+  t.edge_faces(offsets, edge_faces);
+  std::map<FaceId, std::vector<std::int32_t>> at_face;
+  std::vector<std::array<End, 2>> ends;
+  for (const WingEdge& w : edges) {
+    const auto own = static_cast<std::int32_t>(ends.size());
+    ends.push_back(ends_of(model, w.edge));
+    const bool may_be_plate = w.base != kNone && std::abs(w.angle - kPi / 2) < kSquare;
+    for (std::int32_t k = offsets[w.edge]; k < offsets[w.edge + 1]; ++k)
+      if (!may_be_plate && edge_faces[k] != w.base) at_face[edge_faces[k]].push_back(own);
+  }
+  for (const auto& [face, own] : at_face)
+    for (std::size_t a = 0; a < own.size(); ++a)
+      for (std::size_t b = a + 1; b < own.size(); ++b) {
+        const auto i = own[a], j = own[b];
+        const double widest = std::max(edges[i].length, edges[j].length);
+        for (const End& from : ends[i])
+          for (const End& to : ends[j])
+            if (goes_on(from, to, widest)) sets.join(i, j);
+      }
+}
+
+}  // namespace
+
+std::vector<std::vector<WingEdge>> trailing_chains(const Model& model, std::span<const WingEdge> edges) {
+  std::vector<WingEdge> trailing;
+  for (const WingEdge& w : edges)
+    if (w.kind != WingEdgeKind::kLeading) trailing.push_back(w);
+  DisjointSets sets(static_cast<std::int64_t>(trailing.size()));
+  Joiner at_vertex(sets), at_base(sets);
+  for (std::size_t i = 0; i < trailing.size(); ++i) {
+    if (trailing[i].base != kNone) at_base.add(trailing[i].base, i);
+    for (const std::size_t k : {0, 1})
+      at_vertex.add(model.tables().edge_vertices[2 * static_cast<std::size_t>(trailing[i].edge) + k], i);
+  }
+  join_across_notches(model, trailing, sets);
+  return sets_of(sets, trailing);
+}
+
+ChainLine::ChainLine(std::span<const EdgePlace> places) {
+  std::vector<Box3> boxes;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool goes_on = i + 1 < places.size() && places[i + 1].edge == places[i].edge;
+    pieces_.push_back({places[i].x, places[goes_on ? i + 1 : i].x});
+    boxes.emplace_back();
+    boxes.back().add(pieces_.back().begin);
+    boxes.back().add(pieces_.back().end);
+  }
+  tree_ = BoxTree(boxes);
+}
+
+bool ChainLine::is_near(Vec3 x, double reach) const {
+  bool is_found = false;
+  tree_.visit_near(
+      x, [&](std::int32_t, double d2) { return !is_found && d2 <= reach * reach; },
+      [&](std::int32_t i) {
+        const Piece& piece = pieces_[static_cast<std::size_t>(i)];
+        is_found = is_found || segment_distance(x, piece.begin, piece.end) < reach;
+      });
+  return is_found;
+}
+
+}  // namespace st
