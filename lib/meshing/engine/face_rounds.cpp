@@ -20,6 +20,7 @@
 #include "meshing/engine/last_resorts.h"
 #include "meshing/engine/refinement_trials.h"
 #include "meshing/engine/region_tasks.h"
+#include "meshing/engine/stretch_easing.h"
 #include "meshing/face/face_patch.h"
 #include "meshing/face/failed_face.h"
 #include "meshing/face/fold_repair.h"
@@ -55,7 +56,7 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
 void FaceRounds::mesh_edges() { faces_.set_edges(edge_mesher_.mesh(dirty_edges_, refinements_, faces_.edges())); }
 
 /// Collective. What these refinements reached, which are others or no more, is meshed once more: these faces.
-std::vector<FaceId> FaceRounds::mesh_without(const std::vector<Refinement>& changed, const char* why) {
+std::vector<FaceId> FaceRounds::mesh_changed(const std::vector<Refinement>& changed, const char* why) {
   if (executor_.is_root()) find_dirty(changed);
   share(executor_, dirty_edges_, dirty_faces_);
   log_info(fmt::format("refining at {} places {}: {} edges, {} faces again", changed.size(), why, dirty_edges_.size(),
@@ -68,11 +69,13 @@ std::vector<FaceId> FaceRounds::mesh_without(const std::vector<Refinement>& chan
 }
 
 void FaceRounds::report(PatchesGo patches) {
-  RefinementTrials trials(
-      tables_, executor_, hopeless_, faces_, refinements_,
-      [&](const std::vector<Refinement>& changed, const char* why) { return mesh_without(changed, why); });
+  const auto mesh_again = [&](const std::vector<Refinement>& changed, const char* why) {
+    return mesh_changed(changed, why);
+  };
+  RefinementTrials trials(tables_, executor_, hopeless_, faces_, refinements_, mesh_again);
   trials.take_back();
   if (!is_restored_) trials.loosen();
+  StretchEasing(tables_, field_, executor_, faces_, refinements_, mesh_again).run();
   refill_bad(faces_, executor_);
   part_touching(faces_, executor_);
   faces_.hand_over(patches, result_);

@@ -18,16 +18,18 @@ struct RefinementPolicy {
 
   // lengths
   static constexpr double kLoopFloor = 1.0 / 16;    ///< of loops, folds and narrow parts: refining ends there
+  static constexpr double kObtuseFloor = 1.0 / 8;   ///< where lengths are alike in all directions and angles obtuse
   static constexpr double kLeastFactor = 1.0 / 32;  ///< of a triangle's length: walls that need less cannot be parted
   static constexpr double kCovering = 1.5;          ///< of half a triangle's longest side: a circle that covers it
   static constexpr double kWider = 0.75;            ///< more than that in each later round: new places crossed beside
   static constexpr double kLooser = 2;              ///< times a refined length that may be too short
 
   // places
-  static constexpr std::uint64_t kFewCrossings = 200;  ///< so many may be refined for longer
-  static constexpr std::size_t kMaxWallPlaces = 8000;  ///< in one round, where it is measured what parts walls
-  static constexpr std::size_t kMostBadPlaces = 2000;  ///< that are looked at when refinements are taken back
-  static constexpr std::size_t kFewRefined = 200;      ///< with more, no lengths are loosened: it takes too long
+  static constexpr std::uint64_t kFewCrossings = 200;    ///< so many may be refined for longer
+  static constexpr std::size_t kMaxWallPlaces = 8000;    ///< in one round, where it is measured what parts walls
+  static constexpr std::size_t kMostBadPlaces = 2000;    ///< that are looked at when refinements are taken back
+  static constexpr std::size_t kMostEasedPlaces = 4000;  ///< whose lengths along become shorter in one round
+  static constexpr std::size_t kFewRefined = 200;        ///< with more, no lengths are loosened: it takes too long
 
   // triangles
   static constexpr double kMostRepeated = 30;      ///< in all rounds, by those of the first one
@@ -49,6 +51,8 @@ struct RefinementPolicy {
   static constexpr int kMostWithout = 2;    ///< meshings of a face in a row that leave not clearly fewer
   static constexpr int kMostTakenBack = 4;  ///< that refinements at bad places are taken back: bad places move
   static constexpr int kMostLoosened = 4;   ///< that lengths are doubled: most are no finer than kLoopFloor
+  static constexpr int kMostEased = 10;     ///< that lengths along become shorter: to 0.6 each time, 100 to 1 in nine
+  static constexpr int kMostUneased = 3;    ///< likewise in a row that leave not fewer flaws
   static constexpr int kMostTried = 2;      ///< meshings each: places that are needed come to light
 
   /// Whether loops, folds and narrow parts are refined after this round, the first one being 1.

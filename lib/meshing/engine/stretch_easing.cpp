@@ -1,0 +1,102 @@
+#include "meshing/engine/stretch_easing.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "base/share.h"
+#include "mesh/merge.h"
+#include "meshing/engine/refinement_policy.h"
+
+namespace st {
+
+using Policy = RefinementPolicy;
+
+void StretchEasing::run() {
+  if (!field_.is_stretched()) return;
+  n_bad_ = faces_.n_bad();
+  share(executor_, n_bad_);
+  flaws_ = find_flaws();
+  share(executor_, flaws_.n_triangles);
+  best_ = {{n_bad_, flaws_.n_triangles}, faces_.state(), refinements_.all()};
+  run_rounds(&StretchFlaws::stretched);
+  run_rounds(&StretchFlaws::obtuse);
+}
+
+void StretchEasing::run_rounds(Places StretchFlaws::*places) {
+  const std::size_t first = refinements_.all().size();
+  for (int i = 0, n_without = 0; i < Policy::kMostEased && n_without < Policy::kMostUneased; ++i) {
+    const std::vector<Refinement> shorter = shorten(flaws_.*places);
+    if (shorter.empty()) break;
+    mesh_again_(shorter, "where stretched triangles are obtuse or too large");
+    take_back_spoiling(first);
+    n_without = keep_if_better() ? 0 : n_without + 1;
+  }
+  if (!is_best_) go_back();
+}
+
+/// On rank 0.
+StretchFlaws StretchEasing::find_flaws() const {
+  std::vector<FaceId> all(tables_.n_faces());
+  std::iota(all.begin(), all.end(), 0);
+  const MeshedFaces::Patches patches = faces_.bring(all);
+  if (!executor_.is_root()) return {};
+  std::vector<const FacePatch*> of_faces;
+  for (const auto& [f, patch] : patches) of_faces.push_back(&patch);
+  const WeldedPatches welded = weld_patches(faces_.edges(), tables_.vertex_xyz, of_faces);
+  return find_stretch_flaws(welded.points, welded.triangles, RefinedField(field_, refinements_.all()));
+}
+
+/// Sets is_best_.
+bool StretchEasing::keep_if_better() {
+  flaws_ = find_flaws();
+  std::pair<std::int64_t, std::size_t> n_flaws{faces_.n_bad(), flaws_.n_triangles};
+  share(executor_, n_flaws.first, n_flaws.second);
+  is_best_ = n_flaws < best_.n_flaws;
+  if (is_best_) best_ = {n_flaws, faces_.state(), refinements_.all()};
+  std::vector<PlacedFace> others;
+  for (FaceId f = 0; executor_.is_root() && f < tables_.n_faces(); ++f) others.push_back({f, best_.state.places[f]});
+  faces_.keep_only(std::move(others));
+  return is_best_;
+}
+
+/// Those that are new.
+std::vector<Refinement> StretchEasing::shorten(const Places& places) {
+  const std::size_t n_before = refinements_.all().size(), step = places.size() / Policy::kMostEasedPlaces + 1;
+  for (std::size_t i = 0; i < places.size(); i += step)
+    if (std::ranges::none_of(spoiling_, [&](const Refinement& r) { return distance(r.x, places[i].x) < r.reach; }))
+      refinements_.add(places[i], Policy::kObtuseFloor);
+  std::vector<Refinement> all = refinements_.all();
+  share(executor_, all);
+  refinements_.assign(all);
+  return {all.begin() + static_cast<std::ptrdiff_t>(n_before), all.end()};
+}
+
+/// Where more folds and crosses than at the beginning: shorter lengths that reach these places are given up for good.
+void StretchEasing::take_back_spoiling(std::size_t first) {
+  char is_worse = faces_.n_bad() > n_bad_;
+  share(executor_, is_worse);
+  if (!is_worse) return;
+  const std::vector<Vec3> bad = faces_.bad_places();
+  std::vector<Refinement> kept, dropped;
+  for (std::size_t i = 0; i < refinements_.all().size(); ++i) {
+    const Refinement& r = refinements_.all()[i];
+    const bool reaches = std::ranges::any_of(bad, [&](Vec3 x) { return distance(r.x, x) < r.reach; });
+    (i >= first && reaches ? dropped : kept).push_back(r);
+  }
+  share(executor_, kept, dropped);
+  if (dropped.empty()) return;
+  spoiling_.insert(spoiling_.end(), dropped.begin(), dropped.end());
+  refinements_.assign(std::move(kept));
+  mesh_again_(dropped, "spoils triangles");
+}
+
+void StretchEasing::go_back() {
+  refinements_.assign(best_.refinements);
+  std::vector<FaceId> all(tables_.n_faces());
+  std::iota(all.begin(), all.end(), 0);
+  faces_.go_back(best_.state, all);
+  flaws_ = find_flaws();
+  is_best_ = true;
+}
+
+}  // namespace st

@@ -1,0 +1,62 @@
+// Lengths along become shorter where stretched triangles do not fit the surface.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "base/executor.h"
+#include "meshing/engine/meshed_faces.h"
+#include "meshing/engine/refinement_trials.h"
+#include "meshing/engine/stretch_flaws.h"
+#include "meshing/face/refinements.h"
+
+namespace st {
+
+/// Rounds, once the others have ended: lengths along become shorter about obtuse triangles and large steps of size,
+/// down to those across, and what they reach is meshed again. The best mesh stays: one that folds or crosses no more
+/// than at the beginning. Collective.
+class StretchEasing {
+ public:
+  /// All references outlive the object. `mesh_again`: see RefinementTrials.
+  StretchEasing(const ModelTables& tables, const SizeField& field, const Executor& executor, MeshedFaces& faces,
+                Refinements& refinements, RefinementTrials::MeshAgain mesh_again)
+      : tables_(tables),
+        field_(field),
+        executor_(executor),
+        faces_(faces),
+        refinements_(refinements),
+        mesh_again_(std::move(mesh_again)) {}
+
+  void run();
+
+ private:
+  using Places = std::vector<RefinementPoint>;
+  struct Best {
+    std::pair<std::int64_t, std::size_t> n_flaws;  // folds, crossings and failures; stretched triangles
+    MeshedFaces::State state;
+    std::vector<Refinement> refinements;
+  };
+
+  StretchFlaws find_flaws() const;
+  void run_rounds(Places StretchFlaws::*places);
+  bool keep_if_better();
+  std::vector<Refinement> shorten(const Places& places);
+  void take_back_spoiling(std::size_t first);
+  void go_back();
+
+  const ModelTables& tables_;
+  const SizeField& field_;
+  const Executor& executor_;
+  MeshedFaces& faces_;
+  Refinements& refinements_;
+  RefinementTrials::MeshAgain mesh_again_;
+  std::int64_t n_bad_ = 0;            // at the beginning
+  std::vector<Refinement> spoiling_;  // lengths are not shortened within their reach
+  StretchFlaws flaws_;                // of the present mesh, on rank 0
+  Best best_;
+  bool is_best_ = true;  // the present mesh
+};
+
+}  // namespace st

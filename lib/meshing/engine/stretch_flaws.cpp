@@ -1,0 +1,108 @@
+#include "meshing/engine/stretch_flaws.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "mesh/adjacency.h"
+
+namespace st {
+namespace {
+
+// Where each number comes from: docs/design/heuristics.md.
+constexpr double kMostAngle = radians(140);  // of a triangle
+constexpr double kMostGrowth = 2.2;          // of lengths, from a triangle to its neighbour
+constexpr double kGrowthLeft = 1.6;          // what is aimed at there
+constexpr double kShorter = 0.6;             // lengths along, in one round
+constexpr double kLeastShorter = 0.35;       // at most
+constexpr double kAlike = 1.05;              // along over across: less is about the same
+constexpr double kAround = 0.75;             // of the longest side: so far about a triangle
+
+class FlawFinder {
+ public:
+  FlawFinder(std::span<const Vec3> points, std::span<const Triangle> triangles, const SizeField& present)
+      : points_(points),
+        triangles_(triangles),
+        present_(present),
+        factor_(triangles.size(), 1),
+        is_obtuse_(triangles.size(), 0) {}
+
+  StretchFlaws run() {
+    for (std::size_t t = 0; t < triangles_.size(); ++t) is_obtuse_[t] = is_obtuse(triangles_[t]);
+    compare_neighbours();
+    StretchFlaws flaws;
+    bool is_long = false;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      if (!is_obtuse_[t] && factor_[t] == 1) continue;
+      ++flaws.n_triangles;
+      const RefinementPoint place = place_at(t, is_long);
+      if (is_long)
+        flaws.stretched.push_back(place);
+      else if (is_obtuse_[t])
+        flaws.obtuse.push_back(place);
+    }
+    return flaws;
+  }
+
+ private:
+  Vec3 x(const Triangle& t, int k) const { return points_[t.n[k % 3]]; }
+
+  bool is_obtuse(const Triangle& t) const {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 a = x(t, k + 1) - x(t, k), b = x(t, k + 2) - x(t, k);
+      if (dot(a, b) < std::cos(kMostAngle) * norm(a) * norm(b)) return true;
+    }
+    return false;
+  }
+  double area(TriangleId t) const {
+    const Triangle& r = triangles_[t];
+    return 0.5 * norm(cross(x(r, 1) - x(r, 0), x(r, 2) - x(r, 0)));
+  }
+
+  /// The larger one of two neighbours becomes smaller.
+  void compare_neighbours() {
+    const EdgeTable edges(triangles_, static_cast<std::int64_t>(points_.size()));
+    edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
+      if (sides.size() != 2) return;
+      TriangleId small = sides[0] / 3, large = sides[1] / 3;
+      double low = area(small), high = area(large);
+      if (low > high) {
+        std::swap(small, large);
+        std::swap(low, high);
+      }
+      if (!(high > kMostGrowth * kMostGrowth * low)) return;
+      const double wanted = low > 0 ? kGrowthLeft * kGrowthLeft * low / high : 0;
+      factor_[large] = std::min(factor_[large], std::max(kLeastShorter, wanted));
+    });
+  }
+
+  /// `is_long`: lengths along differ from those across; they become no shorter than these.
+  RefinementPoint place_at(std::size_t t, bool& is_long) const {
+    const Triangle& r = triangles_[t];
+    const double longest =
+        std::max({distance(x(r, 0), x(r, 1)), distance(x(r, 1), x(r, 2)), distance(x(r, 2), x(r, 0))});
+    RefinementPoint place{(x(r, 0) + x(r, 1) + x(r, 2)) / 3};
+    int hint = 0;
+    const LocalSize local = present_.local(place.x, hint);
+    is_long = local.along > kAlike * local.length;
+    const double factor = is_obtuse_[t] ? std::min(kShorter, factor_[t]) : factor_[t];
+    place.length = std::max(is_long ? local.length : 0, factor * std::min(local.along, longest));
+    place.radius = kAround * longest;
+    return place;
+  }
+
+  std::span<const Vec3> points_;
+  std::span<const Triangle> triangles_;
+  const SizeField& present_;
+  std::vector<double> factor_;   // [triangles] of lengths along, by neighbours; 1: none is asked for
+  std::vector<char> is_obtuse_;  // [triangles]
+};
+
+}  // namespace
+
+StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                const SizeField& present) {
+  return FlawFinder(points, triangles, present).run();
+}
+
+}  // namespace st
