@@ -3,7 +3,8 @@
 
 Both come from Debian (packages tetgen, gmsh); each gets a limited time.
 
-usage: scripts/fill_table.py BIN_DIR MODEL... [--max-aspect 16] [--farfield box:5] [--seconds 300] [--coarse] [--join]
+usage: scripts/fill_table.py BIN_DIR MODEL... [--max-aspect 16] [--preset P] [--farfield box:5] [--seconds 300]
+       [--coarse] [--join]
 --farfield none: the models have one, or are filled inside. --coarse: larger sizes, for models that would take long.
 --join: solids that touch get common faces.
 """
@@ -29,10 +30,11 @@ def make_mesh(bin_dir, model, folder, options):
     file = {n: folder / f"{n}.hdf" for n in ("geometry", "raster", "sizing", "patches", "mesh")}
     farfield = [] if options.farfield == "none" else ["--farfield", options.farfield]
     join = ["--join"] if options.join else []
+    preset = ["--preset", options.preset] if options.preset else []
     must(bin_dir / "st-import", model, *farfield, *join, "-o", file["geometry"], "-q")
     sizes = ["--max-aspect", options.max_aspect, *(COARSE if options.coarse else [])]
-    must(bin_dir / "st-raster", file["geometry"], *sizes, "-o", file["raster"], "-q")
-    must(bin_dir / "st-prolong", file["raster"], "-o", file["sizing"], "-q")
+    must(bin_dir / "st-raster", file["geometry"], *preset, *sizes, "-o", file["raster"], "-q")
+    must(bin_dir / "st-prolong", file["raster"], *preset, "-o", file["sizing"], "-q")
     must(bin_dir / "st-mesh", file["geometry"], file["sizing"], "-o", file["patches"], "-q")
     must(bin_dir / "st-merge", file["patches"], "-o", file["mesh"], "--allow-incomplete", "-q")
     for suffix in ("smesh", "msh"):
@@ -73,6 +75,7 @@ def main():
     parser.add_argument("bin_dir", type=Path)
     parser.add_argument("models", type=Path, nargs="+")
     parser.add_argument("--max-aspect", default="16")
+    parser.add_argument("--preset")
     parser.add_argument("--farfield", default="box:5")
     parser.add_argument("--seconds", type=int, default=300)
     parser.add_argument("--coarse", action="store_true")

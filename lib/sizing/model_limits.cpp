@@ -177,6 +177,7 @@ class LimitsMaker {
   }
 
   ModelLimits finish() {
+    limit_stretch();
     ModelLimits limits;
     limits.far_length = wall_.max_length;
     limits.min_length = wall_.min_length;
@@ -199,6 +200,16 @@ class LimitsMaker {
     limits.edge = std::move(edge_);
     limits.vertex = std::move(vertex_);
     return limits;
+  }
+
+  /// Of faces off lifting surfaces, where no rule says otherwise.
+  void limit_stretch() {
+    std::vector<char> is_of_wing(face_.surface.size(), 0);
+    for (const LiftingSurface& wing : wings_)
+      for (const FaceId f : wing.faces) is_of_wing[f] = 1;
+    for (std::size_t f = 0; f < face_.surface.size(); ++f)
+      if (Limits& own = face_.surface[f]; own && !is_of_wing[f] && own->max_aspect == wall_.max_aspect)
+        own->max_aspect = std::min(own->max_aspect, kMostAspectOffWings);
   }
 
   /// Faces of lifting surfaces whose largest length nobody has set.

@@ -57,6 +57,9 @@ struct ModelLimits {
 /// field within 0.5 %.
 inline constexpr double kFarLengthPerDiagonal = 1.0 / 30;
 
+/// Length along over length across on faces that belong to no lifting surface, at most.
+inline constexpr double kMostAspectOffWings = 16;
+
 /// Bodies around lifting surfaces take the walls' share of their own diagonal as largest length, and 2 pi / alpha
 /// lengths around, but are no finer than the wing is between nose and trailing edge (chord_cells). Where a body is
 /// thinner around than the chord is long, alpha grows with the root of that ratio, twice at most.

@@ -50,7 +50,8 @@ class WingRaster {
     const auto curve = model_.curve(trailing.edge);
     const ArcTable arc(*curve);
     walk(arc.length(), pack_cause(CauseKind::kEdge, trailing.edge), [&](double share) {
-      return reduced(kTrailing, curve->point(arc.parameter_at(share)), trailing.chord_at(share));
+      return reduced(sizes_.stretch.max_aspect > 1 ? kNose : kTrailing, curve->point(arc.parameter_at(share)),
+                     trailing.chord_at(share));
     });
   }
 

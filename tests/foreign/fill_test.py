@@ -27,7 +27,7 @@ class Fill(unittest.TestCase):
     def test_closed_meshes_are_filled(self):
         for name, farfield in MODELS.items():
             with self.subTest(name), tempfile.TemporaryDirectory() as folder:
-                options = argparse.Namespace(farfield=farfield, join=False, max_aspect="1", coarse=True)
+                options = argparse.Namespace(farfield=farfield, join=False, max_aspect="1", preset=None, coarse=True)
                 _, verdict = fill_table.make_mesh(BIN, CORPUS / name, Path(folder), options)
                 self.assertEqual(verdict, "passes")
                 for filler in (fill_table.tetgen, fill_table.gmsh):

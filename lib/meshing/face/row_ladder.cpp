@@ -48,7 +48,22 @@ class Ladder {
     if (i == 0) return length(0);
     return i + 1 == n() ? length(i - 1) : std::min(length(i - 1), length(i));
   }
-  bool is_narrow(std::size_t i) const { return distance(x(c_.bottom[i]), x(c_.top[i])) < kNarrow * segment(i); }
+  /// Through space and over the surface: both sides of a face around a nose are near each other.
+  bool is_narrow(std::size_t i) const {
+    const double most = kNarrow * segment(i);
+    return distance(x(c_.bottom[i]), x(c_.top[i])) < most && way_over(c_.bottom[i], c_.top[i]) < most;
+  }
+  double way_over(std::int32_t from, std::int32_t to) const {
+    double way = 0;
+    MeshNode last = node(from), p;
+    for (int k = 1; k <= kSteps; ++k) {
+      p.p = node(from).p + static_cast<double>(k) / kSteps * (node(to).p - node(from).p);
+      w_.evaluate(p);
+      way += distance(p.x, last.x);
+      last = p;
+    }
+    return way;
+  }
 
   Column column(std::size_t i) {
     if (i == 0) return c_.left;

@@ -64,6 +64,21 @@ TEST(RowLadder, is_none_on_wide_faces_and_between_unlike_sides) {
   EXPECT_EQ(wide.n_laid() + unlike.n_laid(), 0);
 }
 
+/// Round about x with radius 1, v the angle.
+class RolledSurface : public Surface {
+ public:
+  Vec3 point(Vec2 uv) const override { return {uv.x, std::sin(uv.y), 1 - std::cos(uv.y)}; }
+  SurfacePoint evaluate(Vec2 uv) const override { return {point(uv), {1, 0, 0}, {0, std::cos(uv.y), std::sin(uv.y)}}; }
+  SurfacePoint2 evaluate2(Vec2) const override { return {}; }
+};
+
+TEST(RowLadder, is_none_on_a_face_around_a_nose_whose_sides_are_near_each_other) {
+  const FewerRowsField field;
+  const RolledSurface surface;
+  RowCase rolled({band(10, 10, {1, 2, 3, 4, 5, 6}, {1, 2, 3, 4, 5, 6})}, field, surface);
+  EXPECT_FALSE(lay_ladder(rolled.work, find_row_chains(rolled.work).at(0)));
+}
+
 TEST(RowLadder, leaves_out_columns_that_something_is_in) {
   const FewerRowsField field;
   RowCase face({band(10, 10, {0.3, 0.6}, {0.6}), {{4.9, 0.25}, {4.9, 0.35}, {5.1, 0.35}, {5.1, 0.25}}}, field);

@@ -42,7 +42,7 @@ TEST(StretchEasing, leaves_no_obtuse_triangle_and_no_step) {
     const QualityReport q = measure_quality(mesh, edges_of(mesh));
     EXPECT_LT(q.model.max_angle_deg, 140) << along;
     EXPECT_LT(q.jump_max, 2.2) << along;
-    EXPECT_GT(mesh.n_triangles(), n_plain * 9 / 10) << "edges in the top go with short triangles beside it";
+    EXPECT_LT(mesh.n_triangles(), n_plain) << "lengths along are left";
   }
 }
 

@@ -53,6 +53,25 @@ TEST(ModelLimits, of_an_edge_are_the_smallest_of_its_faces) {
   EXPECT_FALSE(limits.edge[4]) << "degenerate";
 }
 
+TEST(ModelLimits, stretch_lifting_surfaces_alone_by_more_than_16) {
+  SamplingLimits wall = kWall;
+  wall.max_aspect = 100;
+  ModelTables t = three_faces({"wall", "wall", "wall"});
+  t.labels.face_name = {"body", "wing", "strut"};
+  const FaceRoles roles = face_roles(t);
+  Aircraft aircraft;
+  aircraft.wings.emplace_back().faces = {1};
+  SizeRule rule;
+  rule.faces = {"strut"};
+  rule.max_aspect = 40;
+  const ModelLimits limits = model_limits(t, roles, wall, {rule}, {}, aircraft);
+  EXPECT_EQ(limits.face[0]->max_aspect, 16);
+  EXPECT_EQ(limits.face[1]->max_aspect, 100);
+  EXPECT_EQ(limits.face[2]->max_aspect, 40) << "a rule says so";
+  wall.max_aspect = 4;
+  EXPECT_EQ(model_limits(t, roles, wall).face[0]->max_aspect, 4);
+}
+
 TEST(ModelLimits, never_make_a_far_field_finer_than_walls) {
   ModelTables t = three_faces({"wall", "symmetry", "farfield"});
   t.face_box[2] = {{0, 0, 0}, {0.1, 0, 0}};

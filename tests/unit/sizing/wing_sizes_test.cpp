@@ -62,6 +62,13 @@ TEST(WingSizes, run_along_the_trailing_edge_and_the_nose_without_holes) {
         << "so that the first triangles beside nose and edge have what was asked for";
 }
 
+TEST(WingSizes, are_those_of_noses_along_edges_with_rows) {
+  WingSizes sizes = share_of_chord("0.5%chord");
+  sizes.stretch.max_aspect = 16;
+  for (const RasterBox& b : sample("sharp_wing", sizes).boxes)
+    EXPECT_NEAR(b.length, 0.9 * 0.05, 1e-4) << "heights of rows are all that there is";
+}
+
 TEST(WingSizes, run_along_a_trailing_edge_inside_a_face) {
   const Sampled s = sample("closed_wing", share_of_chord("0.5%chord"));
   for (const double x : {-5.0, 5.0}) expect_run_along(s, x);
