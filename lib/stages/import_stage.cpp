@@ -21,6 +21,7 @@
 #include "io/toml/groups_file.h"
 #include "mesh/crossing.h"
 #include "stages/cad_view.h"
+#include "stages/compose.h"
 
 namespace st {
 namespace {
@@ -418,6 +419,7 @@ ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& grou
 
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
+  const bool is_composed = asks_for_composites(o.composite, o.model);
   ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
   nlohmann::json json = report(o.model, r);
@@ -442,6 +444,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
     for (const auto& [name, given] : {std::pair{"unite", o.unite}, {"join", o.join}, {"cap", o.cap}})
       if (given) used[name] = true;
+    if (is_composed) used["composite"] = o.composite;
     if (o.feature_angle) used["feature_angle"] = *o.feature_angle;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
     g.header.options_json = json_text(used);
@@ -455,6 +458,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.is_closed = r.is_closed;
     g.tables = std::move(r.tables);
     std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
+    if (is_composed) s.line += "; " + compose(g, o.composite == "harm");
     json["hash"] = write_geometry(o.output, g);
     json["output"] = o.output;
   }

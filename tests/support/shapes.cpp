@@ -41,6 +41,7 @@
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierSurface.hxx>
+#include <Geom_Circle.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <Geom_Plane.hxx>
 #include <Geom_RectangularTrimmedSurface.hxx>
@@ -485,8 +486,7 @@ TopoDS_Shape wing_with_pod() {
 
 /// The sharp wing, its skin cut into n_chord x n_span faces, wide and narrow ones in turn. They join smoothly but at
 /// the trailing edge.
-TopoDS_Shape cut_wing(int n_chord, int n_span) {
-  const Handle(Geom_BSplineCurve) curve = aerofoil(0.1036);
+TopoDS_Shape cut_prism(const Handle(Geom_Curve) & curve, int n_chord, int n_span) {
   const Handle(Geom_Surface) skin = new Geom_SurfaceOfLinearExtrusion(curve, gp_Dir(0, 0, 1));
   const auto cut = [](int i, int n) {  // between 0 and 1
     return (i % 2 && i < n ? i + 0.96 : i) / n;
@@ -508,6 +508,8 @@ TopoDS_Shape cut_wing(int n_chord, int n_span) {
   sewing.Perform();
   return BRepBuilderAPI_MakeSolid(TopoDS::Shell(sewing.SewedShape())).Shape();
 }
+
+TopoDS_Shape cut_wing(int n_chord, int n_span) { return cut_prism(aerofoil(0.1036), n_chord, n_span); }
 
 /// A long prism of a circle's segment: a flat side and an arched one, 0.1 apart at most, on two common edges of
 /// length 40.
@@ -636,6 +638,7 @@ const std::map<std::string, Factory>& factories() {
       {"wing_of_2", [] { return cut_wing(2, 1); }},
       {"wing_of_8", [] { return cut_wing(4, 2); }},
       {"wing_of_200", [] { return cut_wing(10, 20); }},
+      {"cylinder_of_8", [] { return cut_prism(new Geom_Circle(kZ, 5), 8, 1); }},
       {"wing_in_box", [] { return BRepAlgoAPI_Cut(moved(box(60, 60, 60), -20, -30, -15), wing(0.1036)).Shape(); }},
       {"drilled_block",
        [] {

@@ -18,6 +18,10 @@ void declare(OptionSet& set, ImportStageOptions& o) {
   set.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
   set.number(o.kTimeLimit, o.time_limit);
   set.number(o.kFeatureAngle, o.feature_angle);
+  set.text(
+      "--composite", o.composite, "WORD",
+      "make one face of CAD faces that meet smoothly: none, harm (where the edge between them spoils triangles) or "
+      "smooth (wherever they do)");
   set.flag("--unite", o.unite, "make solids that overlap or touch one body, without what is inside");
   set.flag("--join", o.join, "give solids that touch common faces and edges, in groups of their own");
   set.flag("--cap", o.cap,

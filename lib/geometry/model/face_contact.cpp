@@ -14,6 +14,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/boxes.h"
 #include "base/child_process.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -135,6 +136,17 @@ std::vector<FaceContact> contacts_of(const std::string& text) {
 }  // namespace
 
 std::vector<FaceContact> Model::contacts(FaceId first, FaceId second) const {
+  if (impl_->cad) {
+    std::vector<FaceContact> all;
+    for (const FaceId a : impl_->cad_faces(first))
+      for (const FaceId b : impl_->cad_faces(second)) {
+        const ModelTables& cad = impl_->cad->tables();
+        if (a == b || !meet(cad.face_box[a], cad.face_box[b])) continue;
+        std::vector<FaceContact> found = impl_->cad->contacts(a, b);
+        all.insert(all.end(), found.begin(), found.end());
+      }
+    return all;
+  }
   static std::atomic<int> n_given_up = 0;
   if (n_given_up >= kMostGivenUp || !facets_.empty()) return {};
   const TopoDS_Face a = TopoDS::Face(impl_->faces(first + 1)), b = TopoDS::Face(impl_->faces(second + 1));

@@ -128,6 +128,19 @@ void weld_equal(Facets& facets) {
     for (std::int32_t& node : triangle) node = one[node];
 }
 
+/// Those of the CAD's own faces, for the faces that they are part of.
+void add_facets_of_cad(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
+                       const Executor& executor, Facets& facets) {
+  const std::vector<FaceId>& face_of = ModelEditor::brep(model).joined.face_of;
+  std::vector<std::uint8_t> in_cad;
+  for (const FaceId f : face_of) in_cad.push_back(is_wanted[static_cast<std::size_t>(f)]);
+  Facets own = make_facets(model.cad(), in_cad, limits, executor);
+  for (FaceId& f : own.face) f = face_of[static_cast<std::size_t>(f)];
+  append(std::move(own), facets);
+  weld(facets);
+  sort_by_face(facets);
+}
+
 }  // namespace
 
 Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
@@ -139,6 +152,7 @@ Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wante
 
 void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                 const Executor& executor, Facets& facets) {
+  if (&model.cad() != &model) return add_facets_of_cad(model, is_wanted, limits, executor, facets);
   ST_ASSERT(limits.deflection > 0 && is_wanted.size() == static_cast<std::size_t>(model.tables().n_faces()));
   const Model::Impl& brep = ModelEditor::brep(model);
   std::vector<FaceId> ids;

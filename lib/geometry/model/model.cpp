@@ -19,6 +19,8 @@
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/model/model_impl.h"
 #include "geometry/shape/analytic.h"
+#include "geometry/shape/chain_curve.h"
+#include "geometry/shape/composite_surface.h"
 #include "geometry/shape/polyline.h"
 
 namespace st {
@@ -59,6 +61,16 @@ std::unique_ptr<Surface> plane_of(const Chart& chart, const double* bounds) {
   const Vec2 p = chart.uv[c[0]];
   return std::make_unique<PlaneSurface>(Frame{chart.x[c[0]] - p.x * u - p.y * v, u, v, normal}, bounds[0], bounds[1],
                                         bounds[2], bounds[3]);
+}
+
+ChainParameters parameters_of(const ModelTables& cad, std::span<const EdgePiece> pieces) {
+  std::vector<ChainParameters::Piece> parameters;
+  for (const EdgePiece& p : pieces) {
+    const double* range = &cad.edge_range[2 * static_cast<std::size_t>(p.edge)];
+    parameters.push_back({range[p.is_reversed ? 1 : 0], range[p.is_reversed ? 0 : 1],
+                          cad.edge_length[static_cast<std::size_t>(p.edge)]});
+  }
+  return ChainParameters(std::move(parameters));
 }
 
 std::unique_ptr<Surface> surface_of(const FacetShape& facets, const ModelTables& t, FaceId face) {
@@ -102,13 +114,86 @@ Model::Model(ModelTables tables, FacetShape facets)
                 "the " + what + " in the geometry artifact contradict its tables; run st-import again");
 }
 
+Model::Model(ModelTables cad, std::vector<std::byte> brep, Composites composites) : impl_(std::make_unique<Impl>()) {
+  if (const std::string what = composites.contradiction(cad); !what.empty())
+    throw Error(ExitCode::kInput,
+                "the " + what + " in the geometry artifact contradict its tables; run st-import again");
+  impl_->composites = std::move(composites);
+  impl_->joined = join_tables(cad, impl_->composites);
+  tables_ = std::move(impl_->joined.tables);
+  impl_->cad = std::make_unique<Model>(std::move(cad), std::move(brep));
+}
+
 Model::~Model() = default;
 Model::Model(Model&&) noexcept = default;
 Model& Model::operator=(Model&&) noexcept = default;
 
+const Model& Model::cad() const { return impl_->cad ? *impl_->cad : *this; }
+
+FaceId Model::cad_face(FaceId face, Vec2 uv) const {
+  if (!impl_->cad) return face;
+  const std::int32_t i = impl_->joined.composite[face];
+  if (i == kNone) return impl_->joined.cad_face[face];
+  const ChartSurface chart(impl_->composites.chart(i));
+  return impl_->composites
+      .triangle_face[static_cast<std::size_t>(impl_->composites.triangle_offsets[i] + chart.locate(uv).triangle)];
+}
+
+std::unique_ptr<Curve> Model::Impl::chain(EdgeId edge) const {
+  const std::span<const EdgePiece> pieces = joined.pieces_of(edge);
+  if (pieces.size() == 1) return cad->curve(pieces[0].edge);
+  std::vector<std::unique_ptr<Curve>> curves;
+  for (const EdgePiece& p : pieces) curves.push_back(cad->curve(p.edge));
+  return std::make_unique<ChainCurve>(parameters_of(cad->tables(), pieces), std::move(curves));
+}
+
+std::unique_ptr<Surface> Model::Impl::composite(std::int32_t i, SurfaceType type, const double* bounds) const {
+  const Chart chart = composites.chart(i);
+  if (type == SurfaceType::kPlane) return plane_of(chart, bounds);
+  const std::span<const FaceId> faces = composites.members(i);
+  std::vector<std::unique_ptr<Surface>> members;
+  for (const FaceId f : faces) members.push_back(cad->surface(f));
+  CompositeSupport support;
+  for (auto t = static_cast<std::size_t>(composites.triangle_offsets[i]);
+       t < static_cast<std::size_t>(composites.triangle_offsets[i + 1]); ++t) {
+    const auto at = std::ranges::lower_bound(faces, composites.triangle_face[t]) - faces.begin();
+    support.member.push_back(static_cast<std::int32_t>(at));
+    support.corner_uv.push_back(composites.triangle_uv[t]);
+  }
+  return std::make_unique<CompositeSurface>(chart, std::move(support), std::move(members),
+                                            std::array{bounds[0], bounds[1], bounds[2], bounds[3]});
+}
+
+std::unique_ptr<Curve2d> Model::Impl::rim(std::int32_t i, CoedgeId coedge) const {
+  const std::int32_t row = composites.rim(coedge);
+  const auto first = static_cast<std::size_t>(composites.triangle_offsets[i]),
+             first_node = static_cast<std::size_t>(composites.node_offsets[i]);
+  std::vector<RimCurve2d::Segment> segments;
+  FaceId face = kNone;
+  for (std::int32_t k = composites.rim_offsets[row]; k + 1 < composites.rim_offsets[row + 1]; ++k) {
+    const std::size_t t = first + static_cast<std::size_t>(composites.rim_triangle[k]);
+    std::array<Vec2, 3> places;
+    for (std::size_t c = 0; c < 3; ++c)
+      places[c] = composites.node_uv[first_node + static_cast<std::size_t>(composites.triangle_nodes[t][c])];
+    segments.push_back({composites.rim_t[k], AffineMap(composites.triangle_uv[t], places)});
+    face = composites.triangle_face[t];
+  }
+  return std::make_unique<RimCurve2d>(cad->pcurve(face, coedge), std::move(segments));
+}
+
+std::unique_ptr<Curve2d> Model::Impl::trimming(FaceId face, CoedgeId coedge, EdgeId edge) const {
+  const std::int32_t i = joined.composite[face];
+  std::vector<std::unique_ptr<Curve2d>> curves;
+  for (const CoedgeId c : joined.pieces_of_coedge(coedge))
+    curves.push_back(i == kNone ? cad->pcurve(joined.cad_face[face], c) : rim(i, c));
+  if (curves.size() == 1) return std::move(curves[0]);
+  return std::make_unique<ChainCurve2d>(parameters_of(cad->tables(), joined.pieces_of(edge)), std::move(curves));
+}
+
 std::unique_ptr<Curve> Model::curve(EdgeId edge) const {
   ST_ASSERT(edge >= 0 && edge < tables_.n_edges() && !tables_.edge_is_degenerate[edge]);
   return impl_->curves.get(edge, [&]() -> std::unique_ptr<Curve> {
+    if (impl_->cad) return impl_->chain(edge);
     if (!facets_.empty()) {
       const std::span<const Vec3> points = facets_.points(edge);
       return std::make_unique<PolylineCurve>(std::vector<Vec3>(points.begin(), points.end()));
@@ -125,7 +210,12 @@ std::unique_ptr<Curve> Model::curve(EdgeId edge) const {
 std::unique_ptr<Surface> Model::surface(FaceId face) const {
   ST_ASSERT(face >= 0 && face < tables_.n_faces());
   const double* b = &tables_.face_uv_bounds[4 * static_cast<std::size_t>(face)];
-  return impl_->surfaces.get(face, [&] {
+  return impl_->surfaces.get(face, [&]() -> std::unique_ptr<Surface> {
+    if (impl_->cad) {
+      const std::int32_t composite = impl_->joined.composite[face];
+      return composite == kNone ? impl_->cad->surface(impl_->joined.cad_face[face])
+                                : impl_->composite(composite, tables_.face_type[face], b);
+    }
     if (!facets_.empty()) return surface_of(facets_, tables_, face);
     return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {b[0], b[1], b[2], b[3]});
   });
@@ -133,6 +223,7 @@ std::unique_ptr<Surface> Model::surface(FaceId face) const {
 
 std::unique_ptr<Curve2d> Model::pcurve(FaceId face, CoedgeId coedge) const {
   ST_ASSERT(face >= 0 && face < tables_.n_faces() && coedge >= 0 && coedge < tables_.n_coedges());
+  if (impl_->cad) return impl_->trimming(face, coedge, tables_.coedge_edge[coedge]);
   if (!facets_.empty()) {
     std::vector<Vec2> uv;
     for (std::int32_t i = facets_.coedge_node_offsets[coedge]; i < facets_.coedge_node_offsets[coedge + 1]; ++i)

@@ -13,6 +13,7 @@
 #include "base/face_labels.h"
 #include "base/ids.h"
 #include "base/vec.h"
+#include "geometry/model/composites.h"
 #include "geometry/model/facet_shape.h"
 #include "geometry/model/groups.h"
 #include "geometry/shape/curve.h"
@@ -103,6 +104,9 @@ class Model {
   Model(ModelTables tables, std::vector<std::byte> brep);
   /// `facets`: those that make_facet_model() made. Throws Error(kInput) when they do not fit the tables.
   Model(ModelTables tables, FacetShape facets);
+  /// `cad` and `brep` as above; tables() are those in which the composites are faces. Throws Error(kInput) where they
+  /// contradict each other.
+  Model(ModelTables cad, std::vector<std::byte> brep, Composites composites);
   ~Model();
   Model(Model&&) noexcept;
   Model& operator=(Model&&) noexcept;
@@ -112,6 +116,10 @@ class Model {
   const std::vector<std::byte>& brep() const { return brep_; }
   /// Empty for a model with a B-Rep.
   const FacetShape& facets() const { return facets_; }
+  /// The CAD face of a place (u,v) of a face: itself where the face is none of several.
+  FaceId cad_face(FaceId face, Vec2 uv) const;
+  /// The model as the CAD has it, where faces of it were joined; else itself.
+  const Model& cad() const;
 
   /// Space curve of an edge. Precondition: not degenerate.
   std::unique_ptr<Curve> curve(EdgeId edge) const;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/model/joined_tables.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -43,6 +44,21 @@ struct Model::Impl {
   TopTools_IndexedMapOfShape faces, edges;  ///< TopExp order of `shape`: the order of ids
   Originals<Curve> curves;
   Originals<Surface> surfaces;
+  // of a model with composites; its own shape and maps are empty then
+  std::unique_ptr<const Model> cad;
+  Composites composites;
+  JoinedTables joined;  ///< but tables
+
+  std::vector<FaceId> cad_faces(FaceId face) const {
+    const std::int32_t i = joined.composite[face];
+    if (i == kNone) return {joined.cad_face[face]};
+    const std::span<const FaceId> members = composites.members(i);
+    return {members.begin(), members.end()};
+  }
+  std::unique_ptr<Curve> chain(EdgeId edge) const;
+  std::unique_ptr<Surface> composite(std::int32_t composite, SurfaceType type, const double* bounds) const;
+  std::unique_ptr<Curve2d> trimming(FaceId face, CoedgeId coedge, EdgeId edge) const;
+  std::unique_ptr<Curve2d> rim(std::int32_t composite, CoedgeId cad_coedge) const;
 };
 
 namespace occt {

@@ -35,7 +35,8 @@ bool is_closed(const ModelTables& t, const EdgeUses& uses) {
          std::any_of(t.face_shell.begin(), t.face_shell.end(), is_in_shell);
 }
 
-double enclosed_volume(const Model& model) {
+double enclosed_volume(const Model& whole) {
+  const Model& model = whole.cad();
   const ModelTables& t = model.tables();
   const Vec3 origin = t.box().center();
   double volume = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <queue>
+#include <tuple>
 #include <utility>
 
 #include "base/eigen.h"
@@ -109,6 +111,15 @@ bool is_clear(std::span<const Vec3> x, std::span<const Corners> corners, const P
          !rim_pinches(x, topology, p);
 }
 
+/// Whether a triangle's sides and area are nearly the same in the plane.
+bool is_like(std::span<const Vec3> x, std::span<const Vec2> p, const Corners& c) {
+  constexpr double kAlike = 1.25;
+  const auto is_near = [](double a, double b) { return a <= kAlike * b && b <= kAlike * a; };
+  for (int k = 0; k < 3; ++k)
+    if (!is_near(distance(x[c[k]], x[c[(k + 1) % 3]]), norm(p[c[k]] - p[c[(k + 1) % 3]]))) return false;
+  return is_near(norm(cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]])), cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]));
+}
+
 std::optional<Places> project(std::span<const Vec3> x, std::span<const Corners> corners,
                               const PatchTopology& topology) {
   Vec3 sum{};
@@ -125,6 +136,50 @@ std::optional<Places> project(std::span<const Vec3> x, std::span<const Corners> 
   const Vec3 u = normalized(cross(far, mean)), v = cross(mean, u);
   Places p;
   for (const Vec3 q : x) p.push_back({dot(q - x[0], u), dot(q - x[0], v)});
+  if (!is_clear(x, corners, topology, p)) return std::nullopt;
+  return p;
+}
+
+/// Triangles laid into the plane one by one across their sides, the longest side first: exact where the patch is bent
+/// in one direction only, however narrow its triangles are.
+std::optional<Places> unfold(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology) {
+  const std::vector<Corners> neighbours = find_neighbours(corners);
+  const auto side = [&](std::int32_t t, int k) { return distance(x[corners[t][k]], x[corners[t][(k + 1) % 3]]); };
+  Places p(x.size());
+  std::vector<std::uint8_t> is_laid(x.size(), 0);
+  const auto lay = [&](std::int32_t t, int k) {
+    const std::int32_t a = corners[t][k], b = corners[t][(k + 1) % 3], c = corners[t][(k + 2) % 3];
+    if (std::exchange(is_laid[c], 1) != 0) return;
+    const double length = distance(x[a], x[b]), along = dot(x[c] - x[a], x[b] - x[a]) / (length * length),
+                 height = norm(cross(x[b] - x[a], x[c] - x[a])) / (length * length);
+    const Vec2 way = p[b] - p[a];
+    p[c] = p[a] + along * way + height * Vec2{-way.y, way.x};
+  };
+  std::priority_queue<std::tuple<double, std::int32_t, int>> next;  // length, triangle, its side that is laid
+  std::vector<std::uint8_t> is_done(corners.size(), 0);
+  const auto add_neighbours = [&](std::int32_t t) {
+    is_done[t] = 1;
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t o = neighbours[t][k];
+      if (o == kNone || is_done[o] != 0) continue;
+      const auto at = std::ranges::find(corners[o], corners[t][(k + 1) % 3]) - corners[o].begin();
+      next.emplace(side(t, k), o, static_cast<int>(at));
+    }
+  };
+  p[corners[0][1]] = {side(0, 0), 0};
+  is_laid[corners[0][0]] = is_laid[corners[0][1]] = 1;
+  lay(0, 0);
+  add_neighbours(0);
+  while (!next.empty()) {
+    const auto [length, t, k] = next.top();
+    next.pop();
+    if (is_done[t] != 0 || !(length > 0)) continue;
+    lay(t, k);
+    add_neighbours(t);
+  }
+  if (!std::ranges::all_of(is_laid, [](std::uint8_t laid) { return laid != 0; })) return std::nullopt;
+  for (std::size_t t = 0; t < corners.size(); ++t)
+    if (!is_like(x, p, corners[t])) return std::nullopt;
   if (!is_clear(x, corners, topology, p)) return std::nullopt;
   return p;
 }
@@ -356,7 +411,9 @@ void relax(std::span<const Vec3> x, std::span<const Corners> corners, const Patc
   }
 }
 
-/// On a circle the inside of what is deep, and the end of a tube, shrink to nothing.
+}  // namespace
+
+// On a circle the inside of what is deep, and the end of a tube, shrink to nothing.
 bool is_shallow(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology) {
   double area = 0;
   for (const Corners& c : corners) area += 0.5 * norm(cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]]));
@@ -367,8 +424,6 @@ bool is_shallow(std::span<const Vec3> x, std::span<const Corners> corners, const
     is_tube = is_tube || (l != outer && topology.loop_length[l] > kTubeRim * rim);
   return share <= kMostDepth && !(is_tube && 2 * kPi * share > kMostTube);
 }
-
-}  // namespace
 
 double largest_stretch(std::span<const Vec3> x, std::span<const Corners> corners, std::span<const Vec2> uv) {
   double largest = 1;
@@ -391,6 +446,7 @@ std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<cons
   if (topology.n_components != 1 || topology.genus != 0 || topology.loops.empty() || !topology.is_manifold)
     return std::nullopt;
   if (auto p = project(x, corners, topology)) return p;
+  if (auto p = unfold(x, corners, topology)) return p;
   if (corners.size() > kMostSolved || !is_shallow(x, corners, topology)) return std::nullopt;
   auto p = map_to_circle(x, corners, topology);
   if (!p) return std::nullopt;

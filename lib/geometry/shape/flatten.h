@@ -24,6 +24,9 @@ inline constexpr double kMostStretch = 10;
 std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<const Corners> corners,
                                          const PatchTopology& topology);
 
+/// Whether a patch is no deep cup or long tube, as far as area and rims tell. Precondition: it has a loop.
+bool is_shallow(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology);
+
 /// Singular values of the map from the plane to space, larger over smaller: the largest over the triangles that are no
 /// needles (height below 1e-3 of the longest side). Infinite where a triangle is flipped.
 double largest_stretch(std::span<const Vec3> x, std::span<const Corners> corners, std::span<const Vec2> uv);

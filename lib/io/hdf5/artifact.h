@@ -44,7 +44,9 @@ struct GeometryArtifact {
   ArtifactHeader header;
   ModelTables tables;
   std::vector<std::byte> brep;
-  FacetShape facets;  ///< instead, of a model of facets
+  FacetShape facets;      ///< instead, of a model of facets
+  Composites composites;  ///< faces of the CAD that are one in `tables`
+  ModelTables cad;        ///< where there are any: the tables that go with `brep`
   std::vector<ImportFinding> findings;
   bool is_closed = false;
   /// [2*n] What each was: id (kNone: none) and input (index into header.inputs). Of an edited geometry; of an imported

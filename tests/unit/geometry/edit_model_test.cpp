@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "support/shapes.h"
+#include "unit/geometry/consistent_model.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st {
@@ -17,54 +18,6 @@ const char* const kShapes[] = {
     "box",           "sphere",        "drilled_cylinder", "cone",       "torus",     "wave",
     "rational_wave", "periodic_tube", "plate_with_hole",  "revolution", "extrusion", "offset",
     "bezier",        "tube_window",   "two_boxes"};
-
-/// Every table as long as it must be, and evaluators that fit it: curves end at their vertices, trimming curves lie on
-/// them, loops close.
-void expect_consistent(const Model& model) {
-  const ModelTables& t = model.tables();
-  const auto n_faces = static_cast<std::size_t>(t.n_faces()), n_edges = static_cast<std::size_t>(t.n_edges());
-  for (const std::size_t n :
-       {t.face_type.size(), t.face_uv_bounds.size() / 4, t.face_tolerance.size(), t.face_area.size(),
-        t.face_width.size(), t.face_box.size(), t.labels.face_name.size(), t.face_color.size(), t.face_layer.size(),
-        t.labels.face_group.size(), t.face_shell.size(), t.face_solid.size(), t.face_loop_offsets.size() - 1})
-    ASSERT_EQ(n, n_faces);
-  for (const std::size_t n : {t.edge_vertices.size() / 2, t.edge_range.size() / 2, t.edge_tolerance.size(),
-                              t.edge_is_degenerate.size(), t.edge_name.size()})
-    ASSERT_EQ(n, n_edges);
-  ASSERT_EQ(t.vertex_tolerance.size(), t.vertex_xyz.size());
-  ASSERT_EQ(t.face_loop_offsets.back(), t.n_loops());
-  ASSERT_EQ(t.loop_coedge_offsets.back(), t.n_coedges());
-  const double slack = 1e-6 * t.box().diagonal();
-  for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    if (t.edge_is_degenerate[e]) continue;
-    const auto c = model.curve(e);
-    for (int end = 0; end < 2; ++end)
-      EXPECT_LE(distance(c->point(t.edge_range[2 * e + end]), t.vertex_xyz[t.edge_vertices[2 * e + end]]), slack)
-          << "edge " << e;
-    EXPECT_NEAR(arc_length(*c, c->t_min(), c->t_max(), 32), t.edge_length[e], slack);
-  }
-  for (FaceId f = 0; f < t.n_faces(); ++f) {
-    const auto s = model.surface(f);
-    EXPECT_LT(t.labels.face_group[f], static_cast<std::int32_t>(t.labels.group_name.size()));
-    for (const LoopId l : t.loops(f)) {
-      const CoedgeId first = t.loop_coedge_offsets[l], end = t.loop_coedge_offsets[l + 1];
-      for (CoedgeId c = first; c < end; ++c) {
-        const EdgeId e = t.coedge_edge[c];
-        const CoedgeId next = c + 1 < end ? c + 1 : first;
-        EXPECT_EQ(t.edge_vertices[2 * e + !t.coedge_is_reversed[c]],
-                  t.edge_vertices[2 * t.coedge_edge[next] + t.coedge_is_reversed[next]]);
-        if (t.edge_is_degenerate[e]) continue;
-        const auto curve = model.curve(e);
-        const auto uv = model.pcurve(f, c);
-        for (double share : {0.0, 0.3, 1.0}) {
-          const double at = t.edge_range[2 * e] + share * (t.edge_range[2 * e + 1] - t.edge_range[2 * e]);
-          EXPECT_LE(distance(s->point(uv->point(at)), curve->point(at)), t.edge_tolerance[e] + slack)
-              << "face " << f << " edge " << e;
-        }
-      }
-    }
-  }
-}
 
 /// Unit normal out of the solid in the middle of a face.
 Vec3 outward(const Model& m, FaceId f) {
@@ -99,7 +52,7 @@ TEST(Extract, gives_faces_with_their_edges_and_vertices_only) {
     for (FaceId f = t.n_faces() - 1; f >= 0; f -= 2) faces.push_back(f);  // backwards: the order asked for is kept
     const SubModel part = extract(whole, faces);
     EXPECT_EQ(part.faces, faces);
-    expect_consistent(part.model);
+    test::expect_consistent(part.model);
     std::vector<char> is_used(t.n_edges(), 0);
     for (std::size_t i = 0; i < faces.size(); ++i) {
       expect_same_face(part.model, static_cast<FaceId>(i), whole, faces[i]);
@@ -130,7 +83,7 @@ TEST(Extract, of_some_faces_opens_the_shell) {
   const Model box = test::make_model("box");
   const SubModel open = extract(box, std::vector<FaceId>{1, 3, 4, 5});
   EXPECT_EQ(open.faces, (std::vector<FaceId>{1, 3, 4, 5}));
-  expect_consistent(open.model);
+  test::expect_consistent(open.model);
   std::vector<std::int32_t> offsets;
   std::vector<FaceId> faces;
   open.model.tables().edge_faces(offsets, faces);
@@ -154,7 +107,7 @@ TEST(Transform, moves_every_point_and_keeps_names_and_normals) {
       const double scale = map.scale, size = scale * b.box().diagonal() + 23;
       ASSERT_EQ(a.n_faces(), b.n_faces());
       ASSERT_EQ(a.n_edges(), b.n_edges());
-      expect_consistent(after);
+      test::expect_consistent(after);
       EXPECT_EQ(a.labels.face_group, b.labels.face_group);
       for (VertexId v = 0; v < b.n_vertices(); ++v)
         EXPECT_LE(distance(a.vertex_xyz[v], map(b.vertex_xyz[v])), 1e-12 * size);
@@ -191,7 +144,7 @@ TEST(TransformFaces, moves_one_body_and_keeps_every_number_and_all_of_the_other)
   for (const Similarity& motion : {turned(1, false), turned(2, true)}) {
     const SubModel result = transform_faces(before, faces, motion);
     const ModelTables& a = result.model.tables();
-    expect_consistent(result.model);
+    test::expect_consistent(result.model);
     ASSERT_EQ(a.n_faces(), b.n_faces());
     EXPECT_EQ(a.face_solid, b.face_solid);
     EXPECT_EQ(a.face_shell, b.face_shell);
@@ -234,7 +187,7 @@ TEST(Append, puts_the_second_behind_the_first) {
   EXPECT_EQ(t.n_faces(), a.n_faces() + b.n_faces());
   EXPECT_EQ(t.n_vertices(), a.n_vertices() + b.n_vertices());
   EXPECT_EQ(t.n_solids, a.n_solids + b.n_solids);
-  expect_consistent(both);
+  test::expect_consistent(both);
   for (FaceId f = 0; f < a.n_faces(); ++f) expect_same_face(both, f, box, f);
   for (FaceId f = 0; f < b.n_faces(); ++f) expect_same_face(both, a.n_faces() + f, ball, f);
   EXPECT_NE(t.face_solid.front(), t.face_solid.back());
@@ -243,10 +196,10 @@ TEST(Append, puts_the_second_behind_the_first) {
 
 TEST(Append, of_a_model_to_itself_or_to_its_image_doubles_it) {
   const Model box = test::make_model("box");
-  expect_consistent(append(box, box));
+  test::expect_consistent(append(box, box));
   EXPECT_EQ(append(box, box).tables().n_edges(), 24);
   const Model pair = append(box, transform(box, reflection_at({0, 1, 0})));
-  expect_consistent(pair);
+  test::expect_consistent(pair);
   EXPECT_EQ(pair.tables().n_faces(), 12);
 }
 
@@ -256,7 +209,7 @@ TEST(Append, takes_back_what_was_extracted) {
   std::iota(others.begin(), others.end(), 1);
   const SubModel first = extract(whole, std::vector<FaceId>{0}), rest = extract(whole, others);
   const Model again = append(first.model, rest.model);
-  expect_consistent(again);
+  test::expect_consistent(again);
   for (FaceId f = 0; f < whole.tables().n_faces(); ++f) expect_same_face(again, f, whole, f);
 }
 

@@ -1,0 +1,519 @@
+#include "geometry/model/composite_finder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/boxes.h"
+#include "base/disjoint_sets.h"
+#include "base/sort_once.h"
+#include "geometry/model/uv_facets.h"
+#include "geometry/shape/chain_curve.h"
+#include "geometry/shape/composite_surface.h"
+#include "geometry/shape/flatten.h"
+
+namespace st {
+namespace {
+
+constexpr std::size_t kMostFacets = 20000;    // of a chart: flatten() takes no more
+constexpr double kLeastCosine = 0.5;          // between the normals of a facet and of its face
+constexpr double kMostCompositeStretch = 20;  // of (u,v): twice what the chart alone may have
+constexpr double kMostBulge = 0.5;            // of its chord: how far a trimming curve leaves a chart's rim
+constexpr double kOffRim = 1e-2;              // of its chord: how far a trimming curve's place may be off its edge
+constexpr double kSmoothTurn = 0.9986;        // cosine of 3 degrees: edges go on as one
+
+/// Facets of a union of faces, with nodes of their own.
+struct Union {
+  std::vector<std::int32_t> triangles;  ///< of the facets
+  std::vector<Corners> corners;
+  std::vector<Vec3> x;
+  PatchTopology topology;
+};
+
+class CompositeFinder {
+ public:
+  CompositeFinder(const Model& cad, const JoinRequest& request)
+      : cad_(cad),
+        t_(cad.tables()),
+        request_(request),
+        uses_(static_cast<std::size_t>(t_.n_edges())),
+        face_of_coedge_(static_cast<std::size_t>(t_.n_coedges())),
+        is_joined_(static_cast<std::size_t>(t_.n_edges()), 0),
+        part_of_(static_cast<std::size_t>(t_.n_faces())),
+        parts_(static_cast<std::size_t>(t_.n_faces())) {}
+
+  FoundComposites run() {
+    find_uses();
+    make_facets();
+    std::vector<EdgeId> all;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (can_join_[e]) all.push_back(e);
+    begin_records();
+    grow(all, t_.n_faces());
+    std::vector<std::vector<FaceId>> work = whole_parts(all);
+    while (!work.empty()) {
+      const std::vector<FaceId> faces = std::move(work.back());
+      work.pop_back();
+      if (accept(faces)) continue;
+      const std::vector<EdgeId> inside = dissolve(faces);
+      if (faces.size() < 3) continue;
+      grow(inside, static_cast<std::int32_t>((faces.size() + 1) / 2));
+      for (auto& part : whole_parts(inside)) work.push_back(std::move(part));
+    }
+    finish();
+    return std::move(found_);
+  }
+
+ private:
+  void find_uses() {
+    for (FaceId f = 0; f < t_.n_faces(); ++f)
+      for (const CoedgeId c : t_.coedges(f)) {
+        uses_[t_.coedge_edge[c]].push_back(c);
+        face_of_coedge_[c] = f;
+      }
+  }
+
+  FaceId side(EdgeId e, int k) const { return face_of_coedge_[uses_[e][k]]; }
+
+  void make_facets() {
+    std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t_.n_faces()), 0);
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (request_.may_join[e])
+        for (const int k : {0, 1}) is_wanted[side(e, k)] = 1;
+    facets_ = make_uv_facets(cad_, is_wanted, request_.facets);
+    across_.assign(facets_.mate.size(), kNone);
+    can_join_.assign(static_cast<std::size_t>(t_.n_edges()), 0);
+    for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+      if (!request_.may_join[e]) continue;
+      const auto &a = facets_.rim_side[uses_[e][0]], &b = facets_.rim_side[uses_[e][1]];
+      if (a.empty() || a.size() != b.size()) continue;
+      bool is_same = true;
+      for (std::size_t i = 0; i < a.size() && is_same; ++i) is_same = fit(a[i], b[i]);
+      if (!is_same) continue;
+      can_join_[e] = 1;
+      for (std::size_t i = 0; i < a.size(); ++i) across_[a[i]] = b[i], across_[b[i]] = a[i];
+    }
+    for (FaceId f = 0; f < t_.n_faces(); ++f) {
+      part_of_[f] = f;
+      parts_[f] = {f};
+    }
+  }
+
+  std::pair<Vec3, Vec3> ends(std::int32_t s) const {
+    const Corners& c = facets_.corners[static_cast<std::size_t>(s / 3)];
+    return {facets_.x[c[s % 3]], facets_.x[c[(s + 1) % 3]]};
+  }
+
+  /// Whether two sides are one, passed in opposite directions.
+  bool fit(std::int32_t s, std::int32_t o) const {
+    const auto [a, b] = ends(s);
+    const auto [c, d] = ends(o);
+    const double near = 0.1 * distance(a, b);
+    return distance(a, d) <= near && distance(b, c) <= near;
+  }
+
+  void grow(std::vector<EdgeId> edges, std::int32_t most_faces) {
+    std::erase_if(edges, [&](EdgeId e) { return !(request_.urgency[e] > 0); });
+    std::ranges::stable_sort(edges, [&](EdgeId a, EdgeId b) { return request_.urgency[a] > request_.urgency[b]; });
+    for (const EdgeId e : edges)
+      if (!is_joined_[e]) try_edge(e, most_faces);
+  }
+
+  /// Parts of more than one face that these edges lie in, by their lowest face.
+  std::vector<std::vector<FaceId>> whole_parts(const std::vector<EdgeId>& edges) const {
+    std::vector<FaceId> lowest;
+    for (const EdgeId e : edges)
+      for (const int k : {0, 1}) lowest.push_back(part_of_[side(e, k)]);
+    sort_once(lowest);
+    std::vector<std::vector<FaceId>> result;
+    for (const FaceId f : lowest)
+      if (parts_[f].size() > 1) result.push_back(parts_[f]);
+    return result;
+  }
+
+  /// Edges that may be joined between faces of these two parts, but `e`.
+  std::vector<EdgeId> edges_between(FaceId a, FaceId b, EdgeId e) const {
+    std::vector<EdgeId> edges;
+    const FaceId small = parts_[a].size() <= parts_[b].size() ? a : b;
+    for (const FaceId f : parts_[small])
+      for (const EdgeId c : t_.edges_of(f)) {
+        if (c == e || !can_join_[c] || is_joined_[c]) continue;
+        const FaceId p = part_of_[side(c, 0)], q = part_of_[side(c, 1)];
+        if ((p == a && q == b) || (p == b && q == a)) edges.push_back(c);
+      }
+    sort_once(edges);
+    return edges;
+  }
+
+  void set(const std::vector<EdgeId>& edges, std::uint8_t value) {
+    for (const EdgeId e : edges) is_joined_[e] = value;
+  }
+
+  /// Joins the parts at `e` where their union is usable: with all edges between them, else with `e` and what still can
+  /// go.
+  void try_edge(EdgeId e, std::int32_t most_faces) {
+    const FaceId a = part_of_[side(e, 0)], b = part_of_[side(e, 1)];
+    if (a == b || static_cast<std::int32_t>(parts_[a].size() + parts_[b].size()) > most_faces) return;
+    std::vector<FaceId> faces = parts_[a];
+    faces.insert(faces.end(), parts_[b].begin(), parts_[b].end());
+    std::ranges::sort(faces);
+    const std::vector<EdgeId> others = edges_between(a, b, e);
+    is_joined_[e] = 1;
+    set(others, 1);
+    bool is_ok = is_usable(faces);
+    if (!is_ok && !others.empty()) {
+      set(others, 0);
+      is_ok = is_usable(faces);
+      for (std::size_t i = 0; is_ok && i < others.size(); ++i) {
+        is_joined_[others[i]] = 1;
+        if (!is_usable(faces)) is_joined_[others[i]] = 0;
+      }
+    }
+    if (!is_ok) {
+      set(others, 0);
+      is_joined_[e] = 0;
+      return;
+    }
+    const FaceId keep = std::min(a, b), gone = std::max(a, b);
+    for (const FaceId f : faces) part_of_[f] = keep;
+    parts_[gone].clear();
+    parts_[keep] = std::move(faces);
+  }
+
+  /// Single faces again; the edges that were inside.
+  std::vector<EdgeId> dissolve(const std::vector<FaceId>& faces) {
+    std::vector<EdgeId> inside;
+    for (const FaceId f : faces)
+      for (const EdgeId e : t_.edges_of(f))
+        if (can_join_[e] && std::ranges::binary_search(faces, side(e, 0)) &&
+            std::ranges::binary_search(faces, side(e, 1)))
+          inside.push_back(e);
+    sort_once(inside);
+    set(inside, 0);
+    for (const FaceId f : faces) {
+      part_of_[f] = f;
+      parts_[f] = {f};
+    }
+    return inside;
+  }
+
+  Union unite(const std::vector<FaceId>& faces) const {
+    Union u;
+    std::vector<std::int32_t> shift(faces.size());
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      shift[i] = static_cast<std::int32_t>(u.triangles.size()) - facets_.face_offsets[faces[i]];
+      for (std::int32_t t = facets_.face_offsets[faces[i]]; t < facets_.face_offsets[faces[i] + 1]; ++t)
+        u.triangles.push_back(t);
+    }
+    const auto n = static_cast<std::int32_t>(u.triangles.size());
+    DisjointSets sets(3 * static_cast<std::int64_t>(n));
+    const auto join = [&](std::int32_t s, std::int32_t o) {
+      const auto own = [&](std::int32_t side) {
+        const FaceId f = facets_.face[static_cast<std::size_t>(side / 3)];
+        const auto at = std::ranges::lower_bound(faces, f) - faces.begin();
+        return side + 3 * shift[static_cast<std::size_t>(at)];
+      };
+      const std::int32_t i = own(s), j = own(o);
+      sets.join(i, j / 3 * 3 + (j + 1) % 3);
+      sets.join(i / 3 * 3 + (i + 1) % 3, j);
+    };
+    for (const std::int32_t t : u.triangles)
+      for (std::int32_t s = 3 * t; s < 3 * t + 3; ++s)
+        if (facets_.mate[s] > s) join(s, facets_.mate[s]);
+    for (const FaceId f : faces)
+      for (const CoedgeId c : t_.coedges(f))
+        if (is_joined_[t_.coedge_edge[c]] && uses_[t_.coedge_edge[c]][0] == c)
+          for (const std::int32_t s : facets_.rim_side[c]) join(s, across_[s]);
+    number(sets, u);
+    u.topology = find_topology(u.x, u.corners);
+    return u;
+  }
+
+  void number(DisjointSets& sets, Union& u) const {
+    std::vector<std::int32_t> number(3 * u.triangles.size(), kNone);
+    for (std::int32_t i = 0; i < static_cast<std::int32_t>(u.triangles.size()); ++i) {
+      Corners own{};
+      for (int k = 0; k < 3; ++k) {
+        std::int32_t& id = number[static_cast<std::size_t>(sets.find(3 * i + k))];
+        if (id == kNone) {
+          id = static_cast<std::int32_t>(u.x.size());
+          u.x.push_back(facets_.x[static_cast<std::size_t>(facets_.corners[u.triangles[i]][k])]);
+        }
+        own[k] = id;
+      }
+      u.corners.push_back(own);
+    }
+  }
+
+  bool is_usable(const std::vector<FaceId>& faces) const {
+    std::size_t n = 0;
+    for (const FaceId f : faces) n += static_cast<std::size_t>(facets_.face_offsets[f + 1] - facets_.face_offsets[f]);
+    if (n > kMostFacets) return false;
+    const Union u = unite(faces);
+    return u.topology.is_manifold && u.topology.n_components == 1 && u.topology.genus == 0 &&
+           !u.topology.loops.empty() && is_shallow(u.x, u.corners, u.topology);
+  }
+
+  void begin_records() {
+    Composites& c = found_.composites;
+    c.member_offsets = c.node_offsets = c.triangle_offsets = {0};
+  }
+
+  void refuse(const std::vector<FaceId>& faces, const std::string& why) {
+    std::string ids;
+    constexpr std::size_t kNamed = 5;
+    for (std::size_t i = 0; i < std::min(faces.size(), kNamed); ++i)
+      ids += fmt::format("{}{}", i > 0 ? ", " : "", faces[i] + 1);
+    found_.refused.push_back(
+        fmt::format("{} faces ({}{}): {}", faces.size(), ids, faces.size() > kNamed ? " ..." : "", why));
+  }
+
+  bool accept(const std::vector<FaceId>& faces) {
+    const Union u = unite(faces);
+    const auto uv = flatten(u.x, u.corners, u.topology);
+    if (!uv) {
+      refuse(faces, "they cannot be laid into a plane");
+      return false;
+    }
+    Chart chart{u.x, std::vector<Vec3>(u.x.size(), Vec3{0, 0, 1}), *uv, u.corners};
+    Rims rims = rims_of(faces, u);
+    const std::string why = fault(faces, u, chart, rims);
+    if (!why.empty()) {
+      refuse(faces, why);
+      return false;
+    }
+    record(faces, u, chart, rims);
+    return true;
+  }
+
+  struct Rim {
+    CoedgeId coedge;
+    std::vector<std::int32_t> node, triangle;  ///< within the union
+  };
+  using Rims = std::vector<Rim>;
+
+  Rims rims_of(const std::vector<FaceId>& faces, const Union& u) const {
+    Rims rims;
+    std::vector<std::int32_t> place(facets_.corners.size(), kNone);
+    for (std::size_t i = 0; i < u.triangles.size(); ++i)
+      place[static_cast<std::size_t>(u.triangles[i])] = static_cast<std::int32_t>(i);
+    for (const FaceId f : faces)
+      for (const CoedgeId c : t_.coedges(f)) {
+        if (is_joined_[t_.coedge_edge[c]] || t_.edge_is_degenerate[t_.coedge_edge[c]]) continue;
+        const bool is_reversed = (t_.coedge_is_reversed[c] != 0) != (t_.face_is_reversed[f] != 0);
+        Rim rim{c, {}, {}};
+        for (const std::int32_t s : facets_.rim_side[c]) {
+          const std::int32_t t = place[static_cast<std::size_t>(s / 3)];
+          const std::int32_t a = u.corners[t][s % 3], b = u.corners[t][(s + 1) % 3];
+          rim.triangle.push_back(t);
+          if (rim.node.empty()) rim.node.push_back(is_reversed ? b : a);
+          rim.node.push_back(is_reversed ? a : b);
+        }
+        rim.triangle.push_back(kNone);
+        rims.push_back(std::move(rim));
+      }
+    return rims;
+  }
+
+  std::array<Vec2, 3> chart_corners(const Chart& chart, std::int32_t t) const {
+    const Corners& c = chart.corners[static_cast<std::size_t>(t)];
+    return {chart.uv[c[0]], chart.uv[c[1]], chart.uv[c[2]]};
+  }
+
+  /// Why the chart does not stand for its faces, empty where it does; bounds are those of the trimming curves.
+  std::string fault(const std::vector<FaceId>& faces, const Union& u, const Chart& chart, const Rims& rims) {
+    CompositeSupport support;
+    std::vector<std::unique_ptr<Surface>> members;
+    for (const FaceId f : faces) members.push_back(cad_.surface(f));
+    for (const std::int32_t t : u.triangles) {
+      const auto at = std::ranges::lower_bound(faces, facets_.face[static_cast<std::size_t>(t)]) - faces.begin();
+      support.member.push_back(static_cast<std::int32_t>(at));
+      support.corner_uv.push_back(facets_.uv[static_cast<std::size_t>(t)]);
+    }
+    bounds_ = {};
+    for (const Vec2 p : chart.uv) bounds_.add(p);
+    const CompositeSurface surface(chart, std::move(support), std::move(members), {0, 1, 0, 1});
+    if (!has_normals(surface, chart)) return "their facets do not follow them";
+    for (const Rim& rim : rims)
+      if (!follows(surface, u, chart, rim))
+        return fmt::format("the chart does not follow {}", t_.edge_label(t_.coedge_edge[rim.coedge]));
+    return "";
+  }
+
+  static bool has_normals(const CompositeSurface& surface, const Chart& chart) {
+    constexpr double kNeedle = 1e-6;  // height over longest side: rounding turns its normal
+    for (const Corners& c : chart.corners) {
+      const Vec3 a = chart.x[c[1]] - chart.x[c[0]], b = chart.x[c[2]] - chart.x[c[0]], n = cross(a, b);
+      const bool is_needle = norm(n) <= kNeedle * std::max({norm2(a), norm2(b), norm2(b - a)});
+      for (const auto& w : {std::array{1 / 3., 1 / 3., 1 / 3.}, std::array{0.8, 0.1, 0.1}, std::array{0.1, 0.8, 0.1},
+                            std::array{0.1, 0.1, 0.8}}) {
+        const SurfacePoint p = surface.evaluate(w[0] * chart.uv[c[0]] + w[1] * chart.uv[c[1]] + w[2] * chart.uv[c[2]]);
+        const Vec3 m = cross(p.du, p.dv);
+        if (!is_needle && !(dot(m, n) > kLeastCosine * norm(m) * norm(n))) return false;
+        const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv), mean = 0.5 * (e + g),
+                     root = std::hypot(0.5 * (e - g), f);
+        if (!(mean + root <= kMostCompositeStretch * kMostCompositeStretch * (mean - root))) return false;
+      }
+    }
+    return true;
+  }
+
+  bool follows(const CompositeSurface& surface, const Union& u, const Chart& chart, const Rim& rim) {
+    const EdgeId e = t_.coedge_edge[rim.coedge];
+    const auto pcurve = cad_.pcurve(face_of_coedge_[rim.coedge], rim.coedge);
+    const auto curve = cad_.curve(e);
+    const std::vector<double>& t = facets_.rim_t[rim.coedge];
+    for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+      const AffineMap map(facets_.uv[static_cast<std::size_t>(u.triangles[rim.triangle[i]])],
+                          chart_corners(chart, rim.triangle[i]));
+      const Vec2 a = chart.uv[rim.node[i]], b = chart.uv[rim.node[i + 1]];
+      const double chord = norm(b - a);
+      constexpr int kPlaces = 4;
+      for (int k = 0; k <= kPlaces; ++k) {
+        const double share = static_cast<double>(k) / kPlaces, at = t[i] + share * (t[i + 1] - t[i]);
+        const Vec2 p = map(pcurve->point(at));
+        if (!(std::abs(cross(b - a, p - a)) <= kMostBulge * chord * chord)) return false;
+        bounds_.add(p);
+        const double most =
+            std::max(kOffRim * distance(chart.x[rim.node[i]], chart.x[rim.node[i + 1]]), 2 * t_.edge_tolerance[e]);
+        if (!(distance(surface.point(p), curve->point(at)) <= most)) return false;
+      }
+    }
+    return true;
+  }
+
+  void record(const std::vector<FaceId>& faces, const Union& u, const Chart& chart, Rims& rims) {
+    Composites& c = found_.composites;
+    c.member.insert(c.member.end(), faces.begin(), faces.end());
+    c.member_offsets.push_back(static_cast<std::int32_t>(c.member.size()));
+    for (const FaceId f : faces)
+      for (const EdgeId e : t_.edges_of(f))
+        if (is_joined_[e]) c.joined_edges.push_back(e);
+    c.node_xyz.insert(c.node_xyz.end(), chart.x.begin(), chart.x.end());
+    c.node_uv.insert(c.node_uv.end(), chart.uv.begin(), chart.uv.end());
+    c.node_offsets.push_back(static_cast<std::int32_t>(c.node_xyz.size()));
+    for (std::size_t i = 0; i < u.triangles.size(); ++i) {
+      c.triangle_nodes.push_back(chart.corners[i]);
+      c.triangle_face.push_back(facets_.face[static_cast<std::size_t>(u.triangles[i])]);
+      c.triangle_uv.push_back(facets_.uv[static_cast<std::size_t>(u.triangles[i])]);
+    }
+    c.triangle_offsets.push_back(static_cast<std::int32_t>(c.triangle_nodes.size()));
+    for (const double b : {bounds_.lo.x, bounds_.hi.x, bounds_.lo.y, bounds_.hi.y}) c.uv_bounds.push_back(b);
+    for (Rim& rim : rims) rims_.push_back(std::move(rim));
+  }
+
+  void finish() {
+    Composites& c = found_.composites;
+    sort_once(c.joined_edges);
+    std::ranges::sort(rims_, {}, &Rim::coedge);
+    c.rim_offsets = {0};
+    for (const Rim& rim : rims_) {
+      c.rim_coedge.push_back(rim.coedge);
+      const std::vector<double>& t = facets_.rim_t[rim.coedge];
+      c.rim_t.insert(c.rim_t.end(), t.begin(), t.end());
+      c.rim_node.insert(c.rim_node.end(), rim.node.begin(), rim.node.end());
+      c.rim_triangle.insert(c.rim_triangle.end(), rim.triangle.begin(), rim.triangle.end());
+      c.rim_offsets.push_back(static_cast<std::int32_t>(c.rim_t.size()));
+    }
+    find_joined_vertices();
+  }
+
+  /// Where joined edges ended on two edges that go on into each other.
+  void find_joined_vertices() {
+    const Composites& c = found_.composites;
+    std::vector<std::uint8_t> is_end(static_cast<std::size_t>(t_.n_vertices()), 0), is_gone(uses_.size(), 0);
+    std::vector<std::vector<EdgeId>> at(static_cast<std::size_t>(t_.n_vertices()));
+    for (const EdgeId e : c.joined_edges) is_gone[e] = 1;
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      for (const int k : {0, 1}) {
+        const VertexId v = t_.edge_vertices[2 * static_cast<std::size_t>(e) + k];
+        if (is_gone[e])
+          is_end[v] = 1;
+        else
+          at[v].push_back(e);
+      }
+    DisjointSets chains(t_.n_edges());
+    for (VertexId v = 0; v < t_.n_vertices(); ++v)
+      if (is_end[v] && !request_.must_end[v] && at[v].size() == 2 && at[v][0] != at[v][1] &&
+          chains.find(at[v][0]) != chains.find(at[v][1]) && goes_on(at[v][0], at[v][1], v)) {
+        chains.join(at[v][0], at[v][1]);
+        found_.composites.joined_vertices.push_back(v);
+      }
+  }
+
+  /// Direction away from the end at `v`.
+  Vec3 direction(EdgeId e, VertexId v) const {
+    const bool is_first = t_.edge_vertices[2 * static_cast<std::size_t>(e)] == v;
+    const auto curve = cad_.curve(e);
+    const CurvePoint p = curve->evaluate(is_first ? curve->t_min() : curve->t_max());
+    return normalized(is_first ? p.d1 : -p.d1);
+  }
+
+  bool goes_on(EdgeId a, EdgeId b, VertexId v) const {
+    for (const EdgeId e : {a, b})
+      if (t_.edge_is_degenerate[e] || !t_.edge_name[e].empty() || !(t_.edge_length[e] > 0) ||
+          t_.edge_vertices[2 * static_cast<std::size_t>(e)] == t_.edge_vertices[2 * static_cast<std::size_t>(e) + 1])
+        return false;
+    std::vector<std::pair<FaceId, FaceId>> beside;
+    if (uses_[a].size() != uses_[b].size()) return false;
+    std::vector<FaceId> beside_a, beside_b;
+    for (const CoedgeId c : uses_[a]) beside_a.push_back(whole(face_of_coedge_[c]));
+    for (const CoedgeId c : uses_[b]) beside_b.push_back(whole(face_of_coedge_[c]));
+    std::ranges::sort(beside_a);
+    std::ranges::sort(beside_b);
+    if (beside_a != beside_b || !(dot(direction(a, v), direction(b, v)) < -kSmoothTurn)) return false;
+    return are_next(a, b, v);
+  }
+
+  FaceId whole(FaceId f) const { return part_of_[f]; }
+
+  /// In faces that stay alone trimming curves must go on, too.
+  bool are_next(EdgeId a, EdgeId b, VertexId v) const {
+    constexpr double kSameUv = 1e-4;  // of the face's bounds
+    const auto end = [&](CoedgeId c) {
+      const EdgeId e = t_.coedge_edge[c];
+      const std::size_t row = 2 * static_cast<std::size_t>(e);
+      return cad_.pcurve(face_of_coedge_[c], c)->point(t_.edge_range[row + (t_.edge_vertices[row] == v ? 0 : 1)]);
+    };
+    for (const CoedgeId c : uses_[a]) {
+      const FaceId f = face_of_coedge_[c];
+      if (parts_[part_of_[f]].size() > 1) continue;
+      const double* bounds = &t_.face_uv_bounds[4 * static_cast<std::size_t>(f)];
+      const Vec2 p = end(c);
+      if (std::ranges::none_of(uses_[b], [&](CoedgeId o) {
+            if (face_of_coedge_[o] != f) return false;
+            const Vec2 way = end(o) - p;
+            return std::abs(way.x) <= kSameUv * (bounds[1] - bounds[0]) &&
+                   std::abs(way.y) <= kSameUv * (bounds[3] - bounds[2]);
+          }))
+        return false;
+    }
+    return true;
+  }
+
+  const Model& cad_;
+  const ModelTables& t_;
+  const JoinRequest& request_;
+  std::vector<std::vector<CoedgeId>> uses_;
+  std::vector<FaceId> face_of_coedge_;
+  UvFacets facets_;
+  std::vector<std::int32_t> across_;    // the side on the other face of an edge that may be joined
+  std::vector<std::uint8_t> can_join_;  // edges
+  std::vector<std::uint8_t> is_joined_;
+  std::vector<FaceId> part_of_;  // lowest face of the part
+  std::vector<std::vector<FaceId>> parts_;
+  Box2 bounds_;
+  Rims rims_;
+  FoundComposites found_;
+};
+
+}  // namespace
+
+FoundComposites find_composites(const Model& cad, const JoinRequest& request) {
+  return CompositeFinder(cad, request).run();
+}
+
+}  // namespace st

@@ -1,0 +1,182 @@
+#include "geometry/model/uv_facets.h"
+
+#include <BRepBuilderAPI_Copy.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <BRep_Tool.hxx>
+#include <IMeshTools_Parameters.hxx>
+#include <Poly_PolygonOnTriangulation.hxx>
+#include <Poly_Triangulation.hxx>
+#include <Standard_Failure.hxx>
+#include <TopLoc_Location.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "geometry/brep/compound.h"
+#include "geometry/model/model_editor.h"
+
+namespace st {
+namespace {
+
+/// Nodes of a coedge in a face's triangulation, along the edge.
+struct Rim {
+  std::vector<double> t;
+  std::vector<std::int32_t> node;
+};
+
+class FacetReader {
+ public:
+  FacetReader(const Model& model, UvFacets& facets)
+      : t_(model.tables()), brep_(ModelEditor::brep(model)), facets_(facets) {
+    facets_.rim_t.resize(t_.coedge_edge.size());
+    facets_.rim_side.resize(t_.coedge_edge.size());
+  }
+
+  void add(FaceId f, const TopoDS_Face& face, BRepBuilderAPI_Copy& copy) {
+    TopLoc_Location location;
+    const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
+    if (mesh.IsNull() || !mesh->HasUVNodes()) return;
+    std::vector<std::pair<CoedgeId, Rim>> rims;
+    one_.resize(static_cast<std::size_t>(mesh->NbNodes()));
+    for (std::size_t i = 0; i < one_.size(); ++i) one_[i] = static_cast<std::int32_t>(i);
+    for (const CoedgeId c : t_.coedges(f)) {
+      std::optional<Rim> rim = rim_of(c, mesh, location, copy);
+      if (!rim) return;
+      if (t_.edge_is_degenerate[t_.coedge_edge[c]])
+        for (const std::int32_t n : rim->node) one_[n] = one_[rim->node[0]];  // a pole
+      else
+        rims.emplace_back(c, std::move(*rim));
+    }
+    UvFacets own = triangles(f, *mesh, location);
+    if (connect(own, rims)) append(std::move(own), rims);
+  }
+
+ private:
+  std::optional<Rim> rim_of(CoedgeId c, const Handle(Poly_Triangulation) & mesh, const TopLoc_Location& location,
+                            BRepBuilderAPI_Copy& copy) const {
+    const TopoDS_Shape edge = copy.ModifiedShape(brep_.edges(t_.coedge_edge[c] + 1));
+    const auto orientation = t_.coedge_is_reversed[c] ? TopAbs_REVERSED : TopAbs_FORWARD;
+    const Handle(Poly_PolygonOnTriangulation) polygon =
+        BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edge.Oriented(orientation)), mesh, location);
+    if (polygon.IsNull() || !polygon->HasParameters() || polygon->NbNodes() < 2) return std::nullopt;
+    Rim rim;
+    for (int i = 1; i <= polygon->NbNodes(); ++i) {
+      rim.t.push_back(polygon->Parameter(i));
+      rim.node.push_back(polygon->Node(i) - 1);
+    }
+    if (rim.t.front() > rim.t.back()) {
+      std::ranges::reverse(rim.t);
+      std::ranges::reverse(rim.node);
+    }
+    if (std::ranges::adjacent_find(rim.t, std::greater_equal()) != rim.t.end()) return std::nullopt;
+    return rim;
+  }
+
+  UvFacets triangles(FaceId f, const Poly_Triangulation& mesh, const TopLoc_Location& location) const {
+    UvFacets own;
+    for (int i = 1; i <= mesh.NbNodes(); ++i) {
+      const gp_Pnt p = mesh.Node(i).Transformed(location.Transformation());
+      own.x.push_back({p.X(), p.Y(), p.Z()});
+    }
+    for (int i = 1; i <= mesh.NbTriangles(); ++i) {
+      std::array<int, 3> n;
+      mesh.Triangle(i).Get(n[0], n[1], n[2]);  // counter-clockwise in (u,v)
+      if (t_.face_is_reversed[f]) std::swap(n[1], n[2]);
+      const Corners c{one_[n[0] - 1], one_[n[1] - 1], one_[n[2] - 1]};
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;  // at a pole
+      own.corners.push_back(c);
+      auto& uv = own.uv.emplace_back();
+      for (int k = 0; k < 3; ++k) uv[k] = {mesh.UVNode(n[k]).X(), mesh.UVNode(n[k]).Y()};
+      own.face.push_back(f);
+    }
+    return own;
+  }
+
+  /// Finds mates and sides along edges; false where they contradict each other.
+  static bool connect(UvFacets& own, std::vector<std::pair<CoedgeId, Rim>>& rims) {
+    std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> sides;
+    for (std::size_t s = 0; s < 3 * own.corners.size(); ++s) {
+      const Corners& c = own.corners[s / 3];
+      if (!sides.emplace(std::pair(c[s % 3], c[(s + 1) % 3]), static_cast<std::int32_t>(s)).second) return false;
+    }
+    own.mate.assign(3 * own.corners.size(), kNone);
+    std::size_t n_free = 0;
+    for (const auto& [ends, side] : sides) {
+      const auto other = sides.find({ends.second, ends.first});
+      if (other != sides.end())
+        own.mate[static_cast<std::size_t>(side)] = other->second;
+      else
+        ++n_free;
+    }
+    std::vector<std::uint8_t> is_taken(own.mate.size(), 0);
+    for (auto& [coedge, rim] : rims)
+      for (std::size_t i = 0; i + 1 < rim.node.size(); ++i) {
+        auto side = sides.find({rim.node[i], rim.node[i + 1]});
+        if (side == sides.end() || own.mate[static_cast<std::size_t>(side->second)] != kNone)
+          side = sides.find({rim.node[i + 1], rim.node[i]});
+        if (side == sides.end() || own.mate[static_cast<std::size_t>(side->second)] != kNone ||
+            std::exchange(is_taken[static_cast<std::size_t>(side->second)], 1) != 0)
+          return false;
+        rim.node[i] = side->second;  // from here on the side
+        --n_free;
+      }
+    return n_free == 0;
+  }
+
+  void append(UvFacets&& own, std::vector<std::pair<CoedgeId, Rim>>& rims) {
+    const auto first_node = static_cast<std::int32_t>(facets_.x.size()),
+               first_side = static_cast<std::int32_t>(3 * facets_.corners.size());
+    facets_.x.insert(facets_.x.end(), own.x.begin(), own.x.end());
+    for (const Corners& c : own.corners)
+      facets_.corners.push_back({c[0] + first_node, c[1] + first_node, c[2] + first_node});
+    facets_.uv.insert(facets_.uv.end(), own.uv.begin(), own.uv.end());
+    facets_.face.insert(facets_.face.end(), own.face.begin(), own.face.end());
+    for (const std::int32_t m : own.mate) facets_.mate.push_back(m == kNone ? kNone : m + first_side);
+    for (auto& [coedge, rim] : rims) {
+      rim.node.pop_back();
+      for (std::int32_t& side : rim.node) side += first_side;
+      facets_.rim_t[coedge] = std::move(rim.t);
+      facets_.rim_side[coedge] = std::move(rim.node);
+    }
+  }
+
+  const ModelTables& t_;
+  const Model::Impl& brep_;
+  UvFacets& facets_;
+  std::vector<std::int32_t> one_;  // the node that stands for each node of the face
+};
+
+}  // namespace
+
+UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits) {
+  const Model::Impl& brep = ModelEditor::brep(model);
+  UvFacets facets;
+  FacetReader reader(model, facets);
+  try {
+    std::vector<TopoDS_Shape> faces;
+    for (std::size_t f = 0; f < is_wanted.size(); ++f)
+      if (is_wanted[f]) faces.push_back(brep.faces(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
+    BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
+    IMeshTools_Parameters parameters;
+    parameters.Deflection = limits.deflection;
+    parameters.Angle = limits.angle;
+    parameters.ControlSurfaceDeflection = limits.is_exact;
+    const BRepMesh_IncrementalMesh mesher(copy.Shape(), parameters);
+    for (std::size_t f = 0; f < is_wanted.size(); ++f) {
+      facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
+      if (!is_wanted[f]) continue;
+      const TopoDS_Shape face = copy.ModifiedShape(brep.faces(static_cast<int>(f) + 1));
+      reader.add(static_cast<FaceId>(f), TopoDS::Face(face.Oriented(TopAbs_FORWARD)), copy);
+    }
+  } catch (const Standard_Failure&) {
+    facets = {};
+    facets.face_offsets.assign(is_wanted.size(), 0);
+    facets.rim_t.resize(model.tables().coedge_edge.size());
+    facets.rim_side.resize(model.tables().coedge_edge.size());
+  }
+  facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
+  return facets;
+}
+
+}  // namespace st

@@ -1,0 +1,118 @@
+#include "geometry/shape/composite_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/assert.h"
+
+namespace st {
+
+AffineMap::AffineMap(const std::array<Vec2, 3>& places, const std::array<Vec2, 3>& images)
+    : from(places[0]), to(images[0]) {
+  const Vec2 a = places[1] - places[0], b = places[2] - places[0], x = images[1] - images[0], y = images[2] - images[0];
+  const double det = cross(a, b);
+  along_u = (1 / det) * (b.y * x - a.y * y);
+  along_v = (1 / det) * (a.x * y - b.x * x);
+}
+
+struct CompositeSurface::Data {
+  Data(Chart c, CompositeSupport support) : corner_uv(std::move(support.corner_uv)), member(std::move(support.member)) {
+    ST_ASSERT(member.size() == c.corners.size() && corner_uv.size() == c.corners.size());
+    for (std::size_t t = 0; t < c.corners.size(); ++t) {
+      const Corners& n = c.corners[t];
+      map.emplace_back(std::array{c.uv[n[0]], c.uv[n[1]], c.uv[n[2]]}, corner_uv[t]);
+    }
+    chart = std::make_unique<ChartSurface>(std::move(c));
+  }
+
+  std::unique_ptr<ChartSurface> chart;
+  std::vector<std::array<Vec2, 3>> corner_uv;
+  std::vector<std::int32_t> member;
+  std::vector<AffineMap> map;
+};
+
+CompositeSurface::CompositeSurface(Chart chart, CompositeSupport support, std::vector<std::unique_ptr<Surface>> members,
+                                   const std::array<double, 4>& bounds)
+    : CompositeSurface(std::make_shared<const Data>(std::move(chart), std::move(support)), std::move(members), bounds) {
+}
+
+CompositeSurface::CompositeSurface(std::shared_ptr<const Data> data, std::vector<std::unique_ptr<Surface>> members,
+                                   const std::array<double, 4>& bounds)
+    : data_(std::move(data)), members_(std::move(members)) {
+  u_min_ = bounds[0], u_max_ = bounds[1];
+  v_min_ = bounds[2], v_max_ = bounds[3];
+  type_ = SurfaceType::kOther;
+}
+
+std::unique_ptr<Surface> CompositeSurface::copy() const {
+  std::vector<std::unique_ptr<Surface>> members;
+  for (const auto& member : members_) {
+    members.push_back(member->copy());
+    if (!members.back()) return nullptr;
+  }
+  return std::unique_ptr<Surface>(new CompositeSurface(data_, std::move(members), {u_min_, u_max_, v_min_, v_max_}));
+}
+
+CompositeSurface::MemberPlace CompositeSurface::place(Vec2 p) const {
+  constexpr double kFar = 2;  // sides of the chart triangle: further beside the patch its rim stands for (u,v)
+  const ChartSurface::Place at = data_->chart->locate(p);
+  const auto t = static_cast<std::size_t>(at.triangle);
+  const std::array<Vec2, 3>& uv = data_->corner_uv[t];
+  const Vec2 inside = at.weight[0] * uv[0] + at.weight[1] * uv[1] + at.weight[2] * uv[2];
+  const Vec2 beyond = data_->map[t](p);
+  const Vec2 way = beyond - inside;
+  const double side2 = std::max(
+      {dot(uv[1] - uv[0], uv[1] - uv[0]), dot(uv[2] - uv[1], uv[2] - uv[1]), dot(uv[0] - uv[2], uv[0] - uv[2])});
+  return {at.triangle, data_->member[t], dot(way, way) <= kFar * kFar * side2 ? beyond : inside};
+}
+
+Vec3 CompositeSurface::point(Vec2 uv) const {
+  const MemberPlace at = place(uv);
+  return members_[at.member]->point(at.uv);
+}
+
+SurfacePoint CompositeSurface::evaluate(Vec2 uv) const {
+  const MemberPlace at = place(uv);
+  const SurfacePoint s = members_[at.member]->evaluate(at.uv);
+  const Vec2 a = data_->map[at.triangle].along_u, b = data_->map[at.triangle].along_v;
+  return {s.x, a.x * s.du + a.y * s.dv, b.x * s.du + b.y * s.dv};
+}
+
+SurfacePoint2 CompositeSurface::evaluate2(Vec2 uv) const {
+  const MemberPlace at = place(uv);
+  const SurfacePoint2 s = members_[at.member]->evaluate2(at.uv);
+  const Vec2 a = data_->map[at.triangle].along_u, b = data_->map[at.triangle].along_v;
+  const auto second = [&](Vec2 p, Vec2 q) {
+    return p.x * q.x * s.duu + (p.x * q.y + p.y * q.x) * s.duv + p.y * q.y * s.dvv;
+  };
+  return {s.x, a.x * s.du + a.y * s.dv, b.x * s.du + b.y * s.dv, second(a, a), second(a, b), second(b, b)};
+}
+
+/// The chart's map has kinks where Newton's method with second derivatives would not help.
+std::optional<Vec2> CompositeSurface::refined(Vec3 p, std::optional<Vec2> start) const {
+  if (!start) return std::nullopt;
+  constexpr int kSteps = 12;
+  constexpr double kSmall = 1e-11;  // of the bounds: as near as (u,v) can tell
+  Vec2 best = *start, uv = best;
+  double best2 = norm2(point(best) - p);
+  const double small = kSmall * std::max(u_max_ - u_min_, v_max_ - v_min_);
+  for (int i = 0; i < kSteps; ++i) {
+    const SurfacePoint s = evaluate(uv);
+    const auto step = tangent_step(s.du, s.dv, p - s.x);
+    if (!step) break;
+    uv = uv + *step;
+    uv = {std::clamp(uv.x, u_min_, u_max_), std::clamp(uv.y, v_min_, v_max_)};
+    if (const double d2 = norm2(point(uv) - p); d2 < best2) best = uv, best2 = d2;
+    if (std::abs(step->x) + std::abs(step->y) <= small) break;
+  }
+  return best;
+}
+
+std::optional<Vec2> CompositeSurface::exact_foot(Vec3 p) const { return refined(p, data_->chart->exact_foot(p)); }
+
+std::optional<Vec2> CompositeSurface::foot_near(Vec3 p, Vec2 guess) const {
+  return refined(p, data_->chart->foot_near(p, guess));
+}
+
+}  // namespace st

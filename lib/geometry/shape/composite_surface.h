@@ -1,0 +1,65 @@
+// Several surfaces that go on into each other smoothly, as one: a chart whose triangles know their places on them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "geometry/shape/chart_surface.h"
+#include "geometry/shape/surface.h"
+
+namespace st {
+
+/// The affine map that takes three places to three others. Precondition: the first three span a triangle.
+struct AffineMap {
+  Vec2 from, to;          ///< of the first place
+  Vec2 along_u, along_v;  ///< derivatives
+
+  AffineMap() = default;
+  AffineMap(const std::array<Vec2, 3>& places, const std::array<Vec2, 3>& images);
+  Vec2 operator()(Vec2 p) const { return to + (p - from).x * along_u + (p - from).y * along_v; }
+};
+
+/// What stands under a chart.
+struct CompositeSupport {
+  std::vector<std::int32_t> member;            ///< [n_triangles] row of the surfaces
+  std::vector<std::array<Vec2, 3>> corner_uv;  ///< [n_triangles] (u,v) of the corners on that surface
+};
+
+/// x(u,v) = the member's surface at the affine image of (u,v) in its chart triangle: exact places and derivatives of
+/// the members. Beside the patch the map of the nearest triangle goes on. Where two members meet, x jumps by as much as
+/// the chart's sides leave the common edge, squared, times the curvature.
+class CompositeSurface final : public Surface {
+ public:
+  /// `bounds`: u_min, u_max, v_min, v_max.
+  CompositeSurface(Chart chart, CompositeSupport support, std::vector<std::unique_ptr<Surface>> members,
+                   const std::array<double, 4>& bounds);
+
+  Vec3 point(Vec2 uv) const override;
+  SurfacePoint evaluate(Vec2 uv) const override;
+  SurfacePoint2 evaluate2(Vec2 uv) const override;
+  /// Of the whole patch: from the nearest facet by steps in tangent planes.
+  std::optional<Vec2> exact_foot(Vec3 p) const override;
+  std::optional<Vec2> foot_near(Vec3 p, Vec2 guess) const override;
+  std::unique_ptr<Surface> copy() const override;
+
+  /// A place on a member.
+  struct MemberPlace {
+    std::int32_t triangle = kNone, member = kNone;
+    Vec2 uv;
+  };
+  MemberPlace place(Vec2 uv) const;
+
+ private:
+  struct Data;
+  CompositeSurface(std::shared_ptr<const Data> data, std::vector<std::unique_ptr<Surface>> members,
+                   const std::array<double, 4>& bounds);
+  std::optional<Vec2> refined(Vec3 p, std::optional<Vec2> start) const;
+
+  std::shared_ptr<const Data> data_;  // copies share it
+  std::vector<std::unique_ptr<Surface>> members_;
+};
+
+}  // namespace st

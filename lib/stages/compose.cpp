@@ -1,0 +1,186 @@
+#include "stages/compose.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "features/smooth_edges.h"
+#include "geometry/model/joined_tables.h"
+#include "io/foreign/triangulation_reader.h"
+#include "stages/cad_view.h"
+
+namespace st {
+namespace {
+
+constexpr double kSharpCorner = radians(25);   // a triangle in it has no larger angle
+constexpr double kShort = 0.7;                 // of the length: an edge or a width below it spoils triangles
+constexpr double kDefaultLmax = 0.025;         // of the diagonal: as st-raster has it
+constexpr double kDefaultAlpha = radians(10);  // likewise
+constexpr double kChartDeflection = 1e-3;      // of the diagonal
+constexpr double kChartAngle = radians(12);
+
+/// Marks edges that groups, names and wings keep.
+std::vector<std::uint8_t> kept_edges(const Model& cad) {
+  const ModelTables& t = cad.tables();
+  std::vector<std::uint8_t> is_kept(static_cast<std::size_t>(t.n_edges()), 0);
+  for (EdgeId e = 0; e < t.n_edges(); ++e) is_kept[e] = !t.edge_name[e].empty();
+  for (const EntityGroup& g : t.labels.edge_groups)
+    for (const EdgeId e : g.ids) is_kept[e] = 1;
+  for (const WingEdge& w : wing_edges_to_see(cad)) is_kept[w.edge] = 1;
+  return is_kept;
+}
+
+/// Whether everything said of two faces is the same.
+bool are_alike(const ModelTables& t, FaceId a, FaceId b) {
+  const FaceLabels& l = t.labels;
+  return a != b && l.face_group[a] == l.face_group[b] && (l.face_part.empty() || l.face_part[a] == l.face_part[b]) &&
+         t.face_solid[a] == t.face_solid[b] && t.face_shell[a] == t.face_shell[b] &&
+         std::ranges::all_of(l.tables,
+                             [&](const GroupTable& table) { return table.face_group[a] == table.face_group[b]; });
+}
+
+/// Finds edges that force bad triangles.
+class HarmFinder {
+ public:
+  HarmFinder(const Model& cad, const std::vector<std::uint8_t>& may_join)
+      : cad_(cad), t_(cad.tables()), may_join_(may_join), harm_(static_cast<std::size_t>(t_.n_edges()), 0) {
+    for (FaceId f = 0; f < t_.n_faces(); ++f)
+      if (std::ranges::any_of(t_.edges_of(f), [&](EdgeId e) { return may_join_[e] != 0; })) judge(f);
+  }
+  std::vector<double> take() { return std::move(harm_); }
+
+ private:
+  void judge(FaceId f) {
+    const auto surface = cad_.surface(f);
+    for (const LoopId l : t_.loops(f)) {
+      const IdRange loop = t_.loop_coedges(l);
+      for (const CoedgeId c : loop) {
+        const CoedgeId next = loop.first() + (c - loop.first() + 1) % loop.size();
+        judge_corner(c, next);
+        judge_width(f, *surface, c);
+      }
+    }
+  }
+
+  void add(EdgeId e, double harm) {
+    if (may_join_[e]) harm_[e] += harm;
+  }
+
+  /// Away from the vertex between two coedges.
+  Vec3 direction(CoedgeId c, bool is_end) const {
+    const auto curve = cad_.curve(t_.coedge_edge[c]);
+    const bool at_last = (t_.coedge_is_reversed[c] != 0) != is_end;
+    const Vec3 d = curve->evaluate(at_last ? curve->t_max() : curve->t_min()).d1;
+    return at_last ? -d : d;
+  }
+
+  void judge_corner(CoedgeId c, CoedgeId next) {
+    const EdgeId a = t_.coedge_edge[c], b = t_.coedge_edge[next];
+    if (a == b || (!may_join_[a] && !may_join_[b]) || t_.edge_is_degenerate[a] || t_.edge_is_degenerate[b]) return;
+    if (angle_between(direction(c, true), direction(next, false)) < kSharpCorner) add(a, 1), add(b, 1);
+    // what is short beside an edge that may go
+    for (const auto& [own, other] : {std::pair{a, b}, std::pair{b, a}})
+      if (t_.edge_length[other] < kShort * length_at(own)) add(own, 1);
+  }
+
+  void judge_width(FaceId f, const Surface&, CoedgeId c) {
+    const EdgeId e = t_.coedge_edge[c];
+    if (may_join_[e] && t_.face_width[f] < kShort * length_at(e)) add(e, 2);
+  }
+
+  /// What st-raster would ask for at an edge by default, about.
+  double length_at(EdgeId e) {
+    if (length_.empty()) length_.assign(static_cast<std::size_t>(t_.n_edges()), 0);
+    if (length_[e] > 0) return length_[e];
+    double length = kDefaultLmax * t_.reference_diagonal();
+    constexpr int kPlaces = 3;
+    for (FaceId f = 0; f < t_.n_faces() && length_edges_.empty(); ++f)
+      for (const CoedgeId c : t_.coedges(f)) uses_.emplace_back(t_.coedge_edge[c], std::pair(f, c));
+    if (length_edges_.empty()) {
+      std::ranges::sort(uses_);
+      length_edges_.push_back(1);
+    }
+    const auto [first, last] = std::equal_range(uses_.begin(), uses_.end(), std::pair(e, std::pair(0, 0)),
+                                                [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto use = first; use != last; ++use) {
+      const auto [f, c] = use->second;
+      const auto surface = cad_.surface(f);
+      const auto pcurve = cad_.pcurve(f, c);
+      const double* range = &t_.edge_range[2 * static_cast<std::size_t>(e)];
+      for (int i = 0; i < kPlaces; ++i) {
+        const double k =
+            std::abs(principal_curvature(
+                         surface->evaluate2(pcurve->point(range[0] + (i + 0.5) / kPlaces * (range[1] - range[0]))))
+                         .k1);
+        if (k > 0) length = std::min(length, 2 * std::sin(0.5 * kDefaultAlpha) / k);
+      }
+    }
+    return length_[e] = length;
+  }
+
+  const Model& cad_;
+  const ModelTables& t_;
+  const std::vector<std::uint8_t>& may_join_;
+  std::vector<double> harm_, length_;
+  std::vector<int> length_edges_;
+  std::vector<std::pair<EdgeId, std::pair<FaceId, CoedgeId>>> uses_;
+};
+
+}  // namespace
+
+bool asks_for_composites(const std::string& word, const std::string& path) {
+  if (word != "none" && word != "harm" && word != "smooth")
+    throw Error(ExitCode::kUsage, "--composite " + word + ": give none, harm or smooth");
+  if (word != "none" && !triangulation_format(path).empty())
+    throw Error(ExitCode::kUsage, path + ": --composite needs a CAD model, and this file has facets");
+  return word != "none";
+}
+
+JoinRequest join_request(const Model& cad, bool is_harm_only) {
+  const ModelTables& t = cad.tables();
+  JoinRequest request;
+  request.may_join = find_smooth_edges(cad);
+  const std::vector<std::uint8_t> is_kept = kept_edges(cad);
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (request.may_join[e] &&
+        (is_kept[e] || offsets[e + 1] - offsets[e] != 2 || !are_alike(t, faces[offsets[e]], faces[offsets[e] + 1])))
+      request.may_join[e] = 0;
+  if (is_harm_only)
+    request.urgency = HarmFinder(cad, request.may_join).take();
+  else
+    request.urgency = t.edge_length;
+  request.must_end.assign(static_cast<std::size_t>(t.n_vertices()), 0);
+  for (const EntityGroup& g : t.labels.vertex_groups)
+    for (const VertexId v : g.ids) request.must_end[v] = 1;
+  for (const EntityGroup& g : t.labels.edge_groups)
+    for (const EdgeId e : g.ids)
+      for (const std::size_t k : {0, 1}) request.must_end[t.edge_vertices[2 * static_cast<std::size_t>(e) + k]] = 1;
+  request.facets = {.deflection = kChartDeflection * t.reference_diagonal(), .angle = kChartAngle, .is_exact = true};
+  return request;
+}
+
+std::string compose(GeometryArtifact& geometry, bool is_harm_only) {
+  FoundComposites found;
+  {
+    const Model cad(geometry.tables, geometry.brep);
+    found = find_composites(cad, join_request(cad, is_harm_only));
+  }
+  for (const std::string& why : found.refused) log_info("  not joined: " + why);
+  if (!found.composites.empty()) {
+    geometry.composites = std::move(found.composites);
+    ModelTables joined = join_tables(geometry.tables, geometry.composites).tables;
+    geometry.cad = std::exchange(geometry.tables, std::move(joined));
+  }
+  const auto n = static_cast<std::int64_t>(geometry.composites.member.size());
+  return fmt::format("{} faces joined to {}, {} unions refused", n, n == 0 ? 0 : geometry.composites.size(),
+                     found.refused.size());
+}
+
+}  // namespace st

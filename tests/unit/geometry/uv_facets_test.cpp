@@ -1,0 +1,67 @@
+#include "geometry/model/uv_facets.h"
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+UvFacets uv_facets_of(const Model& model) {
+  const ModelTables& t = model.tables();
+  return make_uv_facets(model, std::vector<std::uint8_t>(static_cast<std::size_t>(t.n_faces()), 1),
+                        {.deflection = 1e-3 * t.reference_diagonal(), .angle = radians(12), .is_exact = true});
+}
+
+TEST(UvFacets, have_corners_at_their_places_and_face_outward) {
+  for (const char* shape : {"box", "sphere", "drilled_cylinder", "mirrored_cylinder", "cone", "torus", "wing_of_8"}) {
+    SCOPED_TRACE(shape);
+    const Model model = test::make_model(shape);
+    const ModelTables& t = model.tables();
+    const UvFacets facets = uv_facets_of(model);
+    double volume = 0;
+    for (std::size_t i = 0; i < facets.corners.size(); ++i) {
+      const FaceId f = facets.face[i];
+      const auto surface = model.surface(f);
+      const Corners& c = facets.corners[i];
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_LE(distance(surface->point(facets.uv[i][k]), facets.x[c[k]]), 1e-6 * t.box().diagonal());
+      volume += dot(facets.x[c[0]], cross(facets.x[c[1]], facets.x[c[2]])) / 6;
+    }
+    EXPECT_NEAR(volume, t.volume.value_or(0), 0.02 * volume);
+    for (FaceId f = 0; f < t.n_faces(); ++f) EXPECT_GT(facets.face_offsets[f + 1], facets.face_offsets[f]);
+  }
+}
+
+TEST(UvFacets, know_their_neighbours_and_the_sides_along_edges) {
+  for (const char* shape : {"box", "sphere", "drilled_cylinder", "cone", "torus"}) {
+    SCOPED_TRACE(shape);
+    const Model model = test::make_model(shape);
+    const UvFacets facets = uv_facets_of(model);
+    std::size_t n_free = 0, n_rim = 0;
+    for (std::size_t s = 0; s < facets.mate.size(); ++s) {
+      const std::int32_t m = facets.mate[s];
+      if (m == kNone)
+        ++n_free;
+      else
+        EXPECT_EQ(facets.mate[static_cast<std::size_t>(m)], static_cast<std::int32_t>(s));
+    }
+    for (std::size_t c = 0; c < facets.rim_side.size(); ++c) {
+      n_rim += facets.rim_side[c].size();
+      if (!facets.rim_side[c].empty()) {
+        EXPECT_EQ(facets.rim_t[c].size(), facets.rim_side[c].size() + 1);
+      }
+    }
+    EXPECT_EQ(n_free, n_rim);
+  }
+}
+
+TEST(UvFacets, are_made_of_wanted_faces_alone) {
+  const Model model = test::make_model("box");
+  const UvFacets facets = make_uv_facets(model, {0, 1, 0, 0, 1, 0}, {.deflection = 1});
+  for (const FaceId f : facets.face) EXPECT_TRUE(f == 1 || f == 4);
+  EXPECT_EQ(facets.corners.size(), 4u);
+}
+
+}  // namespace
+}  // namespace st
