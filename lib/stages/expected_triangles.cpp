@@ -18,6 +18,9 @@ namespace {
 constexpr std::size_t kMostQueries = 20000;    // of the field, on a whole mesh
 constexpr std::size_t kFacesNamed = 5;         // in a warning
 constexpr double kShare = 0.8;                 // of the memory
+constexpr double kTilesOfMesh = 16;            // of a mesh that is one face
+constexpr double kSmallTile = 8'000;           // triangles: cuts of smaller ones cost more than 2 %
+constexpr double kLargeTile = 25'000;          // triangles: data of larger ones leave the caches
 constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/dev/bench.md)
 
 }  // namespace
@@ -25,6 +28,8 @@ constexpr double kMeshBytesPerTriangle = 150;  // of st-mesh, measured (docs/dev
 double expected_triangles(std::span<const double> face_weight) {
   return kTrianglesPerWeight * std::accumulate(face_weight.begin(), face_weight.end(), 0.0);
 }
+
+double usual_tile(double n_triangles) { return std::clamp(n_triangles / kTilesOfMesh, kSmallTile, kLargeTile); }
 
 std::string heaviest_faces(std::span<const double> face_weight, std::span<const std::string> face_name) {
   std::vector<std::size_t> order(face_weight.size());

@@ -16,6 +16,9 @@ namespace st {
 /// About this many triangles: equilateral ones of the local length. `face_weight`: see SizingArtifact.
 double expected_triangles(std::span<const double> face_weight);
 
+/// Triangles of a tile of a heavy face, of a mesh of so many: small enough that 64 threads find work on a small mesh.
+double usual_tile(double n_triangles);
+
 /// Above this number st-prolong says before anything is meshed which faces ask for most.
 inline constexpr double kManyTriangles = 5e6;
 

@@ -38,10 +38,11 @@ void require_valid(const MeshStageOptions& o) {
   o.kEnhanceRounds.require(o.enhance_rounds);
   o.kMergeBelow.require(o.merge_below);
   o.kMaxTurning.require(o.max_turning_deg);
-  o.kTile.require(o.tile_triangles);
-  if (o.tile_triangles > 0 && o.tile_triangles < kLeastTile)
+  if (!o.tile_triangles) return;
+  o.kTile.require(*o.tile_triangles);
+  if (*o.tile_triangles > 0 && *o.tile_triangles < kLeastTile)
     throw Error(ExitCode::kUsage, fmt::format("--tile {}: tiles below {} triangles are mostly seams; give more, or 0",
-                                              o.tile_triangles, kLeastTile));
+                                              *o.tile_triangles, kLeastTile));
 }
 
 FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {
@@ -107,13 +108,14 @@ MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std:
   return plan;
 }
 
-ArtifactHeader output_header(const MeshStageOptions& o, const ArtifactHeader& geometry, const ArtifactHeader& sizing) {
+ArtifactHeader output_header(const MeshStageOptions& o, double tile_triangles, const ArtifactHeader& geometry,
+                             const ArtifactHeader& sizing) {
   ArtifactHeader header;
   header.tool = "st-mesh";
   header.options_json = json_text(nlohmann::json{{"faces", o.faces},
                                                  {"group", o.group},
                                                  {"enhance_rounds", o.enhance_rounds},
-                                                 {"tile", o.tile_triangles},
+                                                 {"tile", tile_triangles},
                                                  {"merge_below", o.merge_below},
                                                  {"max_turning", o.max_turning_deg}});
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash},
@@ -163,12 +165,13 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, trace)
                                                 : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();
-  const ArtifactHeader header = output_header(o, geometry.header, sizing.header);
+  const double tile_triangles = o.tile_triangles.value_or(usual_tile(expected_triangles(sizing.face_weight)));
+  const ArtifactHeader header = output_header(o, tile_triangles, geometry.header, sizing.header);
   progress.step("meshing", 0.1);
   Resumption resumption(trace, o.output, run_of(header, earlier.edges), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
   MeshResult result = mesh_regions(model, topology, *sizing.field, std::move(plan),
-                                   {o.enhance_rounds, o.max_turning_deg, o.merge_below, o.tile_triangles,
+                                   {o.enhance_rounds, o.max_turning_deg, o.merge_below, tile_triangles,
                                     resumption.left_out(), o.time_limit, WhenLate::kSignal, PatchesGo::kNowhere},
                                    resumption);
   resumption.end();

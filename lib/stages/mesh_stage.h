@@ -31,10 +31,11 @@ struct MeshStageOptions {
   static constexpr NumberOption kMaxTurning{
       "--max-turning", "DEG", "[0.001, 60]",
       "largest angle in degrees by which a CAD edge turns along one mesh segment"};
-  double tile_triangles = 25'000;
+  std::optional<double> tile_triangles;
   static constexpr NumberOption kTile{
       "--tile", "N", "[0, 1e9]",
-      "cut faces that expect more than 1.5 N triangles into tiles of about N, meshed in parallel; 0: cut none"};
+      "cut faces that expect more than 1.5 N triangles into tiles of about N, meshed in parallel; 0: cut none; "
+      "default: a sixteenth of the triangles expected, 8000 to 25000"};
   std::optional<double> time_limit;
   static constexpr NumberOption kTimeLimit{
       "--time-limit", "SECONDS", "[0.1, 1e9]",

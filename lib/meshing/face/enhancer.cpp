@@ -5,7 +5,7 @@
 #include "base/predicates.h"
 #include "geometry/shape/surface_forms.h"
 #include "meshing/face/front.h"
-#include "meshing/face/stretch.h"
+#include "meshing/face/triangle_shape.h"
 
 namespace st {
 namespace {
@@ -18,16 +18,13 @@ constexpr int kPrev[3] = {2, 0, 1};
 constexpr double kGoodQuality = 0.995;  // nodes whose triangles are all better stay where they are
 constexpr double kShortEdge = 0.55;     // of the requested length: collapsed where that does no harm
 constexpr double kLongEdge = 1.45;      // of the requested length: no collapse makes such an edge
-constexpr double kSteepCosine = 0.5;    // between a triangle's normal and the surface's: less costs quality
 constexpr float kNoTriangle = 2;        // quality of what is outside or gone
 constexpr double kHalfSqrt3 = 0.8660254037844386;
 constexpr double kWeightBase = 1.3;  // minus a triangle's quality: its weight in the smoothing
 constexpr double kStill = 0.02;      // of the requested length: a shorter move wakes no neighbours
 constexpr double kSwapGain = 1e-3;
-constexpr double kObtuse = -0.5;         // cosine: larger angles of stretched triangles cost quality
-constexpr double kWorstAngleLoss = 0.8;  // at 180 degrees
-constexpr double kSwapBelow = 0.9;       // pairs of triangles that are both better are left alone
-constexpr double kRelaxLeast = 0.55;     // no triangle worse than this is made for the sake of the valence
+constexpr double kSwapBelow = 0.9;    // pairs of triangles that are both better are left alone
+constexpr double kRelaxLeast = 0.55;  // no triangle worse than this is made for the sake of the valence
 
 template <bool kStretched>
 class Enhancer {
@@ -46,6 +43,8 @@ class Enhancer {
   }
 
  private:
+  using Shape = TriangleShape<kStretched>;
+
   void start() {
     quality_.assign(m_.triangles.size(), kNoTriangle);
     changed_.assign(m_.triangles.size(), 0);
@@ -73,45 +72,8 @@ class Enhancer {
   }
   bool is_inner(std::int32_t node) const { return node >= m_.n_boundary + 4; }
 
-  /// The side from one node to another; the square of its length where no sizes are stretched.
-  struct Spoke {
-    Vec3 way;
-    double length2 = 0;
-    Spoke(const MeshNode& from, const MeshNode& to) : way(to.x - from.x) {
-      if constexpr (!kStretched) length2 = norm2(way);
-    }
-  };
-
-  /// 4 sqrt(3) A / sum l^2 in space, less where the normal is far off the surface's, negative where it is turned
-  /// against it.
-  double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) const {
-    return quality(a, b, c, Spoke(a, b), Spoke(a, c));
-  }
-  double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c, const Spoke& to_b, const Spoke& to_c) const {
-    const Vec3 ab = to_b.way, ac = to_c.way, bc = c.x - b.x;
-    const Vec3 n = cross(ab, ac);
-    double sum = to_b.length2 + to_c.length2;
-    if constexpr (kStretched) sum = mean_length2<true>(ab, a, b, c) + mean_length2<true>(ac, a, b, c);
-    sum += mean_length2<kStretched>(bc, a, b, c);
-    if (!(sum > 0)) return 0;
-    double area = norm(n), q = 3.4641016151377544 * area / sum;
-    if constexpr (kStretched) q *= std::sqrt(area_share2(a, b, c)) * angle_share(norm2(ab), norm2(ac), norm2(bc));
-    const double least = std::min({dot(n, a.normal), dot(n, b.normal), dot(n, c.normal)});
-    if (least >= kSteepCosine * area) return q;
-    const Vec3 mean = a.normal + b.normal + c.normal;
-    const double cosine = dot(n, mean) / std::max(area * norm(mean), 1e-300);
-    if (least >= 0) return q * std::clamp(cosine / kSteepCosine, 0.0, 1.0);
-    return cosine > 0.2 ? 0.5 * q : -1 + q;
-  }
-  /// 1, less for a triangle whose largest angle in space is obtuse: what the metric does not see. Squares of its sides.
-  static double angle_share(double a2, double b2, double c2) {
-    const double longest = std::max({a2, b2, c2}), others = a2 + b2 + c2 - longest;
-    const double product = longest == a2 ? b2 * c2 : longest == b2 ? a2 * c2 : a2 * b2;
-    const double cosine = 0.5 * (others - longest) / std::sqrt(std::max(product, 1e-300));
-    return 1 - kWorstAngleLoss * std::clamp((kObtuse - cosine) / (1 + kObtuse), 0.0, 1.0);
-  }
   double quality(std::int32_t a, std::int32_t b, std::int32_t c) const {
-    return quality(m_.nodes[a], m_.nodes[b], m_.nodes[c]);
+    return Shape::quality(m_.nodes[a], m_.nodes[b], m_.nodes[c]);
   }
 
   bool is_inside(const PlaneTriangle& t) const { return t.state != kOutside && t.state != kDead; }
@@ -233,13 +195,13 @@ class Enhancer {
     const double least = std::min(before.worst + 1e-4, before.fair());
     const std::size_t n = around_.size();
     const MeshNode* node = &m_.nodes[around_[0]];
-    const Spoke first(centre, *node);
-    Spoke spoke = first;
+    const typename Shape::Side first(centre, *node);
+    typename Shape::Side spoke = first;
     for (std::size_t i = 0; i < n; ++i) {
       const bool is_last = i + 1 == n;
       const MeshNode& next = m_.nodes[around_[is_last ? 0 : i + 1]];
-      const Spoke to_next = is_last ? first : Spoke(centre, next);
-      const double q = quality(centre, *node, next, spoke, to_next);
+      const typename Shape::Side to_next = is_last ? first : typename Shape::Side(centre, next);
+      const double q = Shape::quality(centre, *node, next, spoke, to_next);
       node = &next;
       spoke = to_next;
       ring.worst = std::min(ring.worst, q);
@@ -374,7 +336,7 @@ class Enhancer {
       if (k == c || l == c) continue;
       const MeshNode &a = m_.nodes[around_[k]], &b = m_.nodes[around_[l]];
       if (orient2d(target.p, a.p, b.p) <= 0) return -2;
-      if (!is_pole_side(around_[k], around_[l])) worst = std::min(worst, quality(target, a, b));
+      if (!is_pole_side(around_[k], around_[l])) worst = std::min(worst, Shape::quality(target, a, b));
     }
     // edges that appear: target to every ring node but its neighbours
     for (int k = 0; k < n; ++k) {

@@ -12,6 +12,13 @@
 namespace st {
 namespace {
 
+TEST(UsualTile, is_a_sixteenth_of_the_mesh_between_its_bounds) {
+  EXPECT_EQ(usual_tile(0), 8000);
+  EXPECT_EQ(usual_tile(128'000), 8000);
+  EXPECT_EQ(usual_tile(160'000), 10'000);
+  EXPECT_EQ(usual_tile(1e6), 25'000);
+}
+
 class ExpectedTriangles : public testing::Test {
  protected:
   std::string refusal(std::vector<double> triangles, std::vector<FaceId> faces, double limit) const {
