@@ -23,8 +23,18 @@ struct View {
   Vec3 right, up, eye;
 };
 
-View usual_view() {
-  const Vec3 eye = normalized(Vec3{-1, -1.2, 0.8}), right = normalized(cross(Vec3{0, 0, 1}, eye));
+/// `open`: sum of the area vectors of what is seen, away from the plane in which a half model is open; zero of a whole
+/// one, of `area`.
+View usual_view(Vec3 open, double area) {
+  constexpr double kHalf = 0.01;  // of the area: what rounding and small holes leave is less
+  Vec3 eye = {-1, -1.2, 0.8};
+  if (norm(open) > kHalf * area) {
+    const double most = std::max({std::abs(open.x), std::abs(open.y), std::abs(open.z)});
+    for (const auto axis : {&Vec3::x, &Vec3::y, &Vec3::z})
+      if (std::abs(open.*axis) == most) eye.*axis = std::copysign(eye.*axis, open.*axis);
+  }
+  eye = normalized(eye);
+  const Vec3 right = normalized(cross(Vec3{0, 0, 1}, eye));
   return {right, cross(eye, right), eye};
 }
 
@@ -89,17 +99,33 @@ std::vector<std::uint8_t> shown_groups(const SurfaceMesh& mesh) {
   return shown;
 }
 
+/// Normals of a domain around a body point into it.
+template <class IsShown>
+View view_of(const SurfaceMesh& mesh, const IsShown& is_shown) {
+  bool has_far_field = false;
+  for (std::size_t g = 0; g < mesh.labels.group_name.size(); ++g)
+    has_far_field |= role_of(mesh.labels, g) == "farfield";
+  Vec3 open = {};
+  double area = 0;
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    if (!is_shown(t)) continue;
+    const auto [a, b, c] = mesh.triangles[t].n;
+    const Vec3 n = cross(mesh.node_xyz[b] - mesh.node_xyz[a], mesh.node_xyz[c] - mesh.node_xyz[a]);
+    open = has_far_field ? open - n : open + n;
+    area += norm(n);
+  }
+  return usual_view(open, area);
+}
+
 }  // namespace
 
 std::string thumbnail(const SurfaceMesh& mesh) {
-  const View view = usual_view();
   const std::vector<std::uint8_t> shown = shown_groups(mesh);
   const auto is_shown = [&](TriangleId t) {
-    const FaceId f = mesh.triangle_face[t];
-    if (static_cast<std::size_t>(f) >= mesh.labels.face_group.size()) return true;
-    const std::int32_t g = mesh.labels.face_group[f];
+    const std::int32_t g = mesh.triangle_group.empty() ? kNone : mesh.triangle_group[t];
     return g == kNone || shown[g] != 0;
   };
+  const View view = view_of(mesh, is_shown);
   Box3 box;
   std::vector<Vec3> place;
   for (const Vec3 x : mesh.node_xyz) place.push_back({dot(x, view.right), dot(x, view.up), dot(x, view.eye)});

@@ -7,8 +7,8 @@
 
 namespace st {
 
-/// A grey bitmap (BMP, 8 bits) of 160 by 120 points as a data URI, seen from ahead, above and beside; without far field
-/// and symmetry planes. Empty for a mesh without triangles. Linear in triangles.
+/// A grey bitmap (BMP, 8 bits) of 160 by 120 points as a data URI, seen from ahead, above and beside, of a half model
+/// from its outside; without far field and symmetry planes. Empty for a mesh without triangles. Linear in triangles.
 std::string thumbnail(const SurfaceMesh& mesh);
 
 }  // namespace st
