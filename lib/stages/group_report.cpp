@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <vector>
 
 #include "base/error.h"
 #include "geometry/model/groups.h"
 #include "io/file/json_text.h"
 #include "io/hdf5/artifact.h"
+#include "stages/id_ranges.h"
 
 namespace st {
 namespace {
@@ -23,6 +23,9 @@ struct Identity {
   std::vector<std::string> face_color = {}, face_layer = {}, face_surface = {};  ///< of a geometry alone: "#rrggbb" or
                                                                                  ///< empty, names
   std::vector<std::string> edge_name = {};                                       ///< likewise
+  std::vector<double> face_area = {};                                            ///< likewise, model unit squared
+  std::vector<Box3> face_box = {};                                               ///< likewise
+  std::string unit = {};
 };
 
 std::vector<std::string> color_texts(const std::vector<std::int32_t>& colors) {
@@ -41,8 +44,8 @@ Identity identity_of(const std::string& path) {
   const std::string schema = read_header(path).schema;
   if (schema == "geometry") {
     ModelTables t = read_geometry(path).tables;
-    return {std::move(t.labels), color_texts(t.face_color), std::move(t.face_layer), surface_texts(t.face_type),
-            std::move(t.edge_name)};
+    return {std::move(t.labels),    color_texts(t.face_color), std::move(t.face_layer), surface_texts(t.face_type),
+            std::move(t.edge_name), std::move(t.face_area),    std::move(t.face_box),   std::move(t.unit)};
   }
   if (schema == "patches") return {read_patches(path).labels};
   if (schema != "mesh")
@@ -61,17 +64,6 @@ std::vector<FaceId> faces_with(const std::vector<std::int32_t>& number_of_face, 
   for (std::size_t f = 0; f < number_of_face.size(); ++f)
     if (number_of_face[f] == static_cast<std::int32_t>(number)) faces.push_back(static_cast<FaceId>(f + 1));
   return faces;
-}
-
-/// "1-7, 9", as a groups file takes it.
-std::string ranges(std::span<const FaceId> faces) {
-  std::string text;
-  for (std::size_t i = 0, k; i < faces.size(); i = k) {
-    for (k = i + 1; k < faces.size() && faces[k] == faces[k - 1] + 1;) ++k;
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", faces[i]);
-    if (k - i > 1) text += fmt::format("-{}", faces[k - 1]);
-  }
-  return text;
 }
 
 /// Groups: GroupTable, or FaceLabels for the main ones.
@@ -128,24 +120,69 @@ Json report(const Identity& id) {
   return json;
 }
 
-std::string row(const std::string& name, const Json& entities, const std::string& more, const char* kind = "faces") {
+/// "12 faces", "1 vertex".
+std::string counted(std::size_t n, std::string kind) {
+  if (n == 1) kind = kind == "vertices" ? "vertex" : kind.substr(0, kind.size() - 1);
+  return fmt::format("{} {}", n, kind);
+}
+
+std::string row(const std::string& name, const Json& entities, const std::string& more, const char* kind = "faces",
+                const std::string& what = "") {
   const std::vector<std::int32_t> ids = entities.get<std::vector<std::int32_t>>();
-  return fmt::format("  \"{}\"{}: {} {}{}{}\n", name, more, ids.size(), kind, ids.empty() ? "" : ": ", ranges(ids));
+  return fmt::format("  \"{}\"{}: {}{}{}{}\n", name, more, counted(ids.size(), kind), what, ids.empty() ? "" : ": ",
+                     id_ranges(ids));
+}
+
+/// "\"nut\", \"bolt\" and 3 more": of the texts that faces have, the group's own name left out.
+std::string listed(const std::vector<std::string>& texts, const std::string& own) {
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> all;
+  for (const std::string& text : texts)
+    if (!text.empty() && text != own && std::ranges::find(all, text) == all.end()) all.push_back(text);
+  std::string list;
+  for (std::size_t k = 0; k < std::min(all.size(), kMost); ++k)
+    list += fmt::format("{}\"{}\"", k > 0 ? ", " : "", all[k]);
+  return all.size() > kMost ? fmt::format("{} and {} more", list, all.size() - kMost) : list;
+}
+
+/// What the faces of a group are: parts and names, and of a geometry area and place.
+std::string in_words(const Json& group, const Identity& id) {
+  std::vector<std::string> parts, names;
+  double area = 0;
+  Box3 box;
+  const FaceLabels& l = id.labels;
+  for (const std::size_t number : group["faces"].get<std::vector<std::size_t>>()) {
+    const std::size_t f = number - 1;
+    if (f < l.face_part.size() && l.face_part[f] != kNone)
+      parts.push_back(l.part_name[static_cast<std::size_t>(l.face_part[f])]);
+    names.push_back(l.face_name[f]);
+    if (f >= id.face_area.size()) continue;
+    area += id.face_area[f];
+    box.add(id.face_box[f]);
+  }
+  const std::string own = group["name"], part = listed(parts, own), name = listed(names, own);
+  std::string text = part.empty() ? "" : " of " + part;
+  if (!name.empty()) text += " named " + name;
+  if (box.is_empty()) return text;
+  const std::string unit = id.unit.empty() ? "" : " " + id.unit;
+  return text + fmt::format(", area {:.4g}{}, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}){}", area,
+                            unit.empty() ? "" : unit + "^2", box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z,
+                            unit);
 }
 
 /// Lists groups of faces, edges or vertices.
-std::string group_row(const Json& g) {
+std::string group_row(const Json& g, const Identity& id) {
   const char* const kind = g.contains("edges") ? "edges" : g.contains("vertices") ? "vertices" : "faces";
   const std::string role = g.contains("role") ? ", " + g["role"].get<std::string>() : "",
                     attributes = g["attributes"].empty() ? "" : ", " + json_text(g["attributes"]);
-  return row(g["name"], g[kind], role + attributes, kind);
+  return row(g["name"], g[kind], role + attributes, kind, g.contains("faces") ? in_words(g, id) : "");
 }
 
-std::string lines(const Json& json) {
+std::string lines(const Json& json, const Identity& id) {
   std::string text;
   for (const Json& table : json["tables"]) {
     text += fmt::format("groups, table {}: {}\n", table["table"].get<std::string>(), table["groups"].size());
-    for (const Json& g : table["groups"]) text += group_row(g);
+    for (const Json& g : table["groups"]) text += group_row(g, id);
   }
   text += fmt::format("parts: {}\n", json["parts"].size());
   for (const Json& p : json["parts"]) text += row(p["path"], p["faces"], "");
@@ -165,8 +202,9 @@ std::string lines(const Json& json) {
 
 StageSummary run_groups(const std::string& artifact) {
   Json json = {{"tool", "st-info"}, {"artifact", artifact}};
-  json.update(report(identity_of(artifact)));
-  return {lines(json), json_text(json)};
+  const Identity id = identity_of(artifact);
+  json.update(report(id));
+  return {lines(json, id), json_text(json)};
 }
 
 }  // namespace st

@@ -22,6 +22,7 @@
 #include "mesh/crossing.h"
 #include "stages/cad_view.h"
 #include "stages/compose.h"
+#include "stages/group_suggestion.h"
 
 namespace st {
 namespace {
@@ -108,9 +109,20 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"box", {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}}};
 }
 
+std::string in_unit(const ImportResult& r) { return r.tables.unit.empty() ? "" : " " + r.tables.unit; }
+
+Model model_of(const ImportResult& r) { return r.facets.empty() ? Model(r.tables, r.brep) : Model(r.tables, r.facets); }
+
+/// Says what the shape suggests; the file's text.
+std::string suggest(const ImportStageOptions& o, const ImportResult& r) {
+  const std::vector<SuggestedGroup> groups = suggest_groups_of(model_of(r));
+  log_report(fmt::format("  {}: {}", o.suggest_groups, groups_in_words(groups, r.tables)));
+  return groups_file_text(groups, r.tables, std::filesystem::path(o.model).filename().string());
+}
+
 /// Trailing and leading edges that st-raster would find, listed by --check.
 nlohmann::json list_wing_edges(const ImportResult& r) {
-  const Model model = r.facets.empty() ? Model(r.tables, r.brep) : Model(r.tables, r.facets);
+  const Model model = model_of(r);
   const ModelTables& t = model.tables();
   const std::vector<WingEdge> edges = wing_edges_to_see(model);
   nlohmann::json list = nlohmann::json::array();
@@ -126,9 +138,11 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
   for (std::size_t i = 0; i < edges.size() && i < kFindingsShown; ++i) {
     const WingEdge& w = edges[i];
     log_report(fmt::format(
-        "  {}, {} at ({:.6g}, {:.6g}, {:.6g}), length {:.4g}, angle {:.3g} deg{}", t.edge_label(w.edge),
-        name_of(w.kind), w.middle.x, w.middle.y, w.middle.z, w.length, degrees(w.angle),
-        w.size > 0 ? fmt::format(", {} {:.4g}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size) : ""));
+        "  {}, {} at ({:.6g}, {:.6g}, {:.6g}), length {:.4g}{}, angle {:.3g} deg{}", t.edge_label(w.edge),
+        name_of(w.kind), w.middle.x, w.middle.y, w.middle.z, w.length, in_unit(r), degrees(w.angle),
+        w.size > 0
+            ? fmt::format(", {} {:.4g}{}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size, in_unit(r))
+            : ""));
   }
   if (edges.size() > kFindingsShown)
     log_report(fmt::format("  ... and {} more: see --json", edges.size() - kFindingsShown));
@@ -326,8 +340,9 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
     const ImportFinding& f = r.findings[i];
-    say_line(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}", f.is_repair ? "repaired: " : "", f.what(),
-                         f.entity.empty() ? "" : " " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size));
+    say_line(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}{}", f.is_repair ? "repaired: " : "",
+                         f.what(), f.entity.empty() ? "" : " " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size,
+                         in_unit(r)));
   }
   if (n > shown) say_line(fmt::format("  ... and {} more: see --json", n - shown));
 }
@@ -424,6 +439,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   say(o, r);
   nlohmann::json json = report(o.model, r);
   if (o.check) json["wing_edges"] = list_wing_edges(r);
+  if (!o.suggest_groups.empty()) json["suggested_groups"] = suggest(o, r);
   const ModelTables& t = r.tables;
   StageSummary s;
   s.line =
@@ -482,6 +498,11 @@ struct LeftTemporaries {
 // the last word.
 StageSummary run_import(const ImportStageOptions& o) {
   if (!o.check) require_writable(o.output);
+  if (!o.suggest_groups.empty()) {
+    if (!o.groups.empty())
+      throw Error(ExitCode::kUsage, "--suggest-groups and --groups: give one of them; suggestions are made without");
+    require_writable(o.suggest_groups);
+  }
   const GroupsFile groups = o.groups.empty() ? GroupsFile() : read_groups(o.groups);
   const auto work = [&] {
     const StageSummary s = import_here(o, groups);
@@ -491,6 +512,9 @@ StageSummary run_import(const ImportStageOptions& o) {
   const std::string folder = std::filesystem::absolute(o.output).parent_path().string();
   const std::string both = run_in_child(work, {time_limit(o), o.check ? "" : folder}, o.model);
   const std::size_t line_end = both.find('\n');
+  if (!o.suggest_groups.empty())
+    write_text_file(o.suggest_groups,
+                    nlohmann::json::parse(both.substr(line_end + 1))["suggested_groups"].get<std::string>());
   return {both.substr(0, line_end), both.substr(line_end + 1), ExitCode::kOk};
 }
 

@@ -25,6 +25,7 @@ struct ImportStageOptions {
   std::string symmetry, farfield, replace_farfield;  ///< of ImportOptions; empty: none
   std::string flow_domain = "auto";                  ///< of ImportOptions
   std::string groups;                                ///< groups file (TOML); empty: the groups of the CAD file
+  std::string suggest_groups;                        ///< groups file to write, as the shape suggests; empty: none
   std::string composite = "none";  ///< faces that meet smoothly are one: "none", "harm" (where the mesh would suffer),
                                    ///< "smooth" (all)
   bool unite = false;              ///< of ImportOptions

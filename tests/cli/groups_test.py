@@ -192,6 +192,32 @@ class Import(ToolTest):
         (self.folder / "o.toml").write_text(text + "[[gruop]]\n")
         self.expect_error(USAGE, "st-import", MODELS / "box.step", *arguments, says=["o.toml:8", "gruop"])
 
+    def test_groups_that_the_shape_suggests_can_be_edited_and_imported(self):
+        model, groups = MODELS / "wing_with_flap.step", self.folder / "suggested.toml"
+        said = must("st-import", model, "--check", "--suggest-groups", groups).err
+        self.assertRegex(said, r"suggested.toml: .*wing \d+.* faces are in none")
+        self.expect_nothing_left(self.folder, "suggested.toml")  # --check writes no artifact
+        text = groups.read_text()
+        self.assertIn("[[group]]  # ", text)
+        self.assertIn('name = "wing"', text)
+        groups.write_text(text.replace('name = "wing"', 'name = "main element"'))
+        must("st-import", model, "-o", self.folder / "g.hdf", "--groups", groups)
+        tables, _ = groups_of(self.folder / "g.hdf")
+        self.assertIn("main element", tables["main"])
+        new = self.folder / "new.hdf"
+        self.expect_error(USAGE, "st-import", model, "-o", new, "--groups", groups, "--suggest-groups",
+                          self.folder / "more.toml", says="give one of them")
+        self.expect_error(USAGE, "st-import", model, "-o", new, "--suggest-groups", model, says="input")
+
+    def test_st_info_says_what_a_group_is(self):
+        must("st-import", MODELS / "assembly.step", "-o", self.folder / "g.hdf")
+        said = must("st-info", self.folder / "g.hdf", "--groups").out
+        self.assertRegex(said, r'"\S+", wall: \d+ faces.*, area \S+ mm\^2, from \(.*\) to \(.*\) mm: ')
+        (self.folder / "g.toml").write_text('[[group]]\nname = "first"\nfaces = 1\n')
+        must("st-import", MODELS / "assembly.step", "-o", self.folder / "g.hdf", "--groups", self.folder / "g.toml")
+        said = must("st-info", self.folder / "g.hdf", "--groups").out
+        self.assertRegex(said, r'"first", wall: 1 face of "\S+".*, area .*: 1\n')
+
     def test_errors_name_file_line_and_groups_and_leave_nothing(self):
         self.expect_refusal('[[group]]\nname = "a"\nfaces = "1-2"\n[[group]]\nname = "b"\nfaces = 2\n',
                             ["g.toml:4", '"a"', '"b"', "face 2"])
@@ -371,7 +397,7 @@ class EntityGroups(ToolTest):
             self.assertEqual(len(groups["main", "corner"]["vertices"]), 1)
         text = must("st-info", one / "mesh.hdf", "--groups").out
         self.assertIn('"outline", {"note":"sharp"}: 4 edges: ', text)
-        self.assertIn('"corner": 1 vertices: ', text)
+        self.assertIn('"corner": 1 vertex: ', text)
 
     def test_exports_have_their_lines_and_points_or_say_what_is_lost(self):
         folder = self.chain(**COARSE)

@@ -12,6 +12,8 @@ int main(int argc, char** argv) {
   tool.input("model", o.model, "CAD file: .step .stp .iges .igs .brep .dat .fli; or facets: .stl .msh .vtu .fro");
   tool.output(o.output);
   st::declare(tool, o);
+  tool.output_option("--suggest-groups", o.suggest_groups,
+                     "write a groups file that the shape suggests: wing, tail, fuselage, nacelle ...; to be edited");
   tool.flag("--check", o.check, "print a report of the defects and write nothing");
   tool.main_options(
       {"--symmetry", "--farfield", "--groups", "--unit", "--sew", "--unite", "--join", "--check", "--require-closed"});

@@ -1,0 +1,58 @@
+#include "stages/group_suggestion.h"
+
+#include <fmt/format.h>
+
+#include "features/base_strips.h"
+#include "features/bodies.h"
+#include "features/round_tails.h"
+#include "features/strip.h"
+#include "stages/id_ranges.h"
+
+namespace st {
+
+std::vector<SuggestedGroup> suggest_groups_of(const Model& model) {
+  const FaceRoles roles = face_roles(model);
+  const std::vector<Strip> strips = find_base_strips(model, find_strips(model));
+  const std::vector<WingEdge> edges = find_wing_edges(model, roles, strips);
+  std::vector<LiftingSurface> wings = find_lifting_surfaces(model, roles, edges);
+  add_round_tails(model, roles, edges, std::vector<std::uint8_t>(static_cast<std::size_t>(model.tables().n_edges())),
+                  wings);
+  return suggest_groups(model.tables(), roles, wings, find_bodies(model, roles, wings));
+}
+
+std::string groups_file_text(const std::vector<SuggestedGroup>& groups, const ModelTables& tables,
+                             const std::string& model) {
+  std::string text = fmt::format(
+      "# Groups that the shape of {} suggests. Look at them, change them, then: st-import --groups FILE\n"
+      "# with the same options otherwise, since other options may give faces other numbers.\n",
+      model);
+  for (const SuggestedGroup& g : groups) {
+    text += fmt::format("\n[[group]]  # {} {}: {}\nname = \"{}\"\n", g.faces.size(),
+                        g.faces.size() == 1 ? "face" : "faces", g.why, g.name);
+    std::vector<std::int32_t> ids;
+    for (const FaceId f : g.faces) ids.push_back(f + 1);
+    text += fmt::format("faces = [{}]\n", id_ranges(ids, '"'));
+    if (g.role != "wall") text += fmt::format("role = \"{}\"\n", g.role);
+  }
+  std::vector<std::uint8_t> is_in(static_cast<std::size_t>(tables.n_faces()), 0);
+  for (const SuggestedGroup& g : groups)
+    for (const FaceId f : g.faces) is_in[f] = 1;
+  std::vector<std::int32_t> others;
+  for (FaceId f = 0; f < tables.n_faces(); ++f)
+    if (!is_in[f]) others.push_back(f + 1);
+  if (!others.empty()) text += fmt::format("\n# in none of them: faces {}\n", id_ranges(others));
+  return text;
+}
+
+std::string groups_in_words(const std::vector<SuggestedGroup>& groups, const ModelTables& tables) {
+  std::string text;
+  std::size_t n = 0;
+  for (const SuggestedGroup& g : groups) {
+    n += g.faces.size();
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", g.name, g.faces.size());
+  }
+  return fmt::format("{}; {} of {} faces are in none", text.empty() ? "none" : text + " faces",
+                     static_cast<std::size_t>(tables.n_faces()) - n, tables.n_faces());
+}
+
+}  // namespace st
