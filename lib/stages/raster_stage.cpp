@@ -670,13 +670,15 @@ std::string wing_options(const RasterStageOptions& o) {
 
 /// Who asks for lengths at trailing edges is told of those without; with -v they are all listed.
 void report_unused(const RasterStageOptions& o, const Model& model, const FaceRoles& roles, const Wings& wings) {
+  const std::string& unit = model.tables().unit;
   for (const UnusedTrailing& u : wings.unused)
     if (u.is_declared) log_warning(declared_warning(u));
   const bool is_asked = o.asks_for_wings || !wing_options(o).empty();
-  for (const std::string& line : unused_lines(wings.unused, kMostUnused)) is_asked ? log_report(line) : log_info(line);
+  for (const std::string& line : unused_lines(wings.unused, kMostUnused, unit))
+    is_asked ? log_report(line) : log_info(line);
   if (!is_asked) return;
   for (const std::string& warning :
-       {unused_warning(wings.unused, roles.reference_diagonal), noseless_warning(wings.aircraft.wings),
+       {unused_warning(wings.unused, roles.reference_diagonal, unit), noseless_warning(wings.aircraft.wings),
         sheet_warning(find_sheet_edges(model, roles)),
         seam_warning(find_seams_of_blades(model, roles, wings.aircraft.wings))})
     if (!warning.empty()) log_warning(warning);
@@ -692,6 +694,7 @@ void report_wings(const RasterStageOptions& o, const Wings& wings, const std::st
   for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i)
     log_report(wing_line(wings.aircraft.wings[i], o.edge_size, unit));
   if (n > kMostGroups) log_report(fmt::format("  and {} more lifting surfaces", n - kMostGroups));
+  if (const std::string used = used_line(n, wings.unused); n > 0 && !used.empty()) log_report(used);
 }
 
 /// [n_edges] 1: a rule says that it is no trailing edge.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 
 #include "base/sort_once.h"
 
@@ -17,6 +18,8 @@ std::vector<const UnusedTrailing*> longest_first(std::span<const UnusedTrailing>
                    [](const UnusedTrailing* a, const UnusedTrailing* b) { return a->length > b->length; });
   return order;
 }
+
+std::string in_unit(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
 
 std::vector<std::int32_t> from_one(std::vector<std::int32_t> ids) {
   for (std::int32_t& id : ids) ++id;
@@ -77,15 +80,26 @@ nlohmann::json wings_json(std::span<const LiftingSurface> wings) {
   return list;
 }
 
-std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most) {
+std::string used_line(std::size_t n_wings, std::span<const UnusedTrailing> unused) {
+  if (unused.empty()) return "";
+  std::map<std::string, int> reasons;
+  for (const UnusedTrailing& u : unused) ++reasons[u.why];
+  std::string why;
+  for (const auto& [reason, n] : reasons) why += fmt::format("{}{} because {}", why.empty() ? "" : ", ", n, reason);
+  return fmt::format("  trailing edges: of {} sets found, {} used as lifting surfaces; left out are {}; -v names them",
+                     n_wings + unused.size(), n_wings, why);
+}
+
+std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most,
+                                      const std::string& unit) {
   std::vector<std::string> lines;
   for (const UnusedTrailing* u : longest_first(unused)) {
     if (lines.size() == most) {
       lines.push_back(fmt::format("  and {} more trailing edges without a lifting surface", unused.size() - most));
       break;
     }
-    lines.push_back(fmt::format("  no lifting surface at trailing {}, length {:.4g}: {}", listed(from_one(u->edges)),
-                                u->length, u->why));
+    lines.push_back(fmt::format("  no lifting surface at trailing {}, length {:.4g}{}: {}", listed(from_one(u->edges)),
+                                u->length, in_unit(unit), u->why));
   }
   return lines;
 }
@@ -97,7 +111,7 @@ std::string declared_warning(const UnusedTrailing& declared) {
       listed(from_one(declared.edges)), declared.why);
 }
 
-std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal) {
+std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal, const std::string& unit) {
   std::vector<EdgeId> edges;
   double length = 0;
   for (const UnusedTrailing* u : longest_first(unused)) {
@@ -109,9 +123,10 @@ std::string unused_warning(std::span<const UnusedTrailing> unused, double refere
   if (edges.empty()) return "";
   std::sort(edges.begin(), edges.end());
   return fmt::format(
-      "{} trailing edges, {:.4g} long, belong to no lifting surface and get the lengths of other edges; if they are a "
+      "{} trailing edges, {:.4g}{} long, belong to no lifting surface and get the lengths of other edges; if they are "
+      "a "
       "wing's, say so in a file for --sizes: {}",
-      edges.size(), length, rule_for(edges, "trailing_edge = true"));
+      edges.size(), length, in_unit(unit), rule_for(edges, "trailing_edge = true"));
 }
 
 nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
@@ -122,7 +137,7 @@ nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
 }
 
 std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, const std::string& unit) {
-  const std::string in_unit = unit.empty() ? "" : " " + unit;
+  const std::string own_unit = in_unit(unit);
   const std::vector<ChordEdge>& edges = wing.edges();
   const char* kind = wing.trailing.empty() ? "leading edges" : "trailing edges";
   return fmt::format(
@@ -132,7 +147,7 @@ std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, 
       wing.is_round   ? "round"
       : wing.is_blunt ? "blunt"
                       : "sharp",
-      wing.span, in_unit, wing.least_chord, wing.largest_chord, in_unit, edge_size,
+      wing.span, own_unit, wing.least_chord, wing.largest_chord, own_unit, edge_size,
       wing.has_noses ? wing.covered() < kCovered
                            ? fmt::format("edge and nose, which is seen on {:.0f} %", 100 * wing.covered())
                            : "edge and nose"

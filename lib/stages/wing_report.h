@@ -17,13 +17,18 @@ inline constexpr double kLongTrailing = 0.05;
 inline constexpr double kCovered = 0.95;
 
 /// One line for each, the longest first, `most` at most, and one for the others.
-std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most);
+std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most,
+                                      const std::string& unit = "");
+
+/// Of how many sets of trailing edges how many make lifting surfaces, and why others do not; empty: all do.
+std::string used_line(std::size_t n_wings, std::span<const UnusedTrailing> unused);
 
 /// That a rule names edges that are none, and why.
 std::string declared_warning(const UnusedTrailing& declared);
 
 /// Which long ones have the lengths of all other edges, and the rule that gives them their own; empty: there are none.
-std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal);
+std::string unused_warning(std::span<const UnusedTrailing> unused, double reference_diagonal,
+                           const std::string& unit = "");
 
 /// One line on a lifting surface.
 std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, const std::string& unit = "");

@@ -81,6 +81,17 @@ TEST(WingReport, says_how_much_of_a_nose_is_seen) {
   EXPECT_EQ(noseless_warning({&wing, 1}), "");
 }
 
+TEST(WingReport, says_how_many_sets_are_used_and_why_others_are_not) {
+  const std::string line = used_line(2, kUnusedEdges);
+  EXPECT_NE(line.find("of 5 sets found, 2 used as lifting surfaces; left out are"), std::string::npos) << line;
+  EXPECT_NE(line.find("1 because it is short"), std::string::npos) << line;
+  EXPECT_EQ(used_line(2, {}), "");
+}
+
+TEST(WingReport, lengths_have_their_unit) {
+  EXPECT_NE(unused_lines(kUnusedEdges, 1, "mm")[0].find(" mm: "), std::string::npos);
+}
+
 TEST(WingReport, lists_all_in_json) {
   const nlohmann::json list = unused_json(kUnusedEdges);
   ASSERT_EQ(list.size(), 3U);
