@@ -83,11 +83,13 @@ setTimeout(() => {
       $("meaning_of_faces").value = "";
       hovering = target; sayUnder(); hovering = null;
       said.under = $("under").textContent;
-      const named = { number: 1, name: "a" }, wild = { number: 1, name: "a*" }, same = { number: 2, name: "a" };
+      const [named, wild, same] = [[1, "a"], [1, "a*"], [2, "a"]].map(([number, name]) => ({ number, name }));
       const three = [1, 2, 4].map(number => ({ number, name: "" }));
-      said.listed = [listed(three, []), listed([named], [named]), listed([wild], [wild]), listed([named], [named, same])];
+      said.listed = [[three, []], [[named], [named]], [[wild], [wild]], [[named], [named, same]]]
+        .map(([chosen, all]) => listed(chosen, all));
     }
-    said.json_shown = [...document.querySelectorAll("pre")].some(e => !e.closest("details") && e.textContent.includes("{"));
+    const raw = [...document.querySelectorAll("pre")].filter(e => !e.closest("details"));
+    said.json_shown = raw.some(e => e.textContent.includes("{"));
     said.asked = $("asked").textContent;
     said.compared = $("compared").textContent;
     said.charts = $("charts").textContent;
@@ -108,6 +110,8 @@ setTimeout(() => {
       said.picked = $("picked_edges").textContent;
       said.rule = $("rule").textContent;
       said.on_edge = cadEdges.some(e => said.picked.startsWith("edge " + e.number));
+      $("copy").click();
+      said.copied = getSelection().toString();
       $("unpick").click();
       said.unpicked = $("picked").hidden;
       $("lined").checked = false;
@@ -202,6 +206,7 @@ class Report(Browser):
         self.assertAlmostEqual(said["cleared"], 0, delta=0.001)
         self.assertTrue(said["on_edge"] and said["unpicked"], said)
         self.assertRegex(said["rule"], r"^\[\[size\]\]\nedges = \d+\ntrailing_edge = true$")
+        self.assertEqual(said["copied"].split(), said["rule"].split())
         self.assertEqual(said["picked_faces"], "", "a click on an edge takes no face behind it")
         self.assertEqual(said["wings"], "")
         self.expect_faces_to_be_picked(said)
