@@ -12,8 +12,12 @@ inline constexpr int kConeNumbers = 13;
 inline constexpr int kProbes = 16;  // of a cell: its corners, the centres of its faces, its own centre (twice)
 
 // Of the length known at a place: less is no gain.
-inline constexpr float kClearly = 0.99F;
-inline constexpr float kClearlyNearby = 0.997F;  // where a sample is near: the mesh's nodes are
+inline constexpr float kClearlyOnFace = 0.998F;  // where cells touch
+
+/// Likewise, for cones that are near and for others.
+struct ConeShares {
+  float nearby, far;
+};
 
 /// Of a chain of samples.
 struct SampleLink {
@@ -31,6 +35,22 @@ struct KnownCones {
   std::int32_t link;        ///< where the chain begins; kNone: nowhere
 };
 
+/// The common face of two cells.
+struct ConeFace {
+  float c[3];         ///< its centre, from the lower corner of the root
+  float half;         ///< half its edge
+  std::int32_t axis;  ///< across it
+};
+inline constexpr std::int32_t kFacePlaces = 8;  // of a set, where cones are compared
+inline constexpr std::int32_t kFaceSets = 3;
+
+/// A cone of a cell beside a face.
+struct FaceCone {
+  std::int32_t sample;
+  std::int32_t of;         ///< 1: of the first cell, 2: of the second, 3: of both
+  std::int32_t added = 0;  ///< 1: it was added to the first, 2: to the second
+};
+
 struct ConeKernels {
   /// Whether a cone is near a cell: from afar lengths change evenly over it.
   bool (*is_near)(const float* cell, const float* cone);
@@ -40,11 +60,19 @@ struct ConeKernels {
   void (*lengths)(const float* cell, const float* cone, float* lengths);
   /// Likewise; whether they are clearly below `best` at any probe, by the share
   /// for cones that are near or not, which `is_near` tells.
-  bool (*offer)(const float* cell, const float* cone, const float* best, float* lengths, bool& is_near);
+  bool (*offer)(const float* cell, const float* cone, const float* best, const ConeShares& share, float* lengths,
+                bool& is_near);
   /// Puts lengths where they are below `best`, and their sample where it wins. Returns the least of them.
   float (*take)(const float* lengths, std::int32_t sample, float* best, std::int32_t* winner);
   /// Whether a cone wins over known ones and over the largest length where the cell is close to it.
-  bool (*wins_nearby)(const float* cell, const float* cone, float largest, const KnownCones& known);
+  bool (*wins_nearby)(const float* cell, const float* cone, float share, float largest, const KnownCones& known);
+  /// Likewise at a set of places of a face.
+  bool (*wins_on_face)(const ConeFace& face, std::int32_t set, const float* cone, float largest,
+                       const KnownCones& known);
+  /// Adds cones of each cell to the other until both tell nearly the same at a set of places. Bit 0 of `ways`: to the
+  /// second cell, bit 1: to the first. `lengths` [n * kFacePlaces] is scratch. Returns how many it added.
+  std::int32_t (*settle_face)(const ConeFace& face, std::int32_t set, const float* cones, float largest,
+                              std::int32_t ways, FaceCone* on_face, std::int32_t n, float* lengths);
 };
 
 const ConeKernels& cone_kernels();

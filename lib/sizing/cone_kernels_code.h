@@ -233,7 +233,8 @@ void cone_lengths(const float* cell, const float* cone, float* lengths) {
   store(lengths + 8, at[1]);
 }
 
-bool offer_cone(const float* cell, const float* cone, const float* best, float* lengths, bool& is_near) {
+bool offer_cone(const float* cell, const float* cone, const float* best, const ConeShares& shares, float* lengths,
+                bool& is_near) {
   const CellView in(cell);
   const ConeView of(cone);
   F8 at[2];
@@ -241,7 +242,7 @@ bool offer_cone(const float* cell, const float* cone, const float* best, float* 
   store(lengths, at[0]);
   store(lengths + 8, at[1]);
   is_near = in.is_near(of, lengths[kProbes - 1]);
-  const F8 share = all(is_near ? kClearlyNearby : kClearly);
+  const F8 share = all(is_near ? shares.nearby : shares.far);
   return is_any((at[0] < share * load(best)) | (at[1] < share * load(best + 8)));
 }
 
@@ -254,13 +255,8 @@ float take_lengths(const float* lengths, std::int32_t sample, float* best, std::
   return least_of(least(load(lengths), load(lengths + 8)));
 }
 
-bool wins_nearby(const float* cell, const float* cone, float largest, const KnownCones& known) {
-  constexpr float kWide = 0.25F;  // of half the edge: wider rectangles are looked at in more places
-  const CellView in(cell);
-  const ConeView of(cone);
-  const EightPlaces places = of.half[0] > kWide * in.half ? in.closest_to_rectangle(of) : in.towards_center(of);
-  const F8 distance = places.distance(of), limit = (1 / kClearlyNearby) * of.length_at(distance);
-  I8 wins = (distance < 2 * in.half) & (limit < largest);
+/// Whether a cone of such lengths at the places, over `share`, wins at any of them where `wins` is true.
+bool wins_over(const EightPlaces& places, const F8& limit, I8 wins, const KnownCones& known) {
   if (!is_any(wins)) return false;
   const auto ask = [&](std::int32_t sample) {
     wins = wins & (places.length(ConeView(known.cone + kConeNumbers * static_cast<std::int64_t>(sample))) >= limit);
@@ -275,7 +271,81 @@ bool wins_nearby(const float* cell, const float* cone, float largest, const Know
   return true;
 }
 
-constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone, take_lengths, wins_nearby};
+bool wins_nearby(const float* cell, const float* cone, float share, float largest, const KnownCones& known) {
+  constexpr float kWide = 0.25F;  // of half the edge: wider rectangles are looked at in more places
+  const CellView in(cell);
+  const ConeView of(cone);
+  const EightPlaces places = of.half[0] > kWide * in.half ? in.closest_to_rectangle(of) : in.towards_center(of);
+  const F8 distance = places.distance(of), limit = (1 / share) * of.length_at(distance);
+  return wins_over(places, limit, (distance < 2 * in.half) & (limit < largest), known);
+}
+
+/// The middles of the sides and half the ways to the corners; then a grid of four by four.
+EightPlaces places_on(const ConeFace& face, std::int32_t set) {
+  constexpr float kU[kFaceSets][kFacePlaces] = {{-1, 1, 0, 0, -0.5F, 0.5F, -0.5F, 0.5F},
+                                                {-0.75F, -0.25F, 0.25F, 0.75F, -0.75F, -0.25F, 0.25F, 0.75F},
+                                                {-0.75F, -0.25F, 0.25F, 0.75F, -0.75F, -0.25F, 0.25F, 0.75F}},
+                  kV[kFaceSets][kFacePlaces] = {{0, 0, -1, 1, -0.5F, -0.5F, 0.5F, 0.5F},
+                                                {-0.75F, -0.75F, -0.75F, -0.75F, -0.25F, -0.25F, -0.25F, -0.25F},
+                                                {0.25F, 0.25F, 0.25F, 0.25F, 0.75F, 0.75F, 0.75F, 0.75F}};
+  const F8 u = face.half * load(kU[set]), v = face.half * load(kV[set]), across = all(face.c[face.axis]);
+  switch (face.axis) {
+    case 0:
+      return {across, face.c[1] + u, face.c[2] + v};
+    case 1:
+      return {face.c[0] + v, across, face.c[2] + u};
+    default:
+      return {face.c[0] + u, face.c[1] + v, across};
+  }
+}
+
+bool wins_on_face(const ConeFace& face, std::int32_t set, const float* cone, float largest, const KnownCones& known) {
+  const EightPlaces places = places_on(face, set);
+  const F8 limit = (1 / kClearlyOnFace) * places.length(ConeView(cone));
+  return wins_over(places, limit, limit < all(largest), known);
+}
+
+/// Of the cones of one cell alone the one that tells `length` at a place. Precondition: one does.
+FaceCone& teller_of(std::int32_t cell, float length, const float* lengths, FaceCone* on_face) {
+  while (on_face->of != cell || *lengths != length) {
+    ++on_face;
+    lengths += kFacePlaces;
+  }
+  return *on_face;
+}
+
+std::int32_t settle_face(const ConeFace& face, std::int32_t set, const float* cones, float largest, std::int32_t ways,
+                         FaceCone* on_face, std::int32_t n, float* lengths) {
+  const EightPlaces places = places_on(face, set);
+  F8 best[2] = {all(largest), all(largest)};
+  for (std::int32_t i = 0; i < n; ++i) {
+    const F8 own = places.length(ConeView(cones + kConeNumbers * static_cast<std::int64_t>(on_face[i].sample)));
+    store(lengths + kFacePlaces * i, own);
+    if (on_face[i].of & 1) best[0] = least(best[0], own);
+    if (on_face[i].of & 2) best[1] = least(best[1], own);
+  }
+  const F8 share = all(kClearlyOnFace);
+  std::int32_t n_added = 0;
+  for (int from = 0; from < 2; ++from) {
+    F8 &here = best[from], &there = best[1 - from];
+    while ((ways >> from & 1) != 0 && is_any(here < share * there)) {
+      float own[kFacePlaces], other[kFacePlaces];
+      store(own, here);
+      store(other, there);
+      int k = 0;
+      while (!(own[k] < kClearlyOnFace * other[k])) ++k;
+      FaceCone& added = teller_of(from + 1, own[k], lengths + k, on_face);
+      added.of = 3;
+      added.added = 2 - from;
+      there = least(there, load(lengths + kFacePlaces * (&added - on_face)));
+      ++n_added;
+    }
+  }
+  return n_added;
+}
+
+constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone,
+                               take_lengths, wins_nearby, wins_on_face, settle_face};
 
 }  // namespace
 }  // namespace st

@@ -12,9 +12,15 @@
 #include "base/memory.h"
 #include "base/radix_sort.h"
 #include "sizing/cone_cell.h"
+#include "sizing/cone_faces.h"
 
 namespace st {
 namespace {
+
+// While cones spread, less than these shares of the length known is a gain. What is refused wrongly is found on faces.
+constexpr ConeShares kSpreadShares{0.995F, 0.99F};
+// In the cell of the sample itself.
+constexpr ConeShares kOwnShares{0.997F, 0.99F};
 
 class ConeSpread {
  public:
@@ -34,6 +40,7 @@ class ConeSpread {
     prefer_large_pages(sites_.data(), n * sizeof(Site));
     sites_.resize(n);
     for (std::size_t site = 0; site < n; ++site) sites_[site].cell = cell_of(static_cast<std::int32_t>(site));
+    holds_sample_.resize(n);
     for (Site& site : sites_) {
       site.best.fill(four(largest_));
       site.winner.fill(Int4{} + kNone);
@@ -45,6 +52,7 @@ class ConeSpread {
     buckets_.resize(bucket_bits(largest_) - bucket_bits(smallest_) + 1);
     for_each_own_site(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       push({site, sample, 0}, cones_[sample].length);
+      holds_sample_[site] = 1;
     });
     for (now_ = 0; now_ < buckets_.size(); ++now_)
       while (!buckets_[now_].empty()) pass_on_in_order(std::exchange(buckets_[now_], {}));
@@ -52,24 +60,29 @@ class ConeSpread {
   }
 
   ConeTable take() {
+    const SiteGraph graph = make_graph();
+    const SiteSamples all = agree_on_faces(graph, cones_, largest_, pruned_sites());
     ConeTable table;
+    table.of_site.reserve(all.sample.size());
+    table.at_center.assign(all.at_center.size(), kNone);
     std::vector<std::int32_t> number(cones_.size(), kNone);
-    table.first.push_back(0);
-    for (std::size_t site = 0; site < sites_.size(); ++site) {
-      for (const std::int32_t s : pruned(static_cast<std::int32_t>(site))) {
-        if (number[s] == kNone) {
-          number[s] = static_cast<std::int32_t>(table.cone.size());
-          table.cone.push_back(cones_[s]);
-          table.cause.push_back(samples_[s].cause);
-          table.sample.push_back(s);
-        }
-        table.of_site.push_back(number[s]);
+    for (const std::int32_t s : all.sample) {
+      if (number[s] == kNone) {
+        number[s] = static_cast<std::int32_t>(table.cone.size());
+        table.cone.push_back(cones_[s]);
+        table.cause.push_back(samples_[s].cause);
+        table.sample.push_back(s);
       }
-      std::sort(table.of_site.begin() + table.first.back(), table.of_site.end(), [&](std::int32_t a, std::int32_t b) {
-        return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length : a < b;
-      });
-      require_countable(table.of_site.size(), "lengths of samples in cells");
-      table.first.push_back(static_cast<std::int32_t>(table.of_site.size()));
+      table.of_site.push_back(number[s]);
+    }
+    table.first = all.first;
+    for (std::size_t site = 0; site < sites_.size(); ++site) {
+      std::sort(table.of_site.begin() + table.first[site], table.of_site.begin() + table.first[site + 1],
+                [&](std::int32_t a, std::int32_t b) {
+                  return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length
+                                                                      : a < b;
+                });
+      if (all.at_center[site] != kNone) table.at_center[site] = number[all.at_center[site]];
     }
     return table;
   }
@@ -128,11 +141,28 @@ class ConeSpread {
       return is_any((winner[0] == sample) | (winner[1] == sample) | (winner[2] == sample) | (winner[3] == sample));
     }
   };
-  /// A site across a face.
-  struct Beside {
-    std::int32_t site;
-    std::int32_t towards;  // a bit: see sides_ahead()
-  };
+  SiteGraph make_graph() {
+    SiteGraph graph;
+    for (std::size_t site = 0; site < sites_.size(); ++site) {
+      graph.cell.push_back(sites_[site].cell);
+      graph.of_beside.push_back(beside(static_cast<std::int32_t>(site)));
+    }
+    graph.beside = beside_;
+    graph.holds_sample = std::move(holds_sample_);
+    return graph;
+  }
+
+  SiteSamples pruned_sites() {
+    constexpr int kCenter = kProbes - 1;
+    SiteSamples kept;
+    for (std::size_t site = 0; site < sites_.size(); ++site) {
+      for (const std::int32_t s : pruned(static_cast<std::int32_t>(site))) kept.sample.push_back(s);
+      kept.first.push_back(static_cast<std::int32_t>(kept.sample.size()));
+      kept.at_center.push_back(sites_[site].winner[kCenter / 4][kCenter % 4]);
+      kept.center_length.push_back(sites_[site].best[kCenter / 4][kCenter % 4]);
+    }
+    return kept;
+  }
 
   ConeCell cell_of(std::int32_t site) const {
     return {octree_, site < octree_.n_leaves() ? site : blanking_->split_leaf[site - octree_.n_leaves()]};
@@ -169,7 +199,7 @@ class ConeSpread {
       neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { take_parts(other); });
     }
     float least = 0;
-    for (const auto& [site, sample] : found) offer(site, sample, least);
+    for (const auto& [site, sample] : found) offer(site, sample, kSpreadShares, least);
   }
 
   /// Site by site: so those that are looked at lie beside each other in memory.
@@ -198,24 +228,24 @@ class ConeSpread {
   void pass_on(const Event& e) {
     const std::int32_t site = e.site(), sample = e.sample();
     float least = 0;
-    if (e.n == 0 && !offer(site, sample, least)) return;
+    if (e.n == 0 && !offer(site, sample, kOwnShares, least)) return;
     if (e.n != 0 && sites_[site].n != e.n && !is_still_best(sites_[site], sample)) return;
     const auto [first, last] = beside(site);
     const std::int32_t ahead = sides_ahead(sites_[site], sample);
     for (std::int32_t k = first; k < last; ++k) {
       const auto [other, towards] = beside_[k];
-      if ((towards & ahead) != 0 && offer(other, sample, least)) push({other, sample, sites_[other].n}, least);
+      if ((towards & ahead) != 0 && offer(other, sample, kSpreadShares, least))
+        push({other, sample, sites_[other].n}, least);
     }
   }
-
-  static constexpr std::int32_t kAlways = 1 << 6;  // beside
 
   /// The sides of a cell by which straight ways from a sample leave the place where it wins: bit 2 * axis for the lower
   /// one, then the upper. From afar it wins at a probe of these sides.
   std::int32_t sides_ahead(const Site& s, std::int32_t sample) const {
     bool is_near = false;
-    const std::int32_t sides = kAlways | kernels_.sides_ahead(s.cell.numbers(), cones_[sample].numbers(), is_near);
-    return is_near ? sides : sides & (kAlways | s.sides_won(sample));
+    const std::int32_t sides =
+        SiteBeside::kAlways | kernels_.sides_ahead(s.cell.numbers(), cones_[sample].numbers(), is_near);
+    return is_near ? sides : sides & (SiteBeside::kAlways | s.sides_won(sample));
   }
 
   /// Where the sites begin and end in `beside_` that lie across the faces of this one: a corner that a sample wins
@@ -230,7 +260,7 @@ class ConeSpread {
       });
     else
       for_each_link_across_face(*blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) {
-        beside_.push_back({other, kAlways});
+        beside_.push_back({other, SiteBeside::kAlways});
       });
     require_countable(beside_.size(), "cells beside cells");
     last = static_cast<std::int32_t>(beside_.size());
@@ -263,14 +293,14 @@ class ConeSpread {
   }
 
   /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes.
-  bool offer(std::int32_t site, std::int32_t sample, float& least) {
+  bool offer(std::int32_t site, std::int32_t sample, const ConeShares& shares, float& least) {
     Site& s = sites_[site];
     if (is_any(s.refused == sample) || has(s, sample)) return false;
     Lengths own;
     bool is_near = false;
     const bool is_below =
-        kernels_.offer(s.cell.numbers(), cones_[sample].numbers(), numbers(s.best), numbers(own), is_near);
-    if (!is_below && !(is_near && wins_nearby(s, sample))) {
+        kernels_.offer(s.cell.numbers(), cones_[sample].numbers(), numbers(s.best), shares, numbers(own), is_near);
+    if (!is_below && !(is_near && wins_nearby(s, sample, shares.nearby))) {
       s.refused[s.n_refused++ % 4] = sample;
       return false;
     }
@@ -291,16 +321,16 @@ class ConeSpread {
   }
 
   /// Whether the sample wins where the site is close to it.
-  bool wins_nearby(const Site& s, std::int32_t sample) const {
+  bool wins_nearby(const Site& s, std::int32_t sample, float share) const {
     const std::int32_t first = s.winner_towards(cones_[sample]);  // most are beaten by it
-    return kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), largest_,
+    return kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), share, largest_,
                                 {cones_.front().numbers(), first == sample ? kNone : first, sample, numbers(s.own),
                                  std::min(s.n, Site::kOwn), entries_.data(), s.more});
   }
 
   bool is_still_best(const Site& s, std::int32_t sample) const {
     if (s.is_winner(sample)) return true;
-    return kernels_.is_near(s.cell.numbers(), cones_[sample].numbers()) && wins_nearby(s, sample);
+    return kernels_.is_near(s.cell.numbers(), cones_[sample].numbers()) && wins_nearby(s, sample, kSpreadShares.nearby);
   }
 
   /// Those of the site that win at a probe, or clearly where the site is close to them.
@@ -326,7 +356,8 @@ class ConeSpread {
                              static_cast<std::int32_t>(kept_.size()),
                              nullptr,
                              kNone};
-      if (kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), largest_, known)) kept_.push_back(sample);
+      if (kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), kOwnShares.nearby, largest_, known))
+        kept_.push_back(sample);
     }
     return kept_;
   }
@@ -339,8 +370,9 @@ class ConeSpread {
   const float largest_;
   float smallest_ = std::numeric_limits<float>::infinity();
   std::vector<Cone> cones_;
-  std::vector<Site> sites_;  // [n_sites]
-  std::vector<Beside> beside_;
+  std::vector<Site> sites_;                 // [n_sites]
+  std::vector<std::uint8_t> holds_sample_;  // [n_sites]
+  std::vector<SiteBeside> beside_;
   std::vector<SampleLink> entries_;  // of sites with many samples
   std::vector<std::vector<Event>> buckets_;
   std::vector<Event> sorting_;
@@ -349,27 +381,6 @@ class ConeSpread {
 };
 
 }  // namespace
-
-Cone::Cone(const LengthSample& sample, float slope, Vec3 lo) : length(sample.length), slope(slope) {
-  const Vec3 from_lo = sample.xyz - lo;
-  const double place[3] = {from_lo.x, from_lo.y, from_lo.z};
-  const float(*reach[2])[3] = {&sample.reach.u, &sample.reach.v};
-  for (int e = 0; e < 2; ++e) {
-    const float(&r)[3] = *reach[e];
-    half[e] = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
-    for (int k = 0; k < 3; ++k) side[e][k] = half[e] > 0 ? r[k] / half[e] : 0;
-  }
-  for (int k = 0; k < 3; ++k) x[k] = static_cast<float>(place[k]);
-}
-
-ConeStretch::ConeStretch(const SampleStretch& of_sample) {
-  if (!(of_sample.along > 0)) return;
-  const Vec3 unit = normalized(Vec3(of_sample.direction));
-  along = of_sample.along;
-  direction[0] = static_cast<float>(unit.x);
-  direction[1] = static_cast<float>(unit.y);
-  direction[2] = static_cast<float>(unit.z);
-}
 
 ConeTable spread_cones(const Neighbours& neighbours, std::span<const LengthSample> samples,
                        std::span<const float> slope, double max_length, const Blanking* blanking) {

@@ -124,13 +124,36 @@ class FourCones {
 };
 static_assert(sizeof(Cone) == 13 * sizeof(float));
 
+inline Cone::Cone(const LengthSample& sample, float slope, Vec3 lo) : length(sample.length), slope(slope) {
+  const Vec3 from_lo = sample.xyz - lo;
+  const double place[3] = {from_lo.x, from_lo.y, from_lo.z};
+  const float(*reach[2])[3] = {&sample.reach.u, &sample.reach.v};
+  for (int e = 0; e < 2; ++e) {
+    const float(&r)[3] = *reach[e];
+    half[e] = std::sqrt(r[0] * r[0] + r[1] * r[1] + r[2] * r[2]);
+    for (int k = 0; k < 3; ++k) side[e][k] = half[e] > 0 ? r[k] / half[e] : 0;
+  }
+  for (int k = 0; k < 3; ++k) x[k] = static_cast<float>(place[k]);
+}
+
+inline ConeStretch::ConeStretch(const SampleStretch& of_sample) {
+  if (!(of_sample.along > 0)) return;
+  const Vec3 unit = normalized(Vec3(of_sample.direction));
+  along = of_sample.along;
+  direction[0] = static_cast<float>(unit.x);
+  direction[1] = static_cast<float>(unit.y);
+  direction[2] = static_cast<float>(unit.z);
+}
+
 /// The cones of an octree, and which of them tell the length in each site.
 struct ConeTable {
-  std::vector<Cone> cone;             ///< those that tell any, by leaf
-  std::vector<std::int32_t> cause;    ///< [cones]
-  std::vector<std::int32_t> first;    ///< [n_sites + 1] into `of_site`; empty: there are no cones
-  std::vector<std::int32_t> of_site;  ///< cones, those of the shortest lengths first for each site
-  std::vector<std::int32_t> sample;   ///< [cones] which sample it is; not stored
+  std::vector<Cone> cone;               ///< those that tell any, by leaf
+  std::vector<std::int32_t> cause;      ///< [cones]
+  std::vector<std::int32_t> first;      ///< [n_sites + 1] into `of_site`; empty: there are no cones
+  std::vector<std::int32_t> of_site;    ///< cones, those of the shortest lengths first for each site
+  std::vector<std::int32_t> sample;     ///< [cones] which sample it is; not stored
+  std::vector<std::int32_t> at_center;  ///< [n_sites] the cone that tells the length there; kNone: the largest
+                                        ///< length. Not stored
   // Of add_stretch(); empty: lengths are the same in all directions.
   std::vector<ConeStretch> stretch;         ///< [cones]
   std::vector<std::int32_t> first_along;    ///< [n_sites + 1] into `along_of_site`

@@ -236,37 +236,34 @@ double OctreeField::size_and_gradient(Vec3 xyz, int& hint, Vec3& gradient, std::
   return answer.length;
 }
 
-CellLength OctreeField::at_center(std::int32_t site, std::int32_t& cause) const {
-  const std::int32_t leaf = leaf_of(site);
-  const Vec3 center = data_.octree.leaf_center(leaf);
-  const Answer answer = answer_at(site, {center, center - data_.octree.lo, {}});
-  cause = answer.cause;
-  const double length = answer.length / data_.scale,
-               reach = 0.5 * std::sqrt(3.0) * data_.octree.cell_edge(data_.octree.leaf_levels[leaf]);
-  const Vec3 gradient = answer.gradient / data_.scale;
-  return {static_cast<float>(length),
-          {static_cast<float>(gradient.x), static_cast<float>(gradient.y), static_cast<float>(gradient.z)},
-          static_cast<float>(std::min(data_.max_length, length + data_.slope * reach))};
-}
-
-ProlongedLengths lengths_at_centers(OctreeFieldData data) {
+ProlongedLengths lengths_at_centers(const OctreeFieldData& data, std::span<const std::int32_t> teller) {
   const auto n = static_cast<std::size_t>(data.octree.n_leaves());
   ProlongedLengths at;
   at.cells.resize(n);
   at.cause.resize(n);
-  at.second_cells.resize(data.split_leaf.size());
-  at.second_cause.resize(data.split_leaf.size());
-  data.cells = at.cells;
-  data.scale = 1;
-  data.sources = nullptr;
-  const OctreeField field(data, nullptr, std::numeric_limits<double>::min());
+  const auto at_center = [&](std::int32_t leaf, std::int32_t cone, std::int32_t& cause) -> CellLength {
+    const auto largest = static_cast<float>(data.max_length);
+    cause = kNone;
+    if (cone == kNone) return {largest, {0, 0, 0}, largest};
+    cause = data.cone_cause[cone];
+    const Cone& c = data.cones[cone];
+    const Vec3 way = c.way_to(data.octree.leaf_center(leaf) - data.octree.lo);
+    const double away = norm(way), length = c.length + c.slope * away,
+                 reach = 0.5 * std::sqrt(3.0) * data.octree.cell_edge(data.octree.leaf_levels[leaf]);
+    const Vec3 gradient = away > 0 ? (c.slope / away) * way : Vec3{};
+    return {static_cast<float>(length),
+            {static_cast<float>(gradient.x), static_cast<float>(gradient.y), static_cast<float>(gradient.z)},
+            static_cast<float>(std::min(data.max_length, length + data.slope * reach))};
+  };
   constexpr std::size_t kCellsPerPiece = 8'192;
   parallel_for(n, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) at.cells[i] = field.at_center(static_cast<std::int32_t>(i), at.cause[i]);
+    for (std::size_t i = begin; i < end; ++i)
+      at.cells[i] = at_center(static_cast<std::int32_t>(i), teller[i], at.cause[i]);
   });
-  for (std::size_t k = 0; k < at.second_cells.size(); ++k) {
-    at.second_cells[k] = field.at_center(static_cast<std::int32_t>(n + k), at.second_cause[k]);
-    at.cells[data.split_leaf[k]].upper *= -1;  // says that there is a second part
+  for (std::size_t k = 0; k < data.split_leaf.size(); ++k) {
+    const std::int32_t leaf = data.split_leaf[k];
+    at.second_cells.push_back(at_center(leaf, teller[n + k], at.second_cause.emplace_back()));
+    at.cells[leaf].upper *= -1;  // says that there is a second part
   }
   return at;
 }

@@ -74,8 +74,9 @@ struct SizeExplanation {
 };
 
 /// By the cones of `data`: lengths, gradients and causes at the centres of all sites, before scale and without sources,
-/// and no length in a leaf above its `upper`. What `cells` are then; those of `data` are not looked at.
-ProlongedLengths lengths_at_centers(OctreeFieldData data);
+/// and no length in a leaf above its `upper`. What `cells` are then; those of `data` are not looked at. `teller`
+/// [n_sites]: the cones that tell the lengths there, see ConeTable.
+ProlongedLengths lengths_at_centers(const OctreeFieldData& data, std::span<const std::int32_t> teller);
 
 /// h(x) is the smallest of what the octree tells and of what the sources ask for at x, times scale. The octree tells,
 /// with cones: the smallest of length + slope * distance over the cones of the site at x, and of the largest length;
@@ -158,8 +159,6 @@ class OctreeField : public SizeField {
     return data_.first_cone.empty() ? cell_length(site, x) : cone_length(site, x);
   }
   double scaled(double length) const { return std::max(data_.scale * length, min_size_); }
-  friend ProlongedLengths lengths_at_centers(OctreeFieldData data);
-  CellLength at_center(std::int32_t site, std::int32_t& cause) const;
   Answer answer_at(std::int32_t site, const Place& x) const;
   /// Before scale: the smallest of `length` at x in a leaf and of what sources ask for there; see SourceTree.
   double source_length(std::int32_t leaf, const Place& x, double length) const {

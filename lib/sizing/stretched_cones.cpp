@@ -11,6 +11,8 @@
 namespace st {
 namespace {
 
+constexpr float kClearly = 0.99F;  // of the length along that is known: less is no gain
+
 class StretchSpread {
  public:
   StretchSpread(const Neighbours& neighbours, std::span<const LengthSample> samples, std::span<const float> slope,

@@ -241,7 +241,7 @@ void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress
                              {o.slope, raster.numbers.far_length, slope}, blanking);
   }
   sizing.shape = std::move(raster.octree.shape);
-  if (has_cones) sizing.lengths = lengths_at_centers(sizing.field_data(nullptr));
+  if (has_cones) sizing.lengths = lengths_at_centers(sizing.field_data(nullptr), sizing.cones.at_center);
 }
 
 /// A size field and what it requires of each group.

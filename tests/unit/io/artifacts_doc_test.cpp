@@ -126,6 +126,7 @@ SizingArtifact sample_sizing() {
              std::vector<std::int32_t>(18),
              std::vector<std::int32_t>(21),
              {},
+             {},
              std::vector<ConeStretch>(9),
              std::vector<std::int32_t>(18),
              std::vector<std::int32_t>(14)};

@@ -68,7 +68,7 @@ inline SizingArtifact sizing_of_stretched_cones() {
   const Neighbours neighbours(raster.octree.shape.view());
   sizing.cones = spread_cones(neighbours, raster.samples, slope, sizing.numbers.far_length, nullptr);
   add_stretch(neighbours, raster.samples, slope, nullptr, sizing.cones);
-  sizing.lengths = lengths_at_centers(sizing.field_data(nullptr));
+  sizing.lengths = lengths_at_centers(sizing.field_data(nullptr), sizing.cones.at_center);
   return sizing;
 }
 

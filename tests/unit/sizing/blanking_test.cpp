@@ -276,7 +276,7 @@ TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
     const ConeTable cones = spread_cones(Neighbours(plate.octree()), plate.samples, slope, kLargest, &plate.blanking);
     OctreeFieldData data{plate.octree(), {}, {}, kSlope, 1, plate.blanking.split_leaf, plate.blanking.split};
     data.set_cones(cones, kLargest);
-    const ProlongedLengths lengths = lengths_at_centers(data);
+    const ProlongedLengths lengths = lengths_at_centers(data, cones.at_center);
     data.cells = lengths.cells;
     plate.expect_each_side_to_keep_its_own(OctreeField(data, nullptr));
   }

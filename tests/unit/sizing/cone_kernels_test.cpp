@@ -13,6 +13,8 @@
 namespace st {
 namespace {
 
+constexpr ConeShares kTestShares{0.997F, 0.99F};
+
 /// Cones and a cell at random: points, lines and rectangles, beside the cell and far from it.
 struct RandomCones {
   std::vector<Cone> cone;
@@ -59,10 +61,12 @@ TEST(ConeKernels, tell_the_lengths_of_a_cone_at_the_probes) {
     EXPECT_EQ(winner[0][0], 7);
     Lengths own;
     bool is_near = false;
-    EXPECT_FALSE(cone_kernels().offer(cell.numbers(), cone.numbers(), numbers(best), numbers(own), is_near));
+    EXPECT_FALSE(
+        cone_kernels().offer(cell.numbers(), cone.numbers(), numbers(best), kTestShares, numbers(own), is_near));
     EXPECT_EQ(is_near, cone_kernels().is_near(cell.numbers(), cone.numbers()));
     best[2][1] = 10;
-    EXPECT_TRUE(cone_kernels().offer(cell.numbers(), cone.numbers(), numbers(best), numbers(own), is_near));
+    EXPECT_TRUE(
+        cone_kernels().offer(cell.numbers(), cone.numbers(), numbers(best), kTestShares, numbers(own), is_near));
   }
 }
 
@@ -74,7 +78,7 @@ TEST(ConeKernels, ask_every_cone_that_is_known) {
   for (std::size_t i = 1; i < all.cone.size(); ++i) all.cone[i].length = 1;
   const ConeKernels& kernels = cone_kernels();
   const auto wins = [&](const KnownCones& known) {
-    return kernels.wins_nearby(all.cell.numbers(), won.numbers(), 10, known);
+    return kernels.wins_nearby(all.cell.numbers(), won.numbers(), 0.997F, 10, known);
   };
   EXPECT_TRUE(wins(all.known({1, 2, 3})));
   all.cone[3] = won;  // as short: no gain
@@ -90,7 +94,33 @@ TEST(ConeKernels, ask_every_cone_that_is_known) {
   EXPECT_TRUE(wins(known));
   known.first = 3;
   EXPECT_FALSE(wins(known));
-  EXPECT_FALSE(kernels.wins_nearby(all.cell.numbers(), won.numbers(), 0.04F, all.known({})));
+  EXPECT_FALSE(kernels.wins_nearby(all.cell.numbers(), won.numbers(), 0.997F, 0.04F, all.known({})));
+}
+
+/// Whether the cone wins on a face of the cell over those known, by both kinds of kernels; likewise what they add to
+/// two cells, of which one has the cones of even numbers.
+bool expect_same_on_face(const RandomCones& all, std::int32_t i, const std::vector<std::int32_t>& known) {
+  const auto axis = i % 3, set = i / 3 % kFaceSets;
+  ConeFace face{{all.cell.c[0], all.cell.c[1], all.cell.c[2]}, all.cell.half, axis};
+  face.c[axis] += face.half;
+  const ConeKernels* const kernels[] = {&detail::cone_kernels_anywhere(), &detail::cone_kernels_avx2()};
+  bool wins[2];
+  std::int32_t n_added[2];
+  std::vector<FaceCone> on_face[2];
+  for (int k = 0; k < 2; ++k) {
+    wins[k] = kernels[k]->wins_on_face(face, set, all.cone[i].numbers(), 0.3F, all.known(known));
+    for (const std::int32_t cone : known) on_face[k].push_back({cone, cone % 2 + 1});
+    std::vector<float> lengths(known.size() * kFacePlaces);
+    n_added[k] = kernels[k]->settle_face(face, set, all.cone.front().numbers(), 0.3F, 1 + i % 3, on_face[k].data(),
+                                         static_cast<std::int32_t>(known.size()), lengths.data());
+  }
+  EXPECT_EQ(wins[0], wins[1]);
+  EXPECT_EQ(n_added[0], n_added[1]);
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    EXPECT_EQ(on_face[0][k].of, on_face[1][k].of);
+    EXPECT_EQ(on_face[0][k].added, on_face[1][k].added);
+  }
+  return wins[0];
 }
 
 TEST(ConeKernels, give_the_same_bits_on_every_processor) {
@@ -100,7 +130,7 @@ TEST(ConeKernels, give_the_same_bits_on_every_processor) {
     GTEST_SKIP();
   }
   const ConeKernels &anywhere = detail::cone_kernels_anywhere(), &avx2 = detail::cone_kernels_avx2();
-  int n_won = 0;
+  int n_won = 0, n_won_on_face = 0;
   for (unsigned seed = 0; seed < 50; ++seed) {
     const RandomCones all(seed);
     Lengths best[2];
@@ -116,8 +146,8 @@ TEST(ConeKernels, give_the_same_bits_on_every_processor) {
       float least[2];
       for (int k = 0; k < 2; ++k) {
         const ConeKernels& kernels = k == 0 ? anywhere : avx2;
-        is_below[k] =
-            kernels.offer(all.cell.numbers(), all.cone[i].numbers(), numbers(best[k]), numbers(lengths[k]), is_near[k]);
+        is_below[k] = kernels.offer(all.cell.numbers(), all.cone[i].numbers(), numbers(best[k]), kTestShares,
+                                    numbers(lengths[k]), is_near[k]);
         least[k] =
             kernels.take(numbers(lengths[k]), static_cast<std::int32_t>(i), numbers(best[k]), numbers(winner[k]));
       }
@@ -127,13 +157,15 @@ TEST(ConeKernels, give_the_same_bits_on_every_processor) {
       EXPECT_EQ(std::memcmp(&lengths[0], &lengths[1], sizeof(Lengths)), 0);
       EXPECT_EQ(std::memcmp(&best[0], &best[1], sizeof(Lengths)), 0);
       EXPECT_EQ(std::memcmp(&winner[0], &winner[1], sizeof winner[0]), 0);
-      const bool wins = anywhere.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.3F, all.known(own));
-      EXPECT_EQ(wins, avx2.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.3F, all.known(own)));
+      const bool wins = anywhere.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.997F, 0.3F, all.known(own));
+      EXPECT_EQ(wins, avx2.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.997F, 0.3F, all.known(own)));
       n_won += wins;
+      n_won_on_face += expect_same_on_face(all, static_cast<std::int32_t>(i), own);
       own.push_back(static_cast<std::int32_t>(i));
     }
   }
   EXPECT_GT(n_won, 50);
+  EXPECT_GT(n_won_on_face, 50);
 #else
   std::cout << "SKIPPED: ConeKernels.give_the_same_bits_on_every_processor: one kind of processor only" << std::endl;
   GTEST_SKIP();

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <random>
+#include <set>
+#include <utility>
 
 #include "sizing/octree_field.h"
 #include "unit/sizing/cases.h"
@@ -132,6 +135,51 @@ TEST(Cones, change_by_no_more_than_the_slope_across_cells) {
     const double h = field.size(x), other = field.size(y);
     EXPECT_LE(std::abs(h - other), kConeSlope * distance(x, y) + 0.03 * std::min(h, other));
   }
+}
+
+/// By the cones of a leaf, which may lie beside the place.
+double length_in_leaf(const Case& c, std::int32_t leaf, Vec3 x) {
+  double least = kConeLargest;
+  for (std::int32_t k = c.cones.first[leaf]; k < c.cones.first[leaf + 1]; ++k)
+    least = std::min(least, c.cones.cone[c.cones.of_site[k]].length_at(x - c.raster.shape.view().lo));
+  return least;
+}
+
+TEST(Cones, step_between_centres_of_cells_by_no_more_than_the_slope) {
+  const Case c(4);
+  const OctreeView octree = c.raster.shape.view();
+  int n_steps = 0;
+  for (std::int32_t a = 0; a < octree.n_leaves(); ++a)
+    Neighbours(octree).for_each_across_face(a, [&](std::int32_t b, const CellStep&) {
+      const Vec3 from = octree.leaf_center(a), to = octree.leaf_center(b);
+      EXPECT_LE(length_in_leaf(c, b, to) - length_in_leaf(c, a, from), (1 + 1e-5) * kConeSlope * distance(from, to));
+      ++n_steps;
+    });
+  EXPECT_GT(n_steps, 10'000);
+}
+
+TEST(Cones, tell_the_same_on_both_sides_of_a_face_where_the_model_lies) {
+  const Case c(4);
+  const OctreeView octree = c.raster.shape.view();
+  const Neighbours neighbours(octree);
+  std::set<std::int32_t> holds_sample;
+  for (const LengthSample& s : c.samples)
+    holds_sample.insert(octree.find_leaf(morton::encode(octree.grid_point(s.xyz))));
+  int n_places = 0;
+  for (const std::int32_t a : holds_sample)
+    neighbours.for_each_across_side(a, [&](std::int32_t b, int side) {
+      if (octree.leaf_levels[b] > octree.leaf_levels[a]) return;  // the face is that of b
+      const double half = 0.5 * octree.cell_edge(octree.leaf_levels[a]);
+      const std::array<Vec3, 3> unit{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
+      const Vec3 face = octree.leaf_center(a) + (side % 2 == 0 ? -half : half) * unit[side / 2];
+      for (const auto& [u, v] : {std::pair{-1.0, 0.0}, {1.0, 0.0}, {0.0, -1.0}, {0.0, 1.0}, {0.5, 0.5}, {-0.5, 0.5}}) {
+        const Vec3 x = face + half * u * unit[(side / 2 + 1) % 3] + half * v * unit[(side / 2 + 2) % 3];
+        const double here = length_in_leaf(c, a, x), there = length_in_leaf(c, b, x);
+        EXPECT_LT(std::abs(here - there), 0.0021 * std::min(here, there));
+        ++n_places;
+      }
+    });
+  EXPECT_GT(n_places, 5'000);
 }
 
 TEST(Cones, name_the_sample_that_tells_the_length) {

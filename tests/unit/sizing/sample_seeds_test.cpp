@@ -65,7 +65,7 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, con
     const std::vector<float> slope(samples.size(), static_cast<float>(kSeedSlope));
     p->cones = spread_cones(neighbours, samples, slope, kSeedLargest, nullptr);
     data.set_cones(p->cones, kSeedLargest);
-    p->lengths = lengths_at_centers(data);
+    p->lengths = lengths_at_centers(data, p->cones.at_center);
     data.cells = p->lengths.cells;
     data.cause = p->lengths.cause;
   }

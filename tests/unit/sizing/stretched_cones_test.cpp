@@ -47,7 +47,7 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, std
   OctreeFieldData data{view, {}, {}, kSlope, 1};
   data.set_cones(p->cones, kLargest);
   data.max_aspect = kAspect;
-  p->lengths = lengths_at_centers(data);
+  p->lengths = lengths_at_centers(data, p->cones.at_center);
   data.cells = p->lengths.cells;
   return std::make_unique<OctreeField>(data, p);
 }

@@ -1,0 +1,209 @@
+#include "sizing/cone_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+#include <utility>
+
+#include "base/limits.h"
+
+namespace st {
+namespace {
+
+constexpr std::int32_t kManyCones = 24;  // of both cells: more places of their face are looked at
+
+class FaceAgreement {
+ public:
+  FaceAgreement(const SiteGraph& sites, std::span<const Cone> cones, float largest, SiteSamples samples)
+      : sites_(sites),
+        cones_(cones),
+        largest_(largest),
+        samples_(std::move(samples)),
+        more_(sites.cell.size(), kNone),
+        seen_(cones.size(), kNone) {}
+
+  SiteSamples run() {
+    const auto n = static_cast<std::int32_t>(sites_.cell.size());
+    for (std::int32_t site = 0; site < n; ++site)
+      for (const SiteBeside& b : sites_.beside_of(site)) {
+        if (!is_looked_at(site, b.site)) continue;
+        const bool is_both = sites_.leads(b.site, site);
+        if (!is_both || site < b.site) settle(site, b.site, is_both ? kBothWays : kToSecond);
+      }
+    pass_on();
+    lowered_.resize(sites_.cell.size());
+    std::iota(lowered_.begin(), lowered_.end(), 0);
+    while (!lowered_.empty()) {
+      settle_centers();
+      pass_on();
+    }
+    return joined();
+  }
+
+ private:
+  static constexpr std::int32_t kToSecond = 1, kToFirst = 2, kBothWays = kToSecond | kToFirst;
+  struct Added {
+    std::int32_t site, sample;
+  };
+
+  bool is_looked_at(std::int32_t a, std::int32_t b) const {
+    return (sites_.holds_sample[a] | sites_.holds_sample[b]) != 0;
+  }
+
+  /// The common face of two sites, as the kernels want it.
+  ConeFace face_of(std::int32_t a, std::int32_t b) const {
+    const ConeCell &first = sites_.cell[a], &second = sites_.cell[b],
+                   &small = second.half < first.half ? second : first, &large = &small == &first ? second : first;
+    ConeFace face{{small.c[0], small.c[1], small.c[2]}, small.half, 0};
+    for (int k = 1; k < 3; ++k)
+      if (std::abs(large.c[k] - small.c[k]) > std::abs(large.c[face.axis] - small.c[face.axis])) face.axis = k;
+    face.c[face.axis] += large.c[face.axis] > small.c[face.axis] ? small.half : -small.half;
+    return face;
+  }
+
+  template <class F>
+  void for_each_sample(std::int32_t site, const F& f) const {
+    for (std::int32_t i = samples_.first[site]; i < samples_.first[site + 1]; ++i) f(samples_.sample[i]);
+    for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next) f(links_[k].sample);
+  }
+
+  /// Both sites' cones, each once.
+  void gather(std::int32_t a, std::int32_t b) {
+    on_face_.clear();
+    for_each_sample(a, [&](std::int32_t s) {
+      seen_[s] = static_cast<std::int32_t>(on_face_.size());
+      on_face_.push_back({s, 1});
+    });
+    for_each_sample(b, [&](std::int32_t s) {
+      const auto at = static_cast<std::size_t>(seen_[s]);
+      if (at < on_face_.size() && on_face_[at].sample == s)
+        on_face_[at].of |= 2;
+      else
+        on_face_.push_back({s, 2});
+    });
+  }
+
+  void settle(std::int32_t a, std::int32_t b, std::int32_t ways) {
+    gather(a, b);
+    const auto n = static_cast<std::int32_t>(on_face_.size());
+    if (std::none_of(on_face_.begin(), on_face_.end(), [](const FaceCone& c) { return c.of != 3; })) return;
+    lengths_.resize(on_face_.size() * kFacePlaces);
+    const ConeFace face = face_of(a, b);
+    const std::int32_t n_sets = n > kManyCones ? kFaceSets : 1;
+    for (std::int32_t set = 0; set < n_sets; ++set) {
+      if (kernels_.settle_face(face, set, cones_.front().numbers(), largest_, ways, on_face_.data(), n,
+                               lengths_.data()) == 0)
+        continue;
+      for (FaceCone& c : on_face_) {
+        if (c.added == 0) continue;
+        add(c.added == 1 ? a : b, c.sample);
+        c.added = 0;
+      }
+    }
+  }
+
+  void add(std::int32_t site, std::int32_t sample) {
+    links_.push_back({sample, more_[site]});
+    more_[site] = static_cast<std::int32_t>(links_.size()) - 1;
+    added_.push_back({site, sample});
+    const float(&c)[3] = sites_.cell[site].c;
+    const auto length = static_cast<float>(cones_[sample].length_at({c[0], c[1], c[2]}));
+    if (!(length < samples_.center_length[site])) return;
+    samples_.center_length[site] = length;
+    samples_.at_center[site] = sample;
+    lowered_.push_back(site);
+  }
+
+  bool has(std::int32_t site, std::int32_t sample) const {
+    const auto begin = samples_.sample.begin();
+    if (std::find(begin + samples_.first[site], begin + samples_.first[site + 1], sample) !=
+        begin + samples_.first[site + 1])
+      return true;
+    std::int32_t k = more_[site];
+    while (k != kNone && links_[k].sample != sample) k = links_[k].next;
+    return k != kNone;
+  }
+
+  /// Those that were added, on to the sites beside.
+  void pass_on() {
+    for (std::size_t i = 0; i < added_.size(); ++i) {
+      const auto [site, sample] = added_[i];
+      for (const SiteBeside& b : sites_.beside_of(site))
+        if (is_looked_at(site, b.site) && !has(b.site, sample) && wins_on_face(site, b.site, sample))
+          add(b.site, sample);
+    }
+    added_.clear();
+  }
+
+  /// Over the cones of `to`.
+  bool wins_on_face(std::int32_t from, std::int32_t to, std::int32_t sample) const {
+    const std::int32_t first = samples_.first[to], n = samples_.first[to + 1] - first;
+    const KnownCones known{cones_.front().numbers(),
+                           samples_.at_center[to],
+                           sample,
+                           samples_.sample.data() + first,
+                           n,
+                           links_.data(),
+                           more_[to]};
+    const ConeFace face = face_of(from, to);
+    for (std::int32_t set = 0; set < (n > kManyCones ? kFaceSets : 1); ++set)
+      if (kernels_.wins_on_face(face, set, cones_[sample].numbers(), largest_, known)) return true;
+    return false;
+  }
+
+  /// So that no step to a centre beside passes the slope, but where no length may pass.
+  void settle_centers() {
+    std::vector<std::int32_t> lowered = std::exchange(lowered_, {});
+    for (const std::int32_t site : lowered) settle_centers_beside(site);
+  }
+
+  void settle_centers_beside(std::int32_t site) {
+    constexpr float kRounded = 1 + 2e-6F;
+    const std::int32_t sample = samples_.at_center[site];
+    if (sample == kNone) return;
+    const float length = samples_.center_length[site], slope = cones_[sample].slope * kRounded;
+    for (const SiteBeside& b : sites_.beside_of(site)) {
+      const float rise = samples_.center_length[b.site] - length;
+      if (!(rise > 0)) continue;
+      const float *from = sites_.cell[site].c, *to = sites_.cell[b.site].c;
+      float distance2 = 0;
+      for (int k = 0; k < 3; ++k) distance2 += (to[k] - from[k]) * (to[k] - from[k]);
+      if (rise * rise > slope * slope * distance2 && !has(b.site, sample)) add(b.site, sample);
+    }
+  }
+
+  SiteSamples joined() {
+    SiteSamples all;
+    for (std::size_t site = 0; site < sites_.cell.size(); ++site) {
+      for_each_sample(static_cast<std::int32_t>(site), [&](std::int32_t s) { all.sample.push_back(s); });
+      require_countable(all.sample.size(), "lengths of samples in cells");
+      all.first.push_back(static_cast<std::int32_t>(all.sample.size()));
+    }
+    all.at_center = std::move(samples_.at_center);
+    all.center_length = std::move(samples_.center_length);
+    return all;
+  }
+
+  const SiteGraph& sites_;
+  const std::span<const Cone> cones_;
+  const float largest_;
+  const ConeKernels& kernels_ = cone_kernels();
+  SiteSamples samples_;
+  std::vector<std::int32_t> more_;  // [n_sites] the last sample that was added, into links_
+  std::vector<SampleLink> links_;
+  std::vector<Added> added_;
+  std::vector<std::int32_t> lowered_;  // sites whose length at the centre is lower than when it was looked at
+  std::vector<std::int32_t> seen_;     // [n_samples] where in on_face_, if anywhere
+  std::vector<FaceCone> on_face_;
+  std::vector<float> lengths_;
+};
+
+}  // namespace
+
+SiteSamples agree_on_faces(const SiteGraph& sites, std::span<const Cone> cones, float largest, SiteSamples samples) {
+  if (cones.empty()) return samples;
+  return FaceAgreement(sites, cones, largest, std::move(samples)).run();
+}
+
+}  // namespace st

@@ -1,0 +1,111 @@
+#include "sizing/cone_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace st {
+namespace {
+
+/// A row of cells of edge 1, the first one's centre at 0; the field grows by 0.2. Of each sample the cone is a point's.
+struct CellRow {
+  SiteGraph graph;
+  std::vector<SiteBeside> beside;
+  std::vector<Cone> cones;
+  SiteSamples samples;
+
+  explicit CellRow(int n) {
+    for (int i = 0; i < n; ++i) {
+      ConeCell cell;
+      cell.half = 0.5F;
+      cell.c[0] = static_cast<float>(i);
+      cell.c[1] = cell.c[2] = 0;
+      graph.cell.push_back(cell);
+      const auto first = static_cast<std::int32_t>(beside.size());
+      if (i > 0) beside.push_back({i - 1, 1});
+      if (i + 1 < n) beside.push_back({i + 1, 2});
+      graph.of_beside.push_back({first, static_cast<std::int32_t>(beside.size())});
+      graph.holds_sample.push_back(1);
+    }
+    graph.beside = beside;
+  }
+  void add_cone(Vec3 x, float length) {
+    LengthSample s;
+    s.xyz = x;
+    s.length = length;
+    cones.emplace_back(s, 0.2F, Vec3{});
+  }
+  /// The samples that each cell has at first.
+  void set_samples(const std::vector<std::vector<std::int32_t>>& of_cell) {
+    samples = {};
+    for (std::size_t i = 0; i < of_cell.size(); ++i) {
+      samples.sample.insert(samples.sample.end(), of_cell[i].begin(), of_cell[i].end());
+      samples.first.push_back(static_cast<std::int32_t>(samples.sample.size()));
+      samples.at_center.push_back(kNone);
+      samples.center_length.push_back(10);
+      for (const std::int32_t s : of_cell[i]) {
+        const auto length = static_cast<float>(cones[s].length_at({static_cast<double>(i), 0, 0}));
+        if (length < samples.center_length[i]) samples.center_length[i] = length, samples.at_center[i] = s;
+      }
+    }
+  }
+  std::vector<std::int32_t> settled(std::size_t cell) const {
+    const SiteSamples all = agree_on_faces(graph, cones, 10, samples);
+    std::vector<std::int32_t> own(all.sample.begin() + all.first[cell], all.sample.begin() + all.first[cell + 1]);
+    std::sort(own.begin(), own.end());
+    return own;
+  }
+};
+
+using Samples = std::vector<std::int32_t>;
+
+TEST(ConeFaces, give_a_cell_what_tells_less_on_its_face) {
+  CellRow row(3);
+  row.add_cone({0, 0, 0}, 1);
+  row.add_cone({0.5, 0.5, 0}, 1.02F);  // wins around the middle of one side of the first face
+  row.set_samples({{0, 1}, {0}, {0}});
+  EXPECT_EQ(row.settled(1), (Samples{0, 1}));
+  row.graph.holds_sample = {0, 0, 1};
+  EXPECT_EQ(row.settled(1), (Samples{0})) << "the model lies elsewhere, and no step passes the slope";
+}
+
+TEST(ConeFaces, leave_out_what_tells_hardly_less) {
+  CellRow row(2);
+  row.add_cone({0, 0, 0}, 1);
+  row.add_cone({0, 0.01, 0}, 1);
+  row.set_samples({{0, 1}, {0}});
+  EXPECT_EQ(row.settled(1), (Samples{0}));
+}
+
+TEST(ConeFaces, pass_on_what_was_added) {
+  CellRow row(4);
+  row.add_cone({0, 0, 0}, 2);
+  row.add_cone({-0.4, 0, 0}, 1);
+  row.set_samples({{0, 1}, {0}, {0}, {0}});
+  for (const std::size_t cell : {1, 2, 3}) EXPECT_EQ(row.settled(cell), (Samples{0, 1})) << cell;
+}
+
+TEST(ConeFaces, pass_nothing_where_a_link_is_closed) {
+  CellRow row(2);
+  row.add_cone({0, 0, 0}, 2);
+  row.add_cone({1, 0, 0}, 1);
+  row.beside[0] = {1, SiteBeside::kAlways};
+  row.graph.of_beside[1] = {1, 1};  // no way from the second to the first
+  row.set_samples({{0}, {1}});
+  EXPECT_EQ(row.settled(0), (Samples{0}));
+  row.set_samples({{1}, {0}});
+  EXPECT_EQ(row.settled(1), (Samples{0, 1}));
+}
+
+TEST(ConeFaces, settle_the_steps_to_centres_everywhere) {
+  CellRow row(3);
+  row.graph.holds_sample = {0, 0, 0};
+  row.add_cone({0, 0, 0}, 1);
+  row.add_cone({0, 0, 0}, 1.3F);
+  row.set_samples({{0}, {1}, {1}});
+  EXPECT_EQ(row.settled(1), (Samples{0, 1}));
+  EXPECT_EQ(row.settled(2), (Samples{0, 1})) << "once the second cell is lower";
+}
+
+}  // namespace
+}  // namespace st
