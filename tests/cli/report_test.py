@@ -69,6 +69,14 @@ setTimeout(() => {
     const onScreen = c => [all.left + all.width / 2 + dot(axes().right, c) / pixel,
       all.top + all.height / 2 - dot(axes().up, c) / pixel];
     const target = cadFaces.map(f => onScreen(middle(f))).find(([x, y]) => faceAt(x, y));
+    $("lined").checked = true;
+    said.edges_in_front = cadEdges.filter(e => {
+      const middle = [0, 1, 2].map(k => (lineEnds[6 * e.first + k] + lineEnds[6 * (e.first + e.count) - 3 + k]) / 2);
+      const at = onScreen(middle.map((x, k) => x - camera.focus[k]));
+      return edgeAt(...at, faceAt(...at)) === e;
+    }).length;
+    said.edges = cadEdges.length;
+    $("lined").checked = false;
     if (target) {
       pick(...target);
       said.picked_face = $("picked_faces").textContent;
@@ -154,6 +162,16 @@ class Browser(ToolTest):
         return json.loads(title.group(1).replace("&quot;", '"').replace("&amp;", "&"))
 
 
+    def expect_one_printed_page(self, file):
+        browser = shutil.which("chromium")
+        if not browser:
+            self.skipTest("no chromium")
+        pdf = self.folder / "page.pdf"
+        subprocess.run([browser, *HEADLESS, f"--user-data-dir={self.folder / 'browser'}", "--no-pdf-header-footer",
+                        f"--print-to-pdf={pdf}", f"file://{file}"], capture_output=True, timeout=120, check=True)
+        self.assertEqual(len(re.findall(rb"/Type\s*/Page\b(?!s)", pdf.read_bytes())), 1)
+
+
 class Report(Browser):
     def report(self, model, *options):
         made = artifacts_of(model)
@@ -210,6 +228,8 @@ class Report(Browser):
         self.assertEqual(said["picked_faces"], "", "a click on an edge takes no face behind it")
         self.assertEqual(said["wings"], "")
         self.expect_faces_to_be_picked(said)
+        self.assertLessEqual(said["edges_in_front"], said["edges"] - 6, "three of each box are behind it")
+        self.assertGreater(said["edges_in_front"], 6, said)
 
     def expect_faces_to_be_picked(self, said):
         self.assertRegex(said["picked_face"], r"^face \d+.*, group .*, area \S+ mm²$")
@@ -257,13 +277,7 @@ class Report(Browser):
     def test_prints_on_one_page(self):
         made = artifacts_of("two_boxes")
         _, file = self.report("two_boxes", "--geometry", made / "geometry.hdf", "--sizing", made / "sizing.hdf")
-        browser = shutil.which("chromium")
-        if not browser:
-            self.skipTest("no chromium")
-        pdf = self.folder / "page.pdf"
-        subprocess.run([browser, *HEADLESS, f"--user-data-dir={self.folder / 'browser'}", "--no-pdf-header-footer",
-                        f"--print-to-pdf={pdf}", f"file://{file}"], capture_output=True, timeout=120, check=True)
-        self.assertEqual(len(re.findall(rb"/Type\s*/Page\b(?!s)", pdf.read_bytes())), 1)
+        self.expect_one_printed_page(file)
 
     def test_a_mesh_that_fails_gets_its_report(self):
         _, file = self.report("plate_with_hole")
@@ -425,6 +439,7 @@ class Aircraft(Browser):
         self.assertIn("Lifting surfaces", said["wings"])
         self.assertEqual(said["surfaces"], 4, "a table for each")
         self.assertIn("trailing edge", said["wings"])
+        self.expect_one_printed_page(Path(os.environ["ST_AIRCRAFT"]) / "report.html")
 
 
 if __name__ == "__main__":
