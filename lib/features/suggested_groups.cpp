@@ -109,7 +109,7 @@ class GroupSuggester {
  public:
   GroupSuggester(const ModelTables& tables, const FaceRoles& roles, std::span<const LiftingSurface> wings,
                  const Bodies& bodies)
-      : t_(tables), roles_(roles), wings_(wings), bodies_(bodies), name_(roles.role.size()), why_() {
+      : t_(tables), roles_(roles), wings_(wings), bodies_(bodies), name_(roles.role.size()) {
     for (const LiftingSurface& wing : wings) shapes_.push_back(shape_of(wing));
     kinds_.resize(wings.size());
   }
