@@ -52,8 +52,10 @@ struct RefinementPolicy {
   static constexpr int kMostTakenBack = 4;  ///< that refinements at bad places are taken back: bad places move
   static constexpr int kMostLoosened = 4;   ///< that lengths are doubled: most are no finer than kLoopFloor
   static constexpr int kMostEased = 10;     ///< that lengths along become shorter: to 0.6 each time, 100 to 1 in nine
-  static constexpr int kMostUneased = 3;    ///< likewise in a row that leave not fewer flaws
-  static constexpr int kMostTried = 2;      ///< meshings each: places that are needed come to light
+  static constexpr int kMostUneased = 5;    ///< likewise in a row that leave not fewer flaws, obtuse triangles among
+                                            ///< these
+  static constexpr int kMostUneasedSteps = 2;  ///< likewise where no triangle is obtuse
+  static constexpr int kMostTried = 2;         ///< meshings each: places that are needed come to light
 
   /// Whether loops, folds and narrow parts are refined after this round, the first one being 1.
   bool refines_loops(int round) const { return round <= max_rounds; }
@@ -65,6 +67,7 @@ struct RefinementPolicy {
   bool refines_crossings(int n_rounds, bool is_promising) const {
     return n_rounds < (is_promising ? max_promising_rounds : max_crossing_rounds);
   }
+  static int most_uneased(std::size_t n_obtuse) { return n_obtuse > 0 ? kMostUneased : kMostUneasedSteps; }
   /// Whether more was meshed than rounds can be worth, as on damaged surfaces. `n_for_walls`: of these, to part walls.
   static bool runs_away(std::uint64_t n_meshed, std::uint64_t n_first, double n_for_walls) {
     return static_cast<double>(n_meshed) >

@@ -15,27 +15,30 @@ void StretchEasing::run() {
   if (!field_.is_stretched()) return;
   n_bad_ = faces_.n_bad();
   share(executor_, n_bad_);
-  flaws_ = find_flaws();
-  share(executor_, flaws_.n_triangles);
-  best_ = {{n_bad_, flaws_.n_triangles}, faces_.state(), refinements_.all()};
+  flaws_ = find_flaws(0);
+  best_ = {count_flaws(), faces_.state(), refinements_.all()};
   run_rounds(&StretchFlaws::stretched);
   run_rounds(&StretchFlaws::obtuse);
 }
 
 void StretchEasing::run_rounds(Places StretchFlaws::*places) {
   const std::size_t first = refinements_.all().size();
-  for (int i = 0, n_without = 0; i < Policy::kMostEased && n_without < Policy::kMostUneased; ++i) {
+  for (int i = 0, n_without = 0; i < Policy::kMostEased && n_without < Policy::most_uneased(n_obtuse()); ++i) {
     const std::vector<Refinement> shorter = shorten(flaws_.*places);
     if (shorter.empty()) break;
     mesh_again_(shorter, "where stretched triangles are obtuse or too large");
     take_back_spoiling(first);
+    flaws_ = find_flaws(i + 1);
     n_without = keep_if_better() ? 0 : n_without + 1;
   }
-  if (!is_best_) go_back();
+  if (is_best_)
+    flaws_ = find_flaws(0);
+  else
+    go_back();
 }
 
 /// On rank 0.
-StretchFlaws StretchEasing::find_flaws() const {
+StretchFlaws StretchEasing::find_flaws(int n_tries) const {
   std::vector<FaceId> all(tables_.n_faces());
   std::iota(all.begin(), all.end(), 0);
   const MeshedFaces::Patches patches = faces_.bring(all);
@@ -43,14 +46,19 @@ StretchFlaws StretchEasing::find_flaws() const {
   std::vector<const FacePatch*> of_faces;
   for (const auto& [f, patch] : patches) of_faces.push_back(&patch);
   const WeldedPatches welded = weld_patches(faces_.edges(), tables_.vertex_xyz, of_faces);
-  return find_stretch_flaws(welded.points, welded.triangles, RefinedField(field_, refinements_.all()));
+  return find_stretch_flaws(welded.points, welded.triangles, RefinedField(field_, refinements_.all()), n_tries);
+}
+
+StretchEasing::Count StretchEasing::count_flaws() const {
+  std::int64_t n_bad = faces_.n_bad();
+  std::size_t n_obtuse = flaws_.n_obtuse, n_large = flaws_.n_large;
+  share(executor_, n_bad, n_obtuse, n_large);
+  return {n_bad, n_obtuse, n_large};
 }
 
 /// Sets is_best_.
 bool StretchEasing::keep_if_better() {
-  flaws_ = find_flaws();
-  std::pair<std::int64_t, std::size_t> n_flaws{faces_.n_bad(), flaws_.n_triangles};
-  share(executor_, n_flaws.first, n_flaws.second);
+  const Count n_flaws = count_flaws();
   is_best_ = n_flaws < best_.n_flaws;
   if (is_best_) best_ = {n_flaws, faces_.state(), refinements_.all()};
   std::vector<PlacedFace> others;
@@ -95,7 +103,7 @@ void StretchEasing::go_back() {
   std::vector<FaceId> all(tables_.n_faces());
   std::iota(all.begin(), all.end(), 0);
   faces_.go_back(best_.state, all);
-  flaws_ = find_flaws();
+  flaws_ = find_flaws(0);
   is_best_ = true;
 }
 

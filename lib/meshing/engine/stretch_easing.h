@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -33,13 +34,17 @@ class StretchEasing {
 
  private:
   using Places = std::vector<RefinementPoint>;
+  /// Folds, crossings and failures; obtuse triangles; large ones.
+  using Count = std::tuple<std::int64_t, std::size_t, std::size_t>;
   struct Best {
-    std::pair<std::int64_t, std::size_t> n_flaws;  // folds, crossings and failures; stretched triangles
+    Count n_flaws;
     MeshedFaces::State state;
     std::vector<Refinement> refinements;
   };
 
-  StretchFlaws find_flaws() const;
+  StretchFlaws find_flaws(int n_tries) const;
+  Count count_flaws() const;
+  std::size_t n_obtuse() const { return std::get<1>(best_.n_flaws); }
   void run_rounds(Places StretchFlaws::*places);
   bool keep_if_better();
   std::vector<Refinement> shorten(const Places& places);

@@ -15,15 +15,18 @@ constexpr double kMostGrowth = 2.2;          // of lengths, from a triangle to i
 constexpr double kGrowthLeft = 1.6;          // what is aimed at there
 constexpr double kShorter = 0.6;             // lengths along, in one round
 constexpr double kLeastShorter = 0.35;       // at most
+constexpr int kGentleTries = 3;              // then lengths along become those across
+constexpr double kLast = 0.9;                // of lengths that are alike, then
 constexpr double kAlike = 1.05;              // along over across: less is about the same
 constexpr double kAround = 0.75;             // of the longest side: so far about a triangle
 
 class FlawFinder {
  public:
-  FlawFinder(std::span<const Vec3> points, std::span<const Triangle> triangles, const SizeField& present)
+  FlawFinder(std::span<const Vec3> points, std::span<const Triangle> triangles, const SizeField& present, int n_tries)
       : points_(points),
         triangles_(triangles),
         present_(present),
+        wider_(n_tries > kGentleTries ? std::exp2(n_tries - kGentleTries) : 1),
         factor_(triangles.size(), 1),
         is_obtuse_(triangles.size(), 0) {}
 
@@ -34,7 +37,7 @@ class FlawFinder {
     bool is_long = false;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (!is_obtuse_[t] && factor_[t] == 1) continue;
-      ++flaws.n_triangles;
+      ++(is_obtuse_[t] ? flaws.n_obtuse : flaws.n_large);
       const RefinementPoint place = place_at(t, is_long);
       if (is_long)
         flaws.stretched.push_back(place);
@@ -86,14 +89,18 @@ class FlawFinder {
     const LocalSize local = present_.local(place.x, hint);
     is_long = local.along > kAlike * local.length;
     const double factor = is_obtuse_[t] ? std::min(kShorter, factor_[t]) : factor_[t];
-    place.length = std::max(is_long ? local.length : 0, factor * std::min(local.along, longest));
-    place.radius = kAround * longest;
+    const double shorter = factor * std::min(local.along, longest);
+    place.length = is_long      ? std::max(local.length, wider_ > 1 ? 0 : shorter)
+                   : wider_ > 1 ? kLast * local.length
+                                : shorter;
+    place.radius = kAround * wider_ * longest;
     return place;
   }
 
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
   const SizeField& present_;
+  double wider_;                 // than kAround
   std::vector<double> factor_;   // [triangles] of lengths along, by neighbours; 1: none is asked for
   std::vector<char> is_obtuse_;  // [triangles]
 };
@@ -101,8 +108,8 @@ class FlawFinder {
 }  // namespace
 
 StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                const SizeField& present) {
-  return FlawFinder(points, triangles, present).run();
+                                const SizeField& present, int n_tries) {
+  return FlawFinder(points, triangles, present, n_tries).run();
 }
 
 }  // namespace st

@@ -15,11 +15,13 @@ struct StretchFlaws {
   // in the order of the triangles
   std::vector<RefinementPoint> stretched;  ///< where lengths along should be shorter
   std::vector<RefinementPoint> obtuse;     ///< where triangles are, although lengths are alike in all directions
-  std::size_t n_triangles = 0;  ///< with an angle above 140 degrees, or 2.2 squared times the area of a neighbour
+  std::size_t n_obtuse = 0;                ///< triangles with an angle above 140 degrees
+  std::size_t n_large = 0;                 ///< others with 2.2 squared times the area of a neighbour
 };
 
-/// `present`: the lengths that the triangles were made for. Local, linear.
+/// `present`: the lengths that the triangles were made for. `n_tries`: made before; after a few, lengths along become
+/// those across at once, further around each time. Local, linear.
 StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                const SizeField& present);
+                                const SizeField& present, int n_tries);
 
 }  // namespace st

@@ -43,6 +43,11 @@ TEST(RefinementPolicy, goes_on_where_few_triangles_cross) {
           {"measured", [] { return Policy::is_promising(9000, true); }, true}});
 }
 
+TEST(RefinementPolicy, shortens_lengths_along_for_longer_where_triangles_are_obtuse) {
+  EXPECT_EQ(Policy::most_uneased(1), 5);
+  EXPECT_EQ(Policy::most_uneased(0), 2);
+}
+
 TEST(RefinementPolicy, ends_what_costs_more_than_it_can_be_worth) {
   expect({{"30 times and 200,000", [] { return Policy::runs_away(500'000, 10'000, 0); }, false},
           {"one more", [] { return Policy::runs_away(500'001, 10'000, 0); }, true},
