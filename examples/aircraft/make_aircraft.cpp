@@ -162,6 +162,12 @@ double number(const std::string& option, const std::string& text, double least, 
   return value;
 }
 
+int whole_number(const std::string& option, const std::string& text, int least, int most) {
+  const double value = number(option, text, least, most);
+  if (value != std::floor(value)) throw BadUsage(option + " takes a whole number, not '" + text + "'");
+  return static_cast<int>(value);
+}
+
 Tail tail_of(const std::string& name) {
   const char* const names[] = {"conventional", "t", "cross", "v", "none"};
   for (int i = 0; i < 5; ++i)
@@ -175,7 +181,7 @@ void set(Shape& shape, const std::string& option, const std::string& value) {
   else if (option == "--dihedral")
     shape.dihedral_deg = number(option, value, -4, 10);
   else if (option == "--engines")
-    shape.n_engines = static_cast<int>(number(option, value, 0, 2));
+    shape.n_engines = whole_number(option, value, 0, 2);
   else if (option == "--tail")
     shape.tail = tail_of(value);
   else if (option == "--flaps")
