@@ -32,7 +32,7 @@ LiftingSurface suggested_wing(FaceId face, Vec3 root, Vec3 tip, double chord, Ve
 }
 
 /// Names by face (from 0) that the surfaces of a model without edges get.
-std::map<FaceId, std::string> names_of(const std::vector<LiftingSurface>& wings, std::size_t n_faces = 6) {
+std::map<FaceId, std::string> suggested_names(const std::vector<LiftingSurface>& wings, std::size_t n_faces = 6) {
   ModelTables tables;
   tables.face_is_reversed.resize(n_faces);
   tables.face_box.resize(n_faces);
@@ -52,15 +52,15 @@ std::map<FaceId, std::string> names_of(const std::vector<LiftingSurface>& wings,
 
 TEST(SuggestedGroups, tell_wing_tailplane_fin_and_symmetry_by_their_place) {
   const auto names =
-      names_of({suggested_wing(0, {10, 0, 0}, {12, 15, 1}, 4), suggested_wing(1, {30, 0, 0}, {31, 5, 0}, 2),
-                suggested_wing(2, {29, 0, 1}, {31, 0, 7}, 3)});
+      suggested_names({suggested_wing(0, {10, 0, 0}, {12, 15, 1}, 4), suggested_wing(1, {30, 0, 0}, {31, 5, 0}, 2),
+                       suggested_wing(2, {29, 0, 1}, {31, 0, 7}, 3)});
   EXPECT_EQ(names, (std::map<FaceId, std::string>{{0, "wing"}, {1, "tailplane"}, {2, "fin"}, {5, "symmetry"}}));
 }
 
 TEST(SuggestedGroups, tell_canards_flaps_and_leaning_tails) {
-  const auto names =
-      names_of({suggested_wing(0, {10, 0, 0}, {12, 15, 1}, 4), suggested_wing(1, {1, 0, 0}, {2, 4, 0}, 1.5),
-                suggested_wing(2, {10.8, 6, -0.2}, {11.5, 12, -0.2}, 1), suggested_wing(3, {30, 0, 1}, {32, 5, 5}, 3)});
+  const auto names = suggested_names(
+      {suggested_wing(0, {10, 0, 0}, {12, 15, 1}, 4), suggested_wing(1, {1, 0, 0}, {2, 4, 0}, 1.5),
+       suggested_wing(2, {10.8, 6, -0.2}, {11.5, 12, -0.2}, 1), suggested_wing(3, {30, 0, 1}, {32, 5, 5}, 3)});
   EXPECT_EQ(names.at(1), "canard");
   EXPECT_EQ(names.at(2), "flap");
   EXPECT_EQ(names.at(3), "v_tail");
@@ -68,20 +68,20 @@ TEST(SuggestedGroups, tell_canards_flaps_and_leaning_tails) {
 
 TEST(SuggestedGroups, take_both_sides_of_a_whole_aircraft_as_its_wing) {
   const auto names =
-      names_of({suggested_wing(0, {10, 1, 0}, {12, 15, 1}, 4), suggested_wing(1, {10, -1, 0}, {12, -15, 1}, 4)});
+      suggested_names({suggested_wing(0, {10, 1, 0}, {12, 15, 1}, 4), suggested_wing(1, {10, -1, 0}, {12, -15, 1}, 4)});
   EXPECT_EQ(names.at(0), "wing");
   EXPECT_EQ(names.at(1), "wing");
 }
 
 TEST(SuggestedGroups, take_parts_of_a_wing_between_booms_as_the_wing) {
   const auto names =
-      names_of({suggested_wing(0, {10, 6, 0}, {10, 15, 1}, 4), suggested_wing(1, {10, 1, 0}, {10, 6, 0}, 4.5)});
+      suggested_names({suggested_wing(0, {10, 6, 0}, {10, 15, 1}, 4), suggested_wing(1, {10, 1, 0}, {10, 6, 0}, 4.5)});
   EXPECT_EQ(names.at(1), "wing");
 }
 
 TEST(SuggestedGroups, tell_blades_by_their_likes_in_other_directions) {
-  const auto names = names_of({suggested_wing(0, {0, 0, 1}, {0, 0, 6}, 1, {0, 1, 0}),
-                               suggested_wing(1, {0, 0, -1}, {0, 0, -6}, 1, {0, -1, 0})});
+  const auto names = suggested_names({suggested_wing(0, {0, 0, 1}, {0, 0, 6}, 1, {0, 1, 0}),
+                                      suggested_wing(1, {0, 0, -1}, {0, 0, -6}, 1, {0, -1, 0})});
   EXPECT_EQ(names.at(0), "blade");
   EXPECT_EQ(names.at(1), "blade");
 }
@@ -96,7 +96,7 @@ TEST(SuggestedGroups, tell_blades_that_hang_together_from_nacelles) {
     for (ChordStation& s : blade.stations) s.trailing = turned(s.trailing), s.nose = turned(s.nose);
     rotor.trailing.push_back(blade);
   }
-  EXPECT_EQ(names_of({rotor}).at(0), "blade");
+  EXPECT_EQ(suggested_names({rotor}).at(0), "blade");
 }
 
 TEST(SuggestedGroups, take_a_bent_trailing_edge_for_no_ring) {
@@ -107,7 +107,7 @@ TEST(SuggestedGroups, take_a_bent_trailing_edge_for_no_ring) {
     s.trailing = {0, std::cos(angle), std::sin(angle)};
     s.nose = s.trailing - Vec3{0, 1, 0};
   }
-  EXPECT_EQ(names_of({blade}).at(0), "wing");
+  EXPECT_EQ(suggested_names({blade}).at(0), "wing");
 }
 
 TEST(SuggestedGroups, tell_nacelles_by_rings) {
@@ -118,7 +118,7 @@ TEST(SuggestedGroups, tell_nacelles_by_rings) {
     s.trailing = {5, std::cos(angle), std::sin(angle)};
     s.nose = s.trailing - Vec3{3, 0, 0};
   }
-  EXPECT_EQ(names_of({ring}).at(0), "nacelle");
+  EXPECT_EQ(suggested_names({ring}).at(0), "nacelle");
 }
 
 TEST(SuggestedGroups, know_nothing_of_a_body_without_wings) {
