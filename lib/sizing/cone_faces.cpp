@@ -28,7 +28,7 @@ class FaceAgreement {
     for (std::int32_t site = 0; site < n; ++site)
       for (const SiteBeside& b : sites_.beside_of(site)) {
         if (!is_looked_at(site, b.site)) continue;
-        const bool is_both = sites_.leads(b.site, site);
+        const bool is_both = sites_.leads(b.site, site);  // else lengths pass one way
         if (!is_both || site < b.site) settle(site, b.site, is_both ? kBothWays : kToSecond);
       }
     pass_on();
@@ -88,7 +88,7 @@ class FaceAgreement {
     gather(a, b);
     const auto n = static_cast<std::int32_t>(on_face_.size());
     if (std::none_of(on_face_.begin(), on_face_.end(), [](const FaceCone& c) { return c.of != 3; })) return;
-    lengths_.resize(on_face_.size() * kFacePlaces);
+    lengths_.resize(std::max(lengths_.size(), on_face_.size() * kFacePlaces));
     const ConeFace face = face_of(a, b);
     const std::int32_t n_sets = n > kManyCones ? kFaceSets : 1;
     for (std::int32_t set = 0; set < n_sets; ++set) {

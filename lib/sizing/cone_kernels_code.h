@@ -154,7 +154,7 @@ struct CellView {
 
   /// `at_center`: the length of the cone there.
   bool is_near(const ConeView& cone, float at_center) const {
-    constexpr float kNearby = 3.75F;  // half edges from the centre: one edge from the closest point
+    constexpr float kNearby = 2.25F;  // half edges from the centre: up to half an edge from the closest point
     return at_center <= cone.length + cone.slope * kNearby * half;
   }
 

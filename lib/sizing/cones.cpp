@@ -18,7 +18,7 @@ namespace st {
 namespace {
 
 // While cones spread, less than these shares of the length known is a gain. What is refused wrongly is found on faces.
-constexpr ConeShares kSpreadShares{0.995F, 0.99F};
+constexpr ConeShares kSpreadShares{0.99F, 0.99F};
 // In the cell of the sample itself.
 constexpr ConeShares kOwnShares{0.997F, 0.99F};
 
