@@ -57,16 +57,16 @@ struct CellRow {
   }
 };
 
-using Samples = std::vector<std::int32_t>;
+using CellSamples = std::vector<std::int32_t>;
 
 TEST(ConeFaces, give_a_cell_what_tells_less_on_its_face) {
   CellRow row(3);
   row.add_cone({0, 0, 0}, 1);
   row.add_cone({0.5, 0.5, 0}, 1.02F);  // wins around the middle of one side of the first face
   row.set_samples({{0, 1}, {0}, {0}});
-  EXPECT_EQ(row.settled(1), (Samples{0, 1}));
+  EXPECT_EQ(row.settled(1), (CellSamples{0, 1}));
   row.graph.holds_sample = {0, 0, 1};
-  EXPECT_EQ(row.settled(1), (Samples{0})) << "the model lies elsewhere, and no step passes the slope";
+  EXPECT_EQ(row.settled(1), (CellSamples{0})) << "the model lies elsewhere, and no step passes the slope";
 }
 
 TEST(ConeFaces, leave_out_what_tells_hardly_less) {
@@ -74,7 +74,7 @@ TEST(ConeFaces, leave_out_what_tells_hardly_less) {
   row.add_cone({0, 0, 0}, 1);
   row.add_cone({0, 0.01, 0}, 1);
   row.set_samples({{0, 1}, {0}});
-  EXPECT_EQ(row.settled(1), (Samples{0}));
+  EXPECT_EQ(row.settled(1), (CellSamples{0}));
 }
 
 TEST(ConeFaces, pass_on_what_was_added) {
@@ -82,7 +82,7 @@ TEST(ConeFaces, pass_on_what_was_added) {
   row.add_cone({0, 0, 0}, 2);
   row.add_cone({-0.4, 0, 0}, 1);
   row.set_samples({{0, 1}, {0}, {0}, {0}});
-  for (const std::size_t cell : {1, 2, 3}) EXPECT_EQ(row.settled(cell), (Samples{0, 1})) << cell;
+  for (const std::size_t cell : {1, 2, 3}) EXPECT_EQ(row.settled(cell), (CellSamples{0, 1})) << cell;
 }
 
 TEST(ConeFaces, pass_nothing_where_a_link_is_closed) {
@@ -92,9 +92,9 @@ TEST(ConeFaces, pass_nothing_where_a_link_is_closed) {
   row.beside[0] = {1, SiteBeside::kAlways};
   row.graph.of_beside[1] = {1, 1};  // no way from the second to the first
   row.set_samples({{0}, {1}});
-  EXPECT_EQ(row.settled(0), (Samples{0}));
+  EXPECT_EQ(row.settled(0), (CellSamples{0}));
   row.set_samples({{1}, {0}});
-  EXPECT_EQ(row.settled(1), (Samples{0, 1}));
+  EXPECT_EQ(row.settled(1), (CellSamples{0, 1}));
 }
 
 TEST(ConeFaces, settle_the_steps_to_centres_everywhere) {
@@ -103,8 +103,8 @@ TEST(ConeFaces, settle_the_steps_to_centres_everywhere) {
   row.add_cone({0, 0, 0}, 1);
   row.add_cone({0, 0, 0}, 1.3F);
   row.set_samples({{0}, {1}, {1}});
-  EXPECT_EQ(row.settled(1), (Samples{0, 1}));
-  EXPECT_EQ(row.settled(2), (Samples{0, 1})) << "once the second cell is lower";
+  EXPECT_EQ(row.settled(1), (CellSamples{0, 1}));
+  EXPECT_EQ(row.settled(2), (CellSamples{0, 1})) << "once the second cell is lower";
 }
 
 }  // namespace

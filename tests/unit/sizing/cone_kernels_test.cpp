@@ -97,6 +97,7 @@ TEST(ConeKernels, ask_every_cone_that_is_known) {
   EXPECT_FALSE(kernels.wins_nearby(all.cell.numbers(), won.numbers(), 0.997F, 0.04F, all.known({})));
 }
 
+#if defined(__x86_64__)
 /// Whether the cone wins on a face of the cell over those known, by both kinds of kernels; likewise what they add to
 /// two cells, of which one has the cones of even numbers.
 bool expect_same_on_face(const RandomCones& all, std::int32_t i, const std::vector<std::int32_t>& known) {
@@ -122,6 +123,7 @@ bool expect_same_on_face(const RandomCones& all, std::int32_t i, const std::vect
   }
   return wins[0];
 }
+#endif
 
 TEST(ConeKernels, give_the_same_bits_on_every_processor) {
 #if defined(__x86_64__)
