@@ -100,6 +100,21 @@ std::string change_unit(const ExportStageOptions& o, MeshArtifact& artifact, Add
   return o.unit;
 }
 
+/// Of faces that are several of the CAD: the number of the one at the middle of each triangle.
+std::vector<float> cad_face_numbers(const Model& model, const SurfaceMesh& mesh) {
+  std::vector<float> numbers;
+  for (std::size_t first = 0; first < mesh.triangle_face.size();) {
+    const FaceId face = mesh.triangle_face[first];
+    std::vector<Vec2> middles;
+    for (; first < mesh.triangle_face.size() && mesh.triangle_face[first] == face; ++first) {
+      const Vec2* uv = &mesh.corner_uv[3 * first];
+      middles.push_back((1.0 / 3) * (uv[0] + uv[1] + uv[2]));
+    }
+    for (const FaceId f : model.cad_faces(face, middles)) numbers.push_back(static_cast<float>(f + 1));
+  }
+  return numbers;
+}
+
 /// Nodes on the sides where these are wanted, with parameters lines of all CAD edges, distances from the CAD where they
 /// can be shown.
 void use_geometry(const ExportStageOptions& o, const QuadPairs& elements, MeshArtifact& artifact, Additions& added) {
@@ -110,6 +125,8 @@ void use_geometry(const ExportStageOptions& o, const QuadPairs& elements, MeshAr
   add_all_segments(artifact.mesh, geometry.tables.edge_vertices);
   const Model model = stored_model(geometry, o.geometry);
   if (shows_values(o.output)) added.values.push_back({"deviation", triangle_deviations(model, artifact.mesh)});
+  if (shows_values(o.output) && &model.cad() != &model)
+    added.values.push_back({"cad_face", cad_face_numbers(model, artifact.mesh)});
   if (o.quadratic) {
     std::int64_t n_straight = 0;
     added.mid_nodes = make_mid_nodes(artifact.mesh, elements, model, n_straight);

@@ -10,6 +10,7 @@
 #include "base/boxes.h"
 #include "base/disjoint_sets.h"
 #include "base/sort_once.h"
+#include "geometry/model/passed_vertices.h"
 #include "geometry/model/uv_facets.h"
 #include "geometry/shape/chain_curve.h"
 #include "geometry/shape/composite_surface.h"
@@ -18,12 +19,9 @@
 namespace st {
 namespace {
 
-constexpr std::size_t kMostFacets = 20000;    // of a chart: flatten() takes no more
-constexpr double kLeastCosine = 0.5;          // between the normals of a facet and of its face
-constexpr double kMostCompositeStretch = 20;  // of (u,v): twice what the chart alone may have
-constexpr double kMostBulge = 0.5;            // of its chord: how far a trimming curve leaves a chart's rim
-constexpr double kOffRim = 1e-2;              // of its chord: how far a trimming curve's place may be off its edge
-constexpr double kSmoothTurn = 0.9986;        // cosine of 3 degrees: edges go on as one
+constexpr std::size_t kMostFacets = 20000;  // of a chart: flatten() takes no more
+constexpr double kMostBulge = 0.5;          // of its chord: how far a trimming curve leaves a chart's rim
+constexpr double kOffRim = 1e-2;            // of its chord: how far a trimming curve's place may be off its edge
 
 /// Facets of a union of faces, with nodes of their own.
 struct Union {
@@ -51,7 +49,6 @@ class CompositeFinder {
     std::vector<EdgeId> all;
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
       if (can_join_[e]) all.push_back(e);
-    begin_records();
     grow(all, t_.n_faces());
     std::vector<std::vector<FaceId>> work = whole_parts(all);
     while (!work.empty()) {
@@ -91,7 +88,7 @@ class CompositeFinder {
       const auto &a = facets_.rim_side[uses_[e][0]], &b = facets_.rim_side[uses_[e][1]];
       if (a.empty() || a.size() != b.size()) continue;
       bool is_same = true;
-      for (std::size_t i = 0; i < a.size() && is_same; ++i) is_same = fit(a[i], b[i]);
+      for (std::size_t i = 0; i < a.size() && is_same; ++i) is_same = facets_.fit(a[i], b[i]);
       if (!is_same) continue;
       can_join_[e] = 1;
       for (std::size_t i = 0; i < a.size(); ++i) across_[a[i]] = b[i], across_[b[i]] = a[i];
@@ -100,19 +97,6 @@ class CompositeFinder {
       part_of_[f] = f;
       parts_[f] = {f};
     }
-  }
-
-  std::pair<Vec3, Vec3> ends(std::int32_t s) const {
-    const Corners& c = facets_.corners[static_cast<std::size_t>(s / 3)];
-    return {facets_.x[c[s % 3]], facets_.x[c[(s + 1) % 3]]};
-  }
-
-  /// Whether two sides are one, passed in opposite directions.
-  bool fit(std::int32_t s, std::int32_t o) const {
-    const auto [a, b] = ends(s);
-    const auto [c, d] = ends(o);
-    const double near = 0.1 * distance(a, b);
-    return distance(a, d) <= near && distance(b, c) <= near;
   }
 
   void grow(std::vector<EdgeId> edges, std::int32_t most_faces) {
@@ -257,34 +241,25 @@ class CompositeFinder {
            !u.topology.loops.empty() && is_shallow(u.x, u.corners, u.topology);
   }
 
-  void begin_records() {
-    Composites& c = found_.composites;
-    c.member_offsets = c.node_offsets = c.triangle_offsets = {0};
-  }
-
-  void refuse(const std::vector<FaceId>& faces, const std::string& why) {
+  /// Always false.
+  bool refuse(const std::vector<FaceId>& faces, const std::string& why) {
     std::string ids;
     constexpr std::size_t kNamed = 5;
     for (std::size_t i = 0; i < std::min(faces.size(), kNamed); ++i)
       ids += fmt::format("{}{}", i > 0 ? ", " : "", faces[i] + 1);
     found_.refused.push_back(
         fmt::format("{} faces ({}{}): {}", faces.size(), ids, faces.size() > kNamed ? " ..." : "", why));
+    return false;
   }
 
   bool accept(const std::vector<FaceId>& faces) {
     const Union u = unite(faces);
     const auto uv = flatten(u.x, u.corners, u.topology);
-    if (!uv) {
-      refuse(faces, "they cannot be laid into a plane");
-      return false;
-    }
+    if (!uv) return refuse(faces, "they cannot be laid into a plane");
     Chart chart{u.x, std::vector<Vec3>(u.x.size(), Vec3{0, 0, 1}), *uv, u.corners};
     Rims rims = rims_of(faces, u);
     const std::string why = fault(faces, u, chart, rims);
-    if (!why.empty()) {
-      refuse(faces, why);
-      return false;
-    }
+    if (!why.empty()) return refuse(faces, why);
     record(faces, u, chart, rims);
     return true;
   }
@@ -318,11 +293,6 @@ class CompositeFinder {
     return rims;
   }
 
-  std::array<Vec2, 3> chart_corners(const Chart& chart, std::int32_t t) const {
-    const Corners& c = chart.corners[static_cast<std::size_t>(t)];
-    return {chart.uv[c[0]], chart.uv[c[1]], chart.uv[c[2]]};
-  }
-
   /// Why the chart does not stand for its faces, empty where it does; bounds are those of the trimming curves.
   std::string fault(const std::vector<FaceId>& faces, const Union& u, const Chart& chart, const Rims& rims) {
     CompositeSupport support;
@@ -336,29 +306,11 @@ class CompositeFinder {
     bounds_ = {};
     for (const Vec2 p : chart.uv) bounds_.add(p);
     const CompositeSurface surface(chart, std::move(support), std::move(members), {0, 1, 0, 1});
-    if (!has_normals(surface, chart)) return "their facets do not follow them";
+    if (!follows_facets(surface, chart)) return "their facets do not follow them";
     for (const Rim& rim : rims)
       if (!follows(surface, u, chart, rim))
         return fmt::format("the chart does not follow {}", t_.edge_label(t_.coedge_edge[rim.coedge]));
     return "";
-  }
-
-  static bool has_normals(const CompositeSurface& surface, const Chart& chart) {
-    constexpr double kNeedle = 1e-6;  // height over longest side: rounding turns its normal
-    for (const Corners& c : chart.corners) {
-      const Vec3 a = chart.x[c[1]] - chart.x[c[0]], b = chart.x[c[2]] - chart.x[c[0]], n = cross(a, b);
-      const bool is_needle = norm(n) <= kNeedle * std::max({norm2(a), norm2(b), norm2(b - a)});
-      for (const auto& w : {std::array{1 / 3., 1 / 3., 1 / 3.}, std::array{0.8, 0.1, 0.1}, std::array{0.1, 0.8, 0.1},
-                            std::array{0.1, 0.1, 0.8}}) {
-        const SurfacePoint p = surface.evaluate(w[0] * chart.uv[c[0]] + w[1] * chart.uv[c[1]] + w[2] * chart.uv[c[2]]);
-        const Vec3 m = cross(p.du, p.dv);
-        if (!is_needle && !(dot(m, n) > kLeastCosine * norm(m) * norm(n))) return false;
-        const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv), mean = 0.5 * (e + g),
-                     root = std::hypot(0.5 * (e - g), f);
-        if (!(mean + root <= kMostCompositeStretch * kMostCompositeStretch * (mean - root))) return false;
-      }
-    }
-    return true;
   }
 
   bool follows(const CompositeSurface& surface, const Union& u, const Chart& chart, const Rim& rim) {
@@ -367,8 +319,9 @@ class CompositeFinder {
     const auto curve = cad_.curve(e);
     const std::vector<double>& t = facets_.rim_t[rim.coedge];
     for (std::size_t i = 0; i + 1 < t.size(); ++i) {
+      const Corners& n = chart.corners[static_cast<std::size_t>(rim.triangle[i])];
       const AffineMap map(facets_.uv[static_cast<std::size_t>(u.triangles[rim.triangle[i]])],
-                          chart_corners(chart, rim.triangle[i]));
+                          {chart.uv[n[0]], chart.uv[n[1]], chart.uv[n[2]]});
       const Vec2 a = chart.uv[rim.node[i]], b = chart.uv[rim.node[i + 1]];
       const double chord = norm(b - a);
       constexpr int kPlaces = 4;
@@ -409,7 +362,6 @@ class CompositeFinder {
     Composites& c = found_.composites;
     sort_once(c.joined_edges);
     std::ranges::sort(rims_, {}, &Rim::coedge);
-    c.rim_offsets = {0};
     for (const Rim& rim : rims_) {
       c.rim_coedge.push_back(rim.coedge);
       const std::vector<double>& t = facets_.rim_t[rim.coedge];
@@ -418,80 +370,7 @@ class CompositeFinder {
       c.rim_triangle.insert(c.rim_triangle.end(), rim.triangle.begin(), rim.triangle.end());
       c.rim_offsets.push_back(static_cast<std::int32_t>(c.rim_t.size()));
     }
-    find_joined_vertices();
-  }
-
-  /// Where joined edges ended on two edges that go on into each other.
-  void find_joined_vertices() {
-    const Composites& c = found_.composites;
-    std::vector<std::uint8_t> is_end(static_cast<std::size_t>(t_.n_vertices()), 0), is_gone(uses_.size(), 0);
-    std::vector<std::vector<EdgeId>> at(static_cast<std::size_t>(t_.n_vertices()));
-    for (const EdgeId e : c.joined_edges) is_gone[e] = 1;
-    for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      for (const int k : {0, 1}) {
-        const VertexId v = t_.edge_vertices[2 * static_cast<std::size_t>(e) + k];
-        if (is_gone[e])
-          is_end[v] = 1;
-        else
-          at[v].push_back(e);
-      }
-    DisjointSets chains(t_.n_edges());
-    for (VertexId v = 0; v < t_.n_vertices(); ++v)
-      if (is_end[v] && !request_.must_end[v] && at[v].size() == 2 && at[v][0] != at[v][1] &&
-          chains.find(at[v][0]) != chains.find(at[v][1]) && goes_on(at[v][0], at[v][1], v)) {
-        chains.join(at[v][0], at[v][1]);
-        found_.composites.joined_vertices.push_back(v);
-      }
-  }
-
-  /// Direction away from the end at `v`.
-  Vec3 direction(EdgeId e, VertexId v) const {
-    const bool is_first = t_.edge_vertices[2 * static_cast<std::size_t>(e)] == v;
-    const auto curve = cad_.curve(e);
-    const CurvePoint p = curve->evaluate(is_first ? curve->t_min() : curve->t_max());
-    return normalized(is_first ? p.d1 : -p.d1);
-  }
-
-  bool goes_on(EdgeId a, EdgeId b, VertexId v) const {
-    for (const EdgeId e : {a, b})
-      if (t_.edge_is_degenerate[e] || !t_.edge_name[e].empty() || !(t_.edge_length[e] > 0) ||
-          t_.edge_vertices[2 * static_cast<std::size_t>(e)] == t_.edge_vertices[2 * static_cast<std::size_t>(e) + 1])
-        return false;
-    std::vector<std::pair<FaceId, FaceId>> beside;
-    if (uses_[a].size() != uses_[b].size()) return false;
-    std::vector<FaceId> beside_a, beside_b;
-    for (const CoedgeId c : uses_[a]) beside_a.push_back(whole(face_of_coedge_[c]));
-    for (const CoedgeId c : uses_[b]) beside_b.push_back(whole(face_of_coedge_[c]));
-    std::ranges::sort(beside_a);
-    std::ranges::sort(beside_b);
-    if (beside_a != beside_b || !(dot(direction(a, v), direction(b, v)) < -kSmoothTurn)) return false;
-    return are_next(a, b, v);
-  }
-
-  FaceId whole(FaceId f) const { return part_of_[f]; }
-
-  /// In faces that stay alone trimming curves must go on, too.
-  bool are_next(EdgeId a, EdgeId b, VertexId v) const {
-    constexpr double kSameUv = 1e-4;  // of the face's bounds
-    const auto end = [&](CoedgeId c) {
-      const EdgeId e = t_.coedge_edge[c];
-      const std::size_t row = 2 * static_cast<std::size_t>(e);
-      return cad_.pcurve(face_of_coedge_[c], c)->point(t_.edge_range[row + (t_.edge_vertices[row] == v ? 0 : 1)]);
-    };
-    for (const CoedgeId c : uses_[a]) {
-      const FaceId f = face_of_coedge_[c];
-      if (parts_[part_of_[f]].size() > 1) continue;
-      const double* bounds = &t_.face_uv_bounds[4 * static_cast<std::size_t>(f)];
-      const Vec2 p = end(c);
-      if (std::ranges::none_of(uses_[b], [&](CoedgeId o) {
-            if (face_of_coedge_[o] != f) return false;
-            const Vec2 way = end(o) - p;
-            return std::abs(way.x) <= kSameUv * (bounds[1] - bounds[0]) &&
-                   std::abs(way.y) <= kSameUv * (bounds[3] - bounds[2]);
-          }))
-        return false;
-    }
-    return true;
+    c.joined_vertices = find_passed_vertices(cad_, c.joined_edges, part_of_, request_.must_end);
   }
 
   const Model& cad_;

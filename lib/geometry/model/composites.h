@@ -16,24 +16,24 @@ struct ModelTables;
 
 /// Which faces are joined, and the chart of each composite; ids are those of the CAD. Structure of arrays.
 struct Composites {
-  std::vector<FaceId> member;                ///< CAD faces, ascending in each composite
-  std::vector<std::int32_t> member_offsets;  ///< [n_composites+1]
-  std::vector<EdgeId> joined_edges;          ///< ascending: between members, no edges any more
-  std::vector<VertexId> joined_vertices;     ///< ascending: where two edges go on as one
+  std::vector<FaceId> member;                   ///< CAD faces, ascending in each composite
+  std::vector<std::int32_t> member_offsets{0};  ///< [n_composites+1]
+  std::vector<EdgeId> joined_edges;             ///< ascending: between members, no edges any more
+  std::vector<VertexId> joined_vertices;        ///< ascending: where two edges go on as one
   // charts: nodes and triangles of composite i are [node_offsets[i], node_offsets[i+1]), triangles likewise
   std::vector<Vec3> node_xyz;                    ///< model unit
   std::vector<Vec2> node_uv;                     ///< of the composite
   std::vector<Corners> triangle_nodes;           ///< counted within the composite, counter-clockwise from outside
   std::vector<FaceId> triangle_face;             ///< CAD face
   std::vector<std::array<Vec2, 3>> triangle_uv;  ///< of the corners, on that face
-  std::vector<std::int32_t> node_offsets, triangle_offsets;
+  std::vector<std::int32_t> node_offsets{0}, triangle_offsets{0};
   std::vector<double> uv_bounds;  ///< [4*n_composites] u_min, u_max, v_min, v_max of the trimming curves
   // rims: each coedge of a member whose edge stays
-  std::vector<CoedgeId> rim_coedge;        ///< ascending
-  std::vector<std::int32_t> rim_offsets;   ///< [n_rims+1]
-  std::vector<double> rim_t;               ///< parameter of the CAD edge at each point, ascending
-  std::vector<std::int32_t> rim_node;      ///< node within the composite
-  std::vector<std::int32_t> rim_triangle;  ///< triangle within the composite from this point to the next one
+  std::vector<CoedgeId> rim_coedge;          ///< ascending
+  std::vector<std::int32_t> rim_offsets{0};  ///< [n_rims+1]
+  std::vector<double> rim_t;                 ///< parameter of the CAD edge at each point, ascending
+  std::vector<std::int32_t> rim_node;        ///< node within the composite
+  std::vector<std::int32_t> rim_triangle;    ///< triangle within the composite from this point to the next one
 
   bool empty() const { return member.empty(); }
   std::int32_t size() const { return static_cast<std::int32_t>(member_offsets.size()) - 1; }

@@ -130,13 +130,16 @@ Model& Model::operator=(Model&&) noexcept = default;
 
 const Model& Model::cad() const { return impl_->cad ? *impl_->cad : *this; }
 
-FaceId Model::cad_face(FaceId face, Vec2 uv) const {
-  if (!impl_->cad) return face;
-  const std::int32_t i = impl_->joined.composite[face];
-  if (i == kNone) return impl_->joined.cad_face[face];
+std::vector<FaceId> Model::cad_faces(FaceId face, std::span<const Vec2> uv) const {
+  const std::int32_t i = impl_->cad ? impl_->joined.composite[face] : kNone;
+  if (i == kNone) return std::vector<FaceId>(uv.size(), impl_->cad ? impl_->joined.cad_face[face] : face);
   const ChartSurface chart(impl_->composites.chart(i));
-  return impl_->composites
-      .triangle_face[static_cast<std::size_t>(impl_->composites.triangle_offsets[i] + chart.locate(uv).triangle)];
+  const std::span<const FaceId> of_triangle =
+      std::span(impl_->composites.triangle_face)
+          .subspan(static_cast<std::size_t>(impl_->composites.triangle_offsets[i]));
+  std::vector<FaceId> faces;
+  for (const Vec2 p : uv) faces.push_back(of_triangle[static_cast<std::size_t>(chart.locate(p).triangle)]);
+  return faces;
 }
 
 std::unique_ptr<Curve> Model::Impl::chain(EdgeId edge) const {

@@ -116,8 +116,8 @@ class Model {
   const std::vector<std::byte>& brep() const { return brep_; }
   /// Empty for a model with a B-Rep.
   const FacetShape& facets() const { return facets_; }
-  /// The CAD face of a place (u,v) of a face: itself where the face is none of several.
-  FaceId cad_face(FaceId face, Vec2 uv) const;
+  /// The CAD face at each place (u,v) of a face: the only one where the face is none of several.
+  std::vector<FaceId> cad_faces(FaceId face, std::span<const Vec2> uv) const;
   /// The model as the CAD has it, where faces of it were joined; else itself.
   const Model& cad() const;
 

@@ -149,6 +149,14 @@ class FacetReader {
 
 }  // namespace
 
+bool UvFacets::fit(std::int32_t a, std::int32_t b) const {
+  const auto end = [&](std::int32_t s, int k) {
+    return x[static_cast<std::size_t>(corners[static_cast<std::size_t>(s / 3)][(s + k) % 3])];
+  };
+  const double near = 0.1 * distance(end(a, 0), end(a, 1));
+  return distance(end(a, 0), end(b, 1)) <= near && distance(end(a, 1), end(b, 0)) <= near;
+}
+
 UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits) {
   const Model::Impl& brep = ModelEditor::brep(model);
   UvFacets facets;

@@ -21,6 +21,9 @@ struct UvFacets {
   std::vector<std::int32_t> mate;                   ///< [3*n_triangles] side of the same face; kNone along its edges
   std::vector<std::vector<double>> rim_t;           ///< [n_coedges] parameters of nodes along its edge, ascending
   std::vector<std::vector<std::int32_t>> rim_side;  ///< [n_coedges] the sides between them
+
+  /// Whether two sides are one, passed in opposite directions, within a tenth of it.
+  bool fit(std::int32_t a, std::int32_t b) const;
 };
 
 /// By OpenCASCADE's BRepMesh; faces that are not wanted, whose triangles do not fill their loops, or whose nodes are

@@ -7,6 +7,12 @@
 #include "base/assert.h"
 
 namespace st {
+namespace {
+
+constexpr double kLeastCosine = 0.5;          // between the normals of a facet and of its face
+constexpr double kMostCompositeStretch = 20;  // of (u,v): twice what the chart alone may have
+
+}  // namespace
 
 AffineMap::AffineMap(const std::array<Vec2, 3>& places, const std::array<Vec2, 3>& images)
     : from(places[0]), to(images[0]) {
@@ -113,6 +119,24 @@ std::optional<Vec2> CompositeSurface::exact_foot(Vec3 p) const { return refined(
 
 std::optional<Vec2> CompositeSurface::foot_near(Vec3 p, Vec2 guess) const {
   return refined(p, data_->chart->foot_near(p, guess));
+}
+
+bool follows_facets(const CompositeSurface& surface, const Chart& chart) {
+  constexpr double kNeedle = 1e-6;  // height over longest side: rounding turns its normal
+  for (const Corners& c : chart.corners) {
+    const Vec3 a = chart.x[c[1]] - chart.x[c[0]], b = chart.x[c[2]] - chart.x[c[0]], n = cross(a, b);
+    const bool is_needle = norm(n) <= kNeedle * std::max({norm2(a), norm2(b), norm2(b - a)});
+    for (const auto& w : {std::array{1 / 3., 1 / 3., 1 / 3.}, std::array{0.8, 0.1, 0.1}, std::array{0.1, 0.8, 0.1},
+                          std::array{0.1, 0.1, 0.8}}) {
+      const SurfacePoint p = surface.evaluate(w[0] * chart.uv[c[0]] + w[1] * chart.uv[c[1]] + w[2] * chart.uv[c[2]]);
+      const Vec3 m = cross(p.du, p.dv);
+      if (!is_needle && !(dot(m, n) > kLeastCosine * norm(m) * norm(n))) return false;
+      const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv), mean = 0.5 * (e + g),
+                   root = std::hypot(0.5 * (e - g), f);
+      if (!(mean + root <= kMostCompositeStretch * kMostCompositeStretch * (mean - root))) return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace st

@@ -62,4 +62,8 @@ class CompositeSurface final : public Surface {
   std::vector<std::unique_ptr<Surface>> members_;
 };
 
+/// Whether the surface's normals are within 60 degrees of the facets', at four places in each, and (u,v) stretches by
+/// 20 at most there.
+bool follows_facets(const CompositeSurface& surface, const Chart& chart);
+
 }  // namespace st

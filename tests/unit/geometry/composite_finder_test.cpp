@@ -53,7 +53,7 @@ TEST(FindComposites, joins_other_edges_between_the_same_faces) {
 
 TEST(FindComposites, refuses_what_does_not_follow_the_cad) {
   // facets so coarse that the nose is cut off
-  const FoundComposites coarse = found("wing_of_8", [](const Model& m, JoinRequest& r) {
+  const FoundComposites coarse = found("wing_of_2", [](const Model& m, JoinRequest& r) {
     r.facets = {.deflection = m.tables().reference_diagonal(), .angle = radians(170), .is_exact = false};
   });
   EXPECT_FALSE(coarse.refused.empty());

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/model/joined_tables.h"
 #include "unit/geometry/joined_models.h"
 #include "unit/io/temporary_directory.h"
 
@@ -37,12 +38,15 @@ TEST(Composites, are_refused_where_a_column_is_damaged) {
 
 TEST(Composites, name_the_cad_face_of_a_place) {
   const test::Joined joined("wing_of_8");
+  const FaceId face = join_tables(joined.cad.tables, joined.composites).face_of[joined.composites.member[0]];
   const Chart chart = joined.composites.chart(0);
-  for (std::size_t t = 0; t < chart.corners.size(); ++t) {
-    const Vec2 middle =
-        (1 / 3.) * (chart.uv[chart.corners[t][0]] + chart.uv[chart.corners[t][1]] + chart.uv[chart.corners[t][2]]);
-    EXPECT_EQ(joined.model.cad_face(0, middle), joined.composites.triangle_face[t]);
-  }
+  std::vector<Vec2> middles;
+  for (const Corners& c : chart.corners)
+    middles.push_back((1 / 3.) * (chart.uv[c[0]] + chart.uv[c[1]] + chart.uv[c[2]]));
+  EXPECT_EQ(joined.model.cad_faces(face, middles), joined.composites.triangle_face);
+  const FaceId tip = face == 0 ? 1 : 0;
+  EXPECT_EQ(joined.model.cad_faces(tip, middles).size(), middles.size());
+  EXPECT_EQ(joined.model.cad().cad_faces(5, middles)[0], 5);
 }
 
 }  // namespace

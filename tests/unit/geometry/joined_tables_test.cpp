@@ -13,7 +13,7 @@ namespace {
 TEST(JoinTables, keeps_tables_and_evaluators_consistent) {
   for (const char* shape : {"wing_of_2", "wing_of_8", "wing_of_200", "cylinder_of_8"}) {
     SCOPED_TRACE(shape);
-    test::expect_consistent(test::Joined(shape).model);
+    test::expect_consistent(test::Joined(shape).model, 2e-5);
   }
 }
 
@@ -68,7 +68,7 @@ TEST(JoinTables, end_edges_where_they_must) {
   const Model joined(cad.tables, cad.brep, composites);
   EXPECT_EQ(joined.tables().n_faces(), 3);
   EXPECT_EQ(joined.tables().n_edges(), 10);  // four along each rim, two along the trailing edge
-  test::expect_consistent(joined);
+  test::expect_consistent(joined, 2e-5);
 }
 
 }  // namespace
