@@ -38,15 +38,11 @@ class FacetReader {
     const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
     if (mesh.IsNull() || !mesh->HasUVNodes()) return;
     std::vector<std::pair<CoedgeId, Rim>> rims;
-    one_.resize(static_cast<std::size_t>(mesh->NbNodes()));
-    for (std::size_t i = 0; i < one_.size(); ++i) one_[i] = static_cast<std::int32_t>(i);
     for (const CoedgeId c : t_.coedges(f)) {
+      if (t_.edge_is_degenerate[t_.coedge_edge[c]]) return;  // a pole: its nodes are one in space alone
       std::optional<Rim> rim = rim_of(c, mesh, location, copy);
       if (!rim) return;
-      if (t_.edge_is_degenerate[t_.coedge_edge[c]])
-        for (const std::int32_t n : rim->node) one_[n] = one_[rim->node[0]];  // a pole
-      else
-        rims.emplace_back(c, std::move(*rim));
+      rims.emplace_back(c, std::move(*rim));
     }
     UvFacets own = triangles(f, *mesh, location);
     if (connect(own, rims)) append(std::move(own), rims);
@@ -83,8 +79,7 @@ class FacetReader {
       std::array<int, 3> n;
       mesh.Triangle(i).Get(n[0], n[1], n[2]);  // counter-clockwise in (u,v)
       if (t_.face_is_reversed[f]) std::swap(n[1], n[2]);
-      const Corners c{one_[n[0] - 1], one_[n[1] - 1], one_[n[2] - 1]};
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;  // at a pole
+      const Corners c{n[0] - 1, n[1] - 1, n[2] - 1};
       own.corners.push_back(c);
       auto& uv = own.uv.emplace_back();
       for (int k = 0; k < 3; ++k) uv[k] = {mesh.UVNode(n[k]).X(), mesh.UVNode(n[k]).Y()};
@@ -144,7 +139,6 @@ class FacetReader {
   const ModelTables& t_;
   const Model::Impl& brep_;
   UvFacets& facets_;
-  std::vector<std::int32_t> one_;  // the node that stands for each node of the face
 };
 
 }  // namespace

@@ -26,8 +26,8 @@ struct UvFacets {
   bool fit(std::int32_t a, std::int32_t b) const;
 };
 
-/// By OpenCASCADE's BRepMesh; faces that are not wanted, whose triangles do not fill their loops, or whose nodes are
-/// not those of their edges have none. Local. Cost: some microseconds per facet.
+/// By OpenCASCADE's BRepMesh; faces that are not wanted or have a pole, whose triangles do not fill their loops, or
+/// whose nodes are not those of their edges have none. Local. Cost: some microseconds per facet.
 UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits);
 
 }  // namespace st
