@@ -55,13 +55,12 @@ class HarmFinder {
 
  private:
   void judge(FaceId f) {
-    const auto surface = cad_.surface(f);
     for (const LoopId l : t_.loops(f)) {
       const IdRange loop = t_.loop_coedges(l);
       for (const CoedgeId c : loop) {
         const CoedgeId next = loop.first() + (c - loop.first() + 1) % loop.size();
         judge_corner(c, next);
-        judge_width(f, *surface, c);
+        judge_width(f, c);
       }
     }
   }
@@ -87,7 +86,7 @@ class HarmFinder {
       if (t_.edge_length[other] < kShort * length_at(own)) add(own, 1);
   }
 
-  void judge_width(FaceId f, const Surface&, CoedgeId c) {
+  void judge_width(FaceId f, CoedgeId c) {
     const EdgeId e = t_.coedge_edge[c];
     if (may_join_[e] && t_.face_width[f] < kShort * length_at(e)) add(e, 2);
   }
@@ -98,11 +97,10 @@ class HarmFinder {
     if (length_[e] > 0) return length_[e];
     double length = kDefaultLmax * t_.reference_diagonal();
     constexpr int kPlaces = 3;
-    for (FaceId f = 0; f < t_.n_faces() && length_edges_.empty(); ++f)
-      for (const CoedgeId c : t_.coedges(f)) uses_.emplace_back(t_.coedge_edge[c], std::pair(f, c));
-    if (length_edges_.empty()) {
+    if (uses_.empty()) {
+      for (FaceId f = 0; f < t_.n_faces(); ++f)
+        for (const CoedgeId c : t_.coedges(f)) uses_.emplace_back(t_.coedge_edge[c], std::pair(f, c));
       std::ranges::sort(uses_);
-      length_edges_.push_back(1);
     }
     const auto [first, last] = std::equal_range(uses_.begin(), uses_.end(), std::pair(e, std::pair(0, 0)),
                                                 [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -126,7 +124,6 @@ class HarmFinder {
   const ModelTables& t_;
   const std::vector<std::uint8_t>& may_join_;
   std::vector<double> harm_, length_;
-  std::vector<int> length_edges_;
   std::vector<std::pair<EdgeId, std::pair<FaceId, CoedgeId>>> uses_;
 };
 
