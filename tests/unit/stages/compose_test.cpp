@@ -13,7 +13,7 @@ namespace st {
 namespace {
 
 GeometryArtifact composed(const std::string& shape, const std::string& word, const std::string& output) {
-  const test::TemporaryDirectory dir;
+  const TemporaryDirectory dir;
   test::write_brep(shape, dir / "model.brep");
   ImportStageOptions o;
   o.model = dir / "model.brep";
@@ -70,7 +70,7 @@ TEST(Compose, leaves_groups_and_named_edges_apart) {
 }
 
 TEST(Compose, artifacts_keep_every_bit) {
-  const test::TemporaryDirectory dir;
+  const TemporaryDirectory dir;
   const GeometryArtifact a = composed("wing_of_8", "smooth", dir / "a.hdf");
   write_geometry(dir / "b.hdf", a);
   const GeometryArtifact b = read_geometry(dir / "b.hdf");
