@@ -11,6 +11,7 @@ namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
 constexpr double kMostAngle = radians(140);  // of a triangle
+constexpr double kFarAngle = radians(150);   // likewise: above it all stretch may go
 constexpr double kMostGrowth = 2.2;          // of lengths, from a triangle to its neighbour
 constexpr double kGrowthLeft = 1.6;          // what is aimed at there
 constexpr double kShorter = 0.6;             // lengths along, in one round
@@ -31,7 +32,7 @@ class FlawFinder {
         is_obtuse_(triangles.size(), 0) {}
 
   StretchFlaws run() {
-    for (std::size_t t = 0; t < triangles_.size(); ++t) is_obtuse_[t] = is_obtuse(triangles_[t]);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) is_obtuse_[t] = is_obtuse(triangles_[t], kMostAngle);
     compare_neighbours();
     StretchFlaws flaws;
     bool is_long = false;
@@ -50,10 +51,10 @@ class FlawFinder {
  private:
   Vec3 x(const Triangle& t, int k) const { return points_[t.n[k % 3]]; }
 
-  bool is_obtuse(const Triangle& t) const {
+  bool is_obtuse(const Triangle& t, double most) const {
     for (int k = 0; k < 3; ++k) {
       const Vec3 a = x(t, k + 1) - x(t, k), b = x(t, k + 2) - x(t, k);
-      if (dot(a, b) < std::cos(kMostAngle) * norm(a) * norm(b)) return true;
+      if (dot(a, b) < std::cos(most) * norm(a) * norm(b)) return true;
     }
     return false;
   }
@@ -90,10 +91,12 @@ class FlawFinder {
     is_long = local.along > kAlike * local.length;
     const double factor = is_obtuse_[t] ? std::min(kShorter, factor_[t]) : factor_[t];
     const double shorter = factor * std::min(local.along, longest);
-    place.length = is_long      ? std::max(local.length, wider_ > 1 ? 0 : shorter)
-                   : wider_ > 1 ? kLast * local.length
-                                : shorter;
-    place.radius = kAround * wider_ * longest;
+    const bool is_last = wider_ > 1 && is_obtuse_[t] && is_obtuse(r, kFarAngle);
+    if (is_last)
+      place.length = is_long ? local.length : kLast * local.length;
+    else
+      place.length = std::max(is_long ? local.length : 0, shorter);
+    place.radius = kAround * (is_last ? wider_ : 1) * longest;
     return place;
   }
 

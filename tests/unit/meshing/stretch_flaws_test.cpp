@@ -57,7 +57,7 @@ TEST(StretchFlaws, shorten_lengths_along_to_those_across) {
 
 TEST(StretchFlaws, take_all_of_the_stretch_after_some_tries_further_and_further_around) {
   const test::StretchedField field({0.1, 4, {1, 0, 0}});
-  const std::vector<Vec3> obtuse{{0, 0, 0}, {2, 0, 0}, {1, kSlope140, 0}};
+  const std::vector<Vec3> obtuse{{0, 0, 0}, {2, 0, 0}, {1, 0.2, 0}}, less{{0, 0, 0}, {2, 0, 0}, {1, kSlope140, 0}};
   const std::vector<Triangle> one{{{0, 1, 2}}};
   const RefinementPoint third = find_stretch_flaws(obtuse, one, field, 3).stretched.at(0);
   const RefinementPoint fourth = find_stretch_flaws(obtuse, one, field, 4).stretched.at(0);
@@ -66,6 +66,7 @@ TEST(StretchFlaws, take_all_of_the_stretch_after_some_tries_further_and_further_
   EXPECT_EQ(fourth.length, 0.1);
   EXPECT_EQ(fourth.radius, 2 * third.radius);
   EXPECT_EQ(fifth.radius, 4 * third.radius);
+  EXPECT_NEAR(find_stretch_flaws(less, one, field, 5).stretched.at(0).length, 1.2, 1e-12) << "below 150 degrees";
 }
 
 }  // namespace
