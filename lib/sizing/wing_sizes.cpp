@@ -8,15 +8,19 @@
 #include "base/log.h"
 #include "base/sort_once.h"
 #include "features/arc_table.h"
+#include "geometry/shape/projection.h"
 
 namespace st {
 namespace {
 
-constexpr double kFinestBase = 0.25;  // of the length at the edge: thinner bases get fewer cells
-constexpr int kMaxBoxes = 100000;     // along one edge
-constexpr int kGap = 2;               // stations: noses further apart are not joined
-constexpr double kNose = 0.9;         // of the length asked for: s / (exp(s) - 1) for a slope s of 0.2
-constexpr double kTrailing = 0.95;    // likewise, along edges, where lengths along are exact
+constexpr double kFinestBase = 0.25;    // of the length at the edge: thinner bases get fewer cells
+constexpr int kMaxBoxes = 100000;       // along one edge
+constexpr int kGap = 2;                 // stations: noses further apart are not joined
+constexpr double kNose = 0.9;           // of the length asked for: s / (exp(s) - 1) for a slope s of 0.2
+constexpr double kBentTail = 0.5;       // of the length asked for: curvature of round tails asks for no less
+constexpr double kDefaultTail = 0.003;  // of the chord: likewise of this length at most
+constexpr double kFlat = 1;             // of the chord: asks for nothing
+constexpr double kTrailing = 0.95;      // likewise, along edges, where lengths along are exact
 
 /// Lengths at a place of a wing, by its local chord.
 class LocalLengths {
@@ -39,6 +43,34 @@ class LocalLengths {
 
   double span_;
   const WingSizes& sizes_;
+};
+
+/// Between two places of a line, as smooth as it is there: straight lines between noses leave a curved one by more than
+/// a length. Straight beside kinks.
+class SmoothPiece {
+ public:
+  SmoothPiece(std::span<const Vec3> x, std::size_t i) : begin_(x[i]), way_(x[i + 1] - x[i]) {
+    const Vec3 along = normalized(way_);
+    const auto direction = [&](Vec3 beside) {
+      const Vec3 own = normalized(beside);
+      if (dot(own, along) > kStraight) return along;
+      return dot(own, along) > kKink ? normalized(own * norm(way_) + along * norm(beside)) : along;
+    };
+    const Vec3 from = i > 0 ? direction(x[i] - x[i - 1]) : along;
+    const Vec3 to = i + 2 < x.size() ? direction(x[i + 2] - x[i + 1]) : along;
+    bend_begin_ = norm(way_) * (from - along);
+    bend_end_ = norm(way_) * (to - along);
+  }
+
+  Vec3 at(double share) const {
+    const double rest = 1 - share;
+    return begin_ + share * way_ + share * rest * (rest * bend_begin_ - share * bend_end_);
+  }
+
+ private:
+  static constexpr double kKink = 0.966;         // cosine, 15 degrees, between two pieces
+  static constexpr double kStraight = 1 - 1e-9;  // likewise: rounding
+  Vec3 begin_, way_, bend_begin_, bend_end_;
 };
 
 class WingRaster {
@@ -163,13 +195,30 @@ class WingRaster {
 
   /// Along the noses or tails of stations in a row.
   void end_run(std::vector<const ChordStation*>& run, Vec3 ChordStation::*place, FaceId ChordStation::*face) {
+    const bool is_tail = face == &ChordStation::tail_face;
+    std::vector<Vec3> x;
+    for (const ChordStation* s : run) x.push_back(s->*place);
     for (std::size_t i = 0; i + 1 < run.size(); ++i) {
       const ChordStation &a = *run[i], &b = *run[i + 1];
-      const Vec3 from = a.*place, way = b.*place - from;
-      walk(norm(way), pack_cause(CauseKind::kFace, a.*face),
-           [&](double share) { return reduced(kNose, from + share * way, a.chord + share * (b.chord - a.chord)); });
+      const double bent_a = is_tail ? bent_at_tail(a) : kFlat, bent_b = is_tail ? bent_at_tail(b) : kFlat;
+      const SmoothPiece piece(x, i);
+      walk(distance(x[i], x[i + 1]), pack_cause(CauseKind::kFace, a.*face), [&](double share) {
+        const double chord = a.chord + share * (b.chord - a.chord), bent = bent_a + share * (bent_b - bent_a);
+        Place own = reduced(kNose, piece.at(share), chord);
+        own.length = std::min(own.length, std::max(bent * chord, floor_of(chord)));
+        return own;
+      });
     }
     run.clear();
+  }
+
+  /// What the curvature across a round trailing edge asks for, over the chord, as the samples of its face have it:
+  /// these are too far apart along it.
+  double bent_at_tail(const ChordStation& s) const {
+    const auto surface = model_.surface(s.tail_face);
+    const double k = std::abs(principal_curvature(surface->evaluate2(closest_point(*surface, s.trailing).uv)).k1);
+    const double least = kBentTail * std::min(length_of(s.chord) / s.chord, kDefaultTail);
+    return k > 0 ? std::max(sizes_.stretch.alpha / (k * s.chord), least) : kFlat;
   }
 
   const Model& model_;

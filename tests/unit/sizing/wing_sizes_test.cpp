@@ -109,6 +109,37 @@ TEST(WingSizes, follow_the_chord_around_the_base_of_a_ring) {
   }
 }
 
+/// A nose along an arc of radius 20, on a box's face, with a kink at its end.
+LiftingSurface bent_nose(double station_angle) {
+  LiftingSurface wing;
+  ChordEdge edge{.edge = 0, .base = kNone, .is_half = false, .base_width = 0, .stations = {}, .is_inside = false};
+  for (int i = 0; i <= 6; ++i) {
+    const Vec3 nose{20 * std::cos(i * station_angle), 20 * std::sin(i * station_angle), 0};
+    edge.stations.push_back({i / 8.0, 2 * nose, 20, true, false, nose, 0, 0});
+  }
+  edge.stations.push_back({7 / 8.0, {40, 40, 20}, 20, true, false, edge.stations.back().nose + Vec3{0, 0, 5}, 0, 0});
+  edge.stations.push_back({1, {40, 40, 25}, 20, true, false, edge.stations.back().nose + Vec3{0, 0, 5}, 0, 0});
+  wing.trailing = {edge};
+  return wing;
+}
+
+TEST(WingSizes, follow_a_bent_nose_between_stations_and_not_beside_a_kink) {
+  const Model model = test::make_model("box");
+  const std::vector<std::uint8_t> none(static_cast<std::size_t>(model.tables().n_edges()), 0);
+  std::vector<RasterBox> boxes;
+  const double angle = radians(12);
+  raster_wing(model, bent_nose(angle), share_of_chord("1%chord"), {}, none, boxes);
+  double furthest = 0, beside = 0;
+  for (const RasterBox& b : boxes) {
+    if (cause_kind(b.cause) != CauseKind::kFace) continue;
+    const double turned = std::atan2(b.center.y, b.center.x), off = std::abs(std::hypot(b.center.x, b.center.y) - 20);
+    if (turned > angle && turned < 5 * angle && b.center.z == 0) furthest = std::max(furthest, off);
+    if (b.center.z > 0) beside = std::max(beside, off);
+  }
+  EXPECT_LT(furthest, 0.002) << "straight pieces leave it by 0.11";
+  EXPECT_LT(beside, 1e-9) << "straight where the line has a kink";
+}
+
 TEST(WingSizes, end_where_the_wing_runs_into_a_body) {
   double root = 30;
   for (const RasterBox& b : sample("wing_on_body", share_of_chord("0.5%chord")).boxes)
