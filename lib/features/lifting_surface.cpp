@@ -935,7 +935,7 @@ class SurfaceFinder {
   /// Trailing edges that are too short for facets of the model.
   void find_small(std::span<const WingEdge> small) {
     for (const auto& chain : trailing_chains(model_, small)) {
-      Reason why{"it is short, and its faces are large"};
+      Reason why{"it is short, and its faces are large", false};
       std::optional<LiftingSurface> surface;
       try_exact_facets(chain, surface, why);
       keep(chain, surface, why);

@@ -140,8 +140,7 @@ class GroupSuggester {
     return near(wings_[a].span, wings_[b].span) && near(wings_[a].median_chord, wings_[b].median_chord);
   }
 
-  /// Three or more alike that point in different directions, or two that turn about an axis: the flow at one is
-  /// against that at the other.
+  /// Another one is alike, and the flow at it goes elsewhere by 25 degrees or more: they turn about an axis.
   bool is_blade(std::size_t w) const {
     int n_turned = 0;
     for (std::size_t other = 0; other < wings_.size(); ++other) {

@@ -840,6 +840,9 @@ class RasterRun {
     if (comm_.is_root()) {
       declared = declared_edges(rules_, model_.tables(), bases_, wings_.edges);
       declare_edges(model_, roles_, bases_, declared, wings_.edges);
+      std::vector<DeclaredEdge> named = declared;  // what the user says of an edge counts, however short it is
+      for (DeclaredEdge& d : named) d.meaning = EdgeMeaning::kNoTrailing;
+      declare_edges(model_, roles_, bases_, named, small);
     }
     std::vector<LiftingSurface>& wings = wings_.aircraft.wings;
     wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft, small);

@@ -49,7 +49,7 @@ def _arguments(options):
 
 def _start(command, progress):
     """Exit code, stdout and stderr of a command, each line of stderr given to `progress` as soon as it is there."""
-    with tempfile.TemporaryFile("w+", encoding="utf-8") as out:
+    with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as out:
         with subprocess.Popen(command, stdout=out, stderr=subprocess.PIPE, text=True, errors="replace") as child:
             said = []
             try:

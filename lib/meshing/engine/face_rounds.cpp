@@ -74,8 +74,10 @@ void FaceRounds::report(PatchesGo patches) {
   };
   RefinementTrials trials(tables_, executor_, hopeless_, faces_, refinements_, mesh_again);
   trials.take_back();
-  if (!is_restored_) trials.loosen();
-  StretchEasing(tables_, field_, executor_, faces_, refinements_, mesh_again).run();
+  if (!is_restored_) {
+    trials.loosen();
+    StretchEasing(tables_, field_, executor_, faces_, refinements_, mesh_again).run();
+  }
   refill_bad(faces_, executor_);
   part_touching(faces_, executor_);
   faces_.hand_over(patches, result_);

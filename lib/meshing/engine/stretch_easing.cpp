@@ -17,8 +17,18 @@ void StretchEasing::run() {
   share(executor_, n_bad_);
   flaws_ = find_flaws(0);
   best_ = {count_flaws(), faces_.state(), refinements_.all()};
+  if (flaws_are_none()) return;
   run_rounds(&StretchFlaws::stretched);
+  if (!is_best_) go_back();
+  flaws_ = find_flaws(0);
   run_rounds(&StretchFlaws::obtuse);
+  if (!is_best_) go_back();
+}
+
+bool StretchEasing::flaws_are_none() const {
+  char are_none = flaws_.stretched.empty() && flaws_.obtuse.empty();
+  share(executor_, are_none);
+  return are_none != 0;
 }
 
 void StretchEasing::run_rounds(Places StretchFlaws::*places) {
@@ -31,10 +41,6 @@ void StretchEasing::run_rounds(Places StretchFlaws::*places) {
     flaws_ = find_flaws(i + 1);
     n_without = keep_if_better() ? 0 : n_without + 1;
   }
-  if (is_best_)
-    flaws_ = find_flaws(0);
-  else
-    go_back();
 }
 
 /// On rank 0.
@@ -103,7 +109,6 @@ void StretchEasing::go_back() {
   std::vector<FaceId> all(tables_.n_faces());
   std::iota(all.begin(), all.end(), 0);
   faces_.go_back(best_.state, all);
-  flaws_ = find_flaws(0);
   is_best_ = true;
 }
 

@@ -43,6 +43,7 @@ class StretchEasing {
   };
 
   StretchFlaws find_flaws(int n_tries) const;
+  bool flaws_are_none() const;
   Count count_flaws() const;
   std::size_t n_obtuse() const { return std::get<1>(best_.n_flaws); }
   void run_rounds(Places StretchFlaws::*places);
