@@ -320,7 +320,7 @@ void FaceCells::append_face(std::span<const CellArea> cells) {
 std::vector<CellArea> locate_face(const Surface& surface, const LoopPolygons& loops, const OctreeView& octree,
                                   double face_area, Vec3 origin) {
   CellLocator locator(surface, octree);
-  PatchWalk<PositionProbe, CellLocator> walk(loops, locator);
+  PatchWalk<PositionProbe, CellLocator> walk(surface, loops, locator);
   walk.walk(surface.u_min(), surface.u_max(), surface.v_min(), surface.v_max(), surface.is_planar() ? 1 : 2);
   return unite(locator.take(), face_area, origin);
 }

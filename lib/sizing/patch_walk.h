@@ -9,6 +9,7 @@
 
 #include "base/boxes.h"
 #include "base/current_work.h"
+#include "geometry/shape/composite_surface.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
 
@@ -137,11 +138,16 @@ PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
 ///   bool must_split(const PatchSize&)                          true: split it, whatever of it is inside (is_inside is
 ///   not yet known); bool visit(const Patch<Probe>&, const PatchSize&, int& n_doubts)   true: split it; false: done
 ///   with it.
-/// A patch is split across its longer side in space, and not more than 60 times. Throws LateWork.
+/// A patch is split across its longer side in space, of a composite in its chart, and not more than 60
+/// times. Throws LateWork.
 template <class Probe, class Visitor>
 class PatchWalk {
  public:
-  PatchWalk(const LoopPolygons& loops, Visitor& visitor) : loops_(loops), visitor_(visitor), sides_(kMaxSplits + 2) {
+  PatchWalk(const Surface& surface, const LoopPolygons& loops, Visitor& visitor)
+      : composite_(dynamic_cast<const CompositeSurface*>(&surface)),
+        loops_(loops),
+        visitor_(visitor),
+        sides_(kMaxSplits + 2) {
     sides_[0].resize(loops.sides().size());
     for (std::size_t i = 0; i < sides_[0].size(); ++i) sides_[0][i] = static_cast<std::int32_t>(i);
   }
@@ -171,7 +177,7 @@ class PatchWalk {
     throw_if_late();
     collect_sides(patch, candidates);
     if (patch.sides.empty() && !is_inside && !loops_.contains(patch.uv(4))) return;
-    const PatchSize size = measure(patch);
+    const PatchSize size = size_of(patch);
     int n_doubts = patch.n_doubts;
     if (!visitor_.must_split(size)) {
       classify(patch);
@@ -179,8 +185,21 @@ class PatchWalk {
     }
     if (patch.n_splits == kMaxSplits) return;
     patch.n_doubts = n_doubts;
-    const PatchSpans spans = measure_spans(patch);
+    const PatchSpans spans = spans_of(patch);
     split(patch, spans.along_u >= spans.along_v);
+  }
+
+  /// Places of a composite may jump, between members and beside the patch, by a distance that no split makes smaller;
+  /// its chart has no jumps.
+  PatchSize size_of(const Patch<Probe>& patch) const {
+    PatchSize size = measure(patch);
+    if (composite_)
+      size.extent = std::min(size.extent, composite_->largest_stretch() * norm(patch.uv(8) - patch.uv(0)));
+    return size;
+  }
+  PatchSpans spans_of(const Patch<Probe>& patch) const {
+    if (composite_) return {patch.u[2] - patch.u[0], patch.v[2] - patch.v[0]};
+    return measure_spans(patch);
   }
 
   void split(const Patch<Probe>& patch, bool along_u) {
@@ -261,6 +280,7 @@ class PatchWalk {
     return d == Vec2{} || (n_left != 0 && n_left != 4);
   }
 
+  const CompositeSurface* const composite_;  // null for all others
   const LoopPolygons& loops_;
   Visitor& visitor_;
   std::vector<std::vector<std::int32_t>> sides_;  // all; then by depth, of the patches on the way down

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "base/ids.h"
+#include "geometry/shape/composite_surface.h"
 #include "sizing/cell_limit.h"
 #include "sizing/line_stretch.h"
 #include "sizing/patch_walk.h"
@@ -28,9 +30,14 @@ constexpr double kCollapsed = 1e-9;  // derivative over the other one, scaled to
 
 struct CurvatureProbe {
   Vec3 x;
-  Vec3 normal;           // unit; zero at a singular point
-  double curvature = 0;  // largest absolute principal curvature; zero at a singular point
+  Vec3 normal;                  // unit; zero at a singular point
+  double curvature = 0;         // largest absolute principal curvature; zero at a singular point
+  std::int32_t member = kNone;  // of a composite surface: on which of its faces
 };
+
+bool is_straddling(const Patch<CurvatureProbe>& patch) {
+  return std::ranges::any_of(patch.probe, [&](const CurvatureProbe& p) { return p.member != patch.probe[0].member; });
+}
 
 /// Pairs of a patch's probes: neighbours along rows, columns and both diagonals. Two that follow each other lie beside
 /// each other.
@@ -77,9 +84,10 @@ struct PairTurning {
       const double own = angle[i] / length[i], told = length[i] > 0 ? own : 0;
       rate[i] = angle[i] > noise ? told : 0;
     }
-    if (patch.n_inside == 9) return;
-    for (std::size_t i = 0; i < n; ++i)
-      if (!patch.is_inside[kPairs.first[i]] || !patch.is_inside[kPairs.second[i]]) angle[i] = rate[i] = 0;
+    if (patch.n_inside < 9)
+      for (std::size_t i = 0; i < n; ++i)
+        if (!patch.is_inside[kPairs.first[i]] || !patch.is_inside[kPairs.second[i]]) angle[i] = rate[i] = 0;
+    if (is_straddling(patch)) leave_out_kinks(patch);
   }
   static double largest_at(std::size_t probe, const std::array<double, n>& of_pairs) {
     double largest = 0;
@@ -89,6 +97,12 @@ struct PairTurning {
   }
 
  private:
+  /// Where two members of a composite meet, the surface may turn by a small angle over no distance.
+  void leave_out_kinks(const Patch<CurvatureProbe>& patch) {
+    for (std::size_t i = 0; i < n; ++i)
+      if (patch.probe[kPairs.first[i]].member != patch.probe[kPairs.second[i]].member) angle[i] = rate[i] = 0;
+  }
+
   static constexpr double kSmall2 = 0.01;  // up to there the next term of the series is below rounding
 
   /// Squared distances between what `of` gives for both probes of each pair.
@@ -128,6 +142,7 @@ class FaceRaster {
   FaceRaster(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
              std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches, const ChordLimit* chord)
       : surface_(surface),
+        composite_(dynamic_cast<const CompositeSurface*>(&surface)),
         loops_(loops),
         limits_(limits),
         cause_(cause),
@@ -146,7 +161,7 @@ class FaceRaster {
         grid_lines(surface_.u_min(), surface_.u_max(), creases(surface_.u_breaks(), Direction::kU));
     const std::vector<double> vs =
         grid_lines(surface_.v_min(), surface_.v_max(), creases(surface_.v_breaks(), Direction::kV));
-    PatchWalk<CurvatureProbe, FaceRaster> walk(loops_, *this);
+    PatchWalk<CurvatureProbe, FaceRaster> walk(surface_, loops_, *this);
     for (std::size_t j = 0; j + 1 < vs.size(); ++j)
       for (std::size_t i = 0; i + 1 < us.size(); ++i) {
         const auto [u0, u1] = inset_interval(us, i);
@@ -158,13 +173,20 @@ class FaceRaster {
 
   CurvatureProbe probe(Vec2 uv) {
     ++report_.n_evaluations;
-    const SurfacePoint2 p = surface_.evaluate2(uv);
+    if (!composite_) return probe_of(surface_.evaluate2(uv));
+    const CompositeSurface::MemberPlace at = composite_->place(uv);
+    CurvatureProbe probe = probe_of(composite_->evaluate2(at));
+    probe.member = at.member;
+    return probe;
+  }
+
+  CurvatureProbe probe_of(const SurfacePoint2& p) const {
     const Vec3 n = cross(p.du, p.dv);
     const double du2 = norm2(p.du), dv2 = norm2(p.dv), n2 = norm2(n);
     const double lu2 = du2 * range_u_ * range_u_, lv2 = dv2 * range_v_ * range_v_;
     if (!(n2 > kSingular2 * du2 * dv2) || lu2 < kCollapsed * kCollapsed * lv2 || lv2 < kCollapsed * kCollapsed * lu2)
-      return {p.x, {}, 0};
-    return {p.x, n / std::sqrt(n2), std::abs(principal_curvature(p).k1)};
+      return {p.x, {}, 0, kNone};
+    return {p.x, n / std::sqrt(n2), std::abs(principal_curvature(p).k1), kNone};
   }
 
   /// Never before its curvature is known: what is doubted there counts for its parts.
@@ -241,6 +263,15 @@ class FaceRaster {
     return std::max(length, limits_.min_length);
   }
 
+  /// Whether all neighbours of a probe are on the same member: otherwise its own curvature is believed.
+  static bool may_be_confirmed(const CurvaturePatch& patch, std::size_t probe) {
+    for (std::size_t i = 0; i < kPairs.n_of_probe[probe]; ++i) {
+      const std::size_t pair = kPairs.of_probe[probe][i];
+      if (patch.probe[kPairs.first[pair]].member != patch.probe[kPairs.second[pair]].member) return false;
+    }
+    return true;
+  }
+
   /// Largest curvature that the probes inside the loops show: the larger of curvature at a point and angle per distance
   /// between neighbours.
   double patch_curvature(const CurvaturePatch& patch, bool& is_doubtful) const {
@@ -252,7 +283,8 @@ class FaceRaster {
       double own = patch.probe[k].curvature;
       if (is_free_ && own * limits_.max_length > limits_.alpha) {
         const double confirmed = kConfirmed * PairTurning::largest_at(k, pairs.rate);
-        if (own > confirmed && PairTurning::largest_at(k, pairs.angle) < 0.5 * limits_.alpha) {
+        if (own > confirmed && PairTurning::largest_at(k, pairs.angle) < 0.5 * limits_.alpha &&
+            may_be_confirmed(patch, k)) {
           is_doubtful = true;
           own = confirmed;
         }
@@ -316,7 +348,9 @@ class FaceRaster {
     for (std::size_t i = 0; i < ProbePairs::n; ++i) {
       const std::size_t a = kPairs.first[i], b = kPairs.second[i];
       const CurvatureProbe &pa = patch.probe[a], &pb = patch.probe[b];
-      if (!patch.is_inside[a] || !patch.is_inside[b] || pa.normal == Vec3{} || pb.normal == Vec3{}) continue;
+      if (!patch.is_inside[a] || !patch.is_inside[b] || pa.normal == Vec3{} || pb.normal == Vec3{} ||
+          pa.member != pb.member)
+        continue;
       const Vec3 d = pb.x - pa.x;
       const double along = std::abs(dot(d, direction));
       if (along > kAligned * norm(d))
@@ -340,6 +374,7 @@ class FaceRaster {
   }
 
   const Surface& surface_;
+  const CompositeSurface* const composite_;  // the surface, if it is one
   const LoopPolygons& loops_;
   const SamplingLimits& limits_;
   const std::int32_t cause_;

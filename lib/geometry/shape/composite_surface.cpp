@@ -22,12 +22,27 @@ AffineMap::AffineMap(const std::array<Vec2, 3>& places, const std::array<Vec2, 3
   along_v = (1 / det) * (a.x * y - b.x * x);
 }
 
+namespace {
+
+/// The larger singular value of the map of a chart's triangle into space.
+double stretch(const Chart& c, const Corners& n) {
+  const Vec2 p = c.uv[n[1]] - c.uv[n[0]], q = c.uv[n[2]] - c.uv[n[0]];
+  const Vec3 x = c.x[n[1]] - c.x[n[0]], y = c.x[n[2]] - c.x[n[0]];
+  const double det = cross(p, q);
+  const Vec3 du = (q.y * x - p.y * y) / det, dv = (p.x * y - q.x * x) / det;
+  const double half = 0.5 * (norm2(du) + norm2(dv)), off = 0.5 * (norm2(du) - norm2(dv));
+  return std::sqrt(half + std::hypot(off, dot(du, dv)));
+}
+
+}  // namespace
+
 struct CompositeSurface::Data {
   Data(Chart c, CompositeSupport support) : corner_uv(std::move(support.corner_uv)), member(std::move(support.member)) {
     ST_ASSERT(member.size() == c.corners.size() && corner_uv.size() == c.corners.size());
     for (std::size_t t = 0; t < c.corners.size(); ++t) {
       const Corners& n = c.corners[t];
       map.emplace_back(std::array{c.uv[n[0]], c.uv[n[1]], c.uv[n[2]]}, corner_uv[t]);
+      largest_stretch = std::max(largest_stretch, stretch(c, n));
     }
     chart = std::make_unique<ChartSurface>(std::move(c));
   }
@@ -36,6 +51,7 @@ struct CompositeSurface::Data {
   std::vector<std::array<Vec2, 3>> corner_uv;
   std::vector<std::int32_t> member;
   std::vector<AffineMap> map;
+  double largest_stretch = 0;
 };
 
 CompositeSurface::CompositeSurface(Chart chart, CompositeSupport support, std::vector<std::unique_ptr<Surface>> members,
@@ -60,6 +76,23 @@ std::unique_ptr<Surface> CompositeSurface::copy() const {
   return std::unique_ptr<Surface>(new CompositeSurface(data_, std::move(members), {u_min_, u_max_, v_min_, v_max_}));
 }
 
+namespace {
+
+/// Not further outside than evaluation is allowed: beyond, splines may be anywhere. Corners of a triangle count as
+/// inside, wherever a period puts them.
+Vec2 within_bounds(const Surface& surface, const std::array<Vec2, 3>& corners, Vec2 uv) {
+  constexpr double kMargin = 0.01;  // of the bounds
+  Vec2 lo{surface.u_min(), surface.v_min()}, hi{surface.u_max(), surface.v_max()};
+  const Vec2 margin = kMargin * (hi - lo);
+  for (const Vec2 c : corners) {
+    lo = {std::min(lo.x, c.x), std::min(lo.y, c.y)};
+    hi = {std::max(hi.x, c.x), std::max(hi.y, c.y)};
+  }
+  return {std::clamp(uv.x, lo.x - margin.x, hi.x + margin.x), std::clamp(uv.y, lo.y - margin.y, hi.y + margin.y)};
+}
+
+}  // namespace
+
 CompositeSurface::MemberPlace CompositeSurface::place(Vec2 p) const {
   constexpr double kFar = 2;  // sides of the chart triangle: further beside the patch its rim stands for (u,v)
   const ChartSurface::Place at = data_->chart->locate(p);
@@ -70,8 +103,12 @@ CompositeSurface::MemberPlace CompositeSurface::place(Vec2 p) const {
   const Vec2 way = beyond - inside;
   const double side2 = std::max(
       {dot(uv[1] - uv[0], uv[1] - uv[0]), dot(uv[2] - uv[1], uv[2] - uv[1]), dot(uv[0] - uv[2], uv[0] - uv[2])});
-  return {at.triangle, data_->member[t], dot(way, way) <= kFar * kFar * side2 ? beyond : inside};
+  const std::int32_t member = data_->member[t];
+  if (dot(way, way) > kFar * kFar * side2) return {at.triangle, member, inside};
+  return {at.triangle, member, within_bounds(*members_[member], uv, beyond)};
 }
+
+double CompositeSurface::largest_stretch() const { return data_->largest_stretch; }
 
 Vec3 CompositeSurface::point(Vec2 uv) const {
   const MemberPlace at = place(uv);
@@ -85,8 +122,7 @@ SurfacePoint CompositeSurface::evaluate(Vec2 uv) const {
   return {s.x, a.x * s.du + a.y * s.dv, b.x * s.du + b.y * s.dv};
 }
 
-SurfacePoint2 CompositeSurface::evaluate2(Vec2 uv) const {
-  const MemberPlace at = place(uv);
+SurfacePoint2 CompositeSurface::evaluate2(const MemberPlace& at) const {
   const SurfacePoint2 s = members_[at.member]->evaluate2(at.uv);
   const Vec2 a = data_->map[at.triangle].along_u, b = data_->map[at.triangle].along_v;
   const auto second = [&](Vec2 p, Vec2 q) {

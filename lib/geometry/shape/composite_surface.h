@@ -29,8 +29,8 @@ struct CompositeSupport {
 };
 
 /// x(u,v) = the member's surface at the affine image of (u,v) in its chart triangle: exact places and derivatives of
-/// the members. Beside the patch the map of the nearest triangle goes on. Where two members meet, x jumps by as much as
-/// the chart's sides leave the common edge, squared, times the curvature.
+/// the members. Beside the patch the map of the nearest triangle goes on, up to the bounds of the member. Where two
+/// members meet, x jumps by as much as the chart's sides leave the common edge, squared, times the curvature.
 class CompositeSurface final : public Surface {
  public:
   /// `bounds`: u_min, u_max, v_min, v_max.
@@ -39,7 +39,7 @@ class CompositeSurface final : public Surface {
 
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
-  SurfacePoint2 evaluate2(Vec2 uv) const override;
+  SurfacePoint2 evaluate2(Vec2 uv) const override { return evaluate2(place(uv)); }
   /// Of the whole patch: from the nearest facet by steps in tangent planes.
   std::optional<Vec2> exact_foot(Vec3 p) const override;
   std::optional<Vec2> foot_near(Vec3 p, Vec2 guess) const override;
@@ -51,6 +51,10 @@ class CompositeSurface final : public Surface {
     Vec2 uv;
   };
   MemberPlace place(Vec2 uv) const;
+  /// Largest length in space over length in (u,v), of the chart's flat triangles.
+  double largest_stretch() const;
+  /// evaluate2() at a place that place() gave.
+  SurfacePoint2 evaluate2(const MemberPlace& at) const;
 
  private:
   struct Data;

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "geometry/shape/analytic.h"
+#include "geometry/shape/composite_surface.h"
 #include "sizing/cones.h"
 #include "sizing/patch_walk.h"
 
@@ -342,6 +343,49 @@ TEST(RasterFace, covers_with_every_cell_per_length) {
   const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, 1, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
   for (const double ratio : {1.0, 2.0, 4.0, 8.0})
     expect_everywhere(sphere, sample(sphere, {}, {0.01, 1, radians(10), ratio}), kRasterLimits.alpha, 0.02);
+}
+
+/// Two rectangles that meet at x = 0.1, the second turned by `kink` about that side and moved along it by `jump`.
+CompositeSurface kinked_composite(double kink, double jump) {
+  constexpr double kSide = 0.1;
+  const Vec3 along{std::cos(kink), 0, std::sin(kink)}, across{0, 1, 0};
+  std::vector<std::unique_ptr<Surface>> members;
+  members.push_back(std::make_unique<PlaneSurface>(kRasterFrame, -1, kSide, 0, 1));
+  members.push_back(
+      std::make_unique<PlaneSurface>(Frame{{kSide, jump, 0}, along, across, cross(along, across)}, 0, 1, 0, 1));
+  Chart chart;
+  chart.uv = {{-1, 0}, {kSide, 0}, {kSide, 1}, {-1, 1}, {1 + kSide, 0}, {1 + kSide, 1}};
+  for (const Vec2 p : chart.uv)
+    chart.x.push_back(Vec3{std::min(p.x, kSide), p.y, 0} + std::max(p.x - kSide, 0.0) * along);
+  chart.normal.assign(chart.x.size(), Vec3{0, 0, 1});
+  chart.corners = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+  CompositeSupport support;
+  for (std::size_t t = 0; t < chart.corners.size(); ++t) {
+    std::array<Vec2, 3> uv;
+    for (std::size_t k = 0; k < 3; ++k)
+      uv[k] = chart.uv[static_cast<std::size_t>(chart.corners[t][k])] - Vec2{t < 2 ? 0 : kSide, 0};
+    support.member.push_back(t < 2 ? 0 : 1);
+    support.corner_uv.push_back(uv);
+  }
+  return CompositeSurface(std::move(chart), std::move(support), std::move(members), {-1, 1 + kSide, 0, 1});
+}
+
+TEST(RasterFace, a_kink_between_members_of_a_composite_is_no_curvature) {
+  SamplingLimits limits = kRasterLimits;
+  limits.alpha = radians(2);
+  const Sampling flat = sample(kinked_composite(0, 0), {}, limits),
+                 kinked = sample(kinked_composite(radians(2.5), 0), {}, limits);
+  EXPECT_FLOAT_EQ(static_cast<float>(kinked.smallest()), static_cast<float>(limits.max_length));
+  EXPECT_EQ(kinked.boxes.size(), flat.boxes.size());
+}
+
+TEST(RasterFace, places_that_jump_between_members_of_a_composite_are_not_split_without_end) {
+  SamplingLimits limits = kRasterLimits;
+  limits.min_length = limits.max_length = 0.05;
+  limits.max_samples = 1 << 16;
+  const Sampling flat = sample(kinked_composite(0, 0), {}, limits),
+                 jumping = sample(kinked_composite(0, 0.2), {}, limits);
+  EXPECT_LE(jumping.boxes.size(), flat.boxes.size() + flat.boxes.size() / 10);
 }
 
 }  // namespace
