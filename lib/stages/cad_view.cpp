@@ -56,7 +56,7 @@ struct FindingNumbers {
       auto at = std::find(kinds.begin(), kinds.end(), kind);
       if (at == kinds.end()) at = kinds.insert(kinds.end(), kind);
       of_finding.push_back(static_cast<std::int32_t>(at - kinds.begin()) + 1);
-      const std::size_t name = f.entity.find(" \"");  // "edge 12 "TE""
+      const std::size_t name = f.entity.find(' ', f.entity.find(' ') + 1);  // "edge 12 "TE"", "face 3 (17 of the CAD)"
       of_entity.emplace(f.entity.substr(0, name), of_finding.back());
     }
   }

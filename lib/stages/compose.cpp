@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
@@ -23,13 +24,20 @@ constexpr double kDefaultAlpha = radians(10);  // likewise
 constexpr double kChartDeflection = 1e-3;      // of the diagonal
 constexpr double kChartAngle = radians(12);
 
-/// Marks edges that groups, names and wings keep.
+/// Marks edges that groups, also of their vertices, names and wings keep.
 std::vector<std::uint8_t> kept_edges(const Model& cad) {
   const ModelTables& t = cad.tables();
   std::vector<std::uint8_t> is_kept(static_cast<std::size_t>(t.n_edges()), 0);
   for (EdgeId e = 0; e < t.n_edges(); ++e) is_kept[e] = !t.edge_name[e].empty();
   for (const EntityGroup& g : t.labels.edge_groups)
     for (const EdgeId e : g.ids) is_kept[e] = 1;
+  std::vector<std::uint8_t> is_grouped(static_cast<std::size_t>(t.n_vertices()), 0);
+  for (const EntityGroup& g : t.labels.vertex_groups)
+    for (const VertexId v : g.ids) is_grouped[v] = 1;
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    for (const std::size_t k : {0, 1})
+      if (const VertexId v = t.edge_vertices[2 * static_cast<std::size_t>(e) + k]; v != kNone && is_grouped[v])
+        is_kept[e] = 1;
   for (const WingEdge& w : wing_edges_to_see(cad)) is_kept[w.edge] = 1;
   return is_kept;
 }
@@ -47,7 +55,14 @@ bool are_alike(const ModelTables& t, FaceId a, FaceId b) {
 class HarmFinder {
  public:
   HarmFinder(const Model& cad, const std::vector<std::uint8_t>& may_join)
-      : cad_(cad), t_(cad.tables()), may_join_(may_join), harm_(static_cast<std::size_t>(t_.n_edges()), 0) {
+      : cad_(cad),
+        t_(cad.tables()),
+        may_join_(may_join),
+        harm_(static_cast<std::size_t>(t_.n_edges()), 0),
+        length_(static_cast<std::size_t>(t_.n_edges()), 0) {
+    for (FaceId f = 0; f < t_.n_faces(); ++f)
+      for (const CoedgeId c : t_.coedges(f)) uses_.emplace_back(t_.coedge_edge[c], std::pair(f, c));
+    std::ranges::sort(uses_);
     for (FaceId f = 0; f < t_.n_faces(); ++f)
       if (std::ranges::any_of(t_.edges_of(f), [&](EdgeId e) { return may_join_[e] != 0; })) judge(f);
   }
@@ -93,15 +108,9 @@ class HarmFinder {
 
   /// What st-raster would ask for at an edge by default, about.
   double length_at(EdgeId e) {
-    if (length_.empty()) length_.assign(static_cast<std::size_t>(t_.n_edges()), 0);
     if (length_[e] > 0) return length_[e];
     double length = kDefaultLmax * t_.reference_diagonal();
     constexpr int kPlaces = 3;
-    if (uses_.empty()) {
-      for (FaceId f = 0; f < t_.n_faces(); ++f)
-        for (const CoedgeId c : t_.coedges(f)) uses_.emplace_back(t_.coedge_edge[c], std::pair(f, c));
-      std::ranges::sort(uses_);
-    }
     const auto [first, last] = std::equal_range(uses_.begin(), uses_.end(), std::pair(e, std::pair(0, 0)),
                                                 [](const auto& a, const auto& b) { return a.first < b.first; });
     for (auto use = first; use != last; ++use) {
@@ -123,9 +132,26 @@ class HarmFinder {
   const Model& cad_;
   const ModelTables& t_;
   const std::vector<std::uint8_t>& may_join_;
-  std::vector<double> harm_, length_;
-  std::vector<std::pair<EdgeId, std::pair<FaceId, CoedgeId>>> uses_;
+  std::vector<double> harm_;
+  std::vector<double> length_;                                        // of each edge, 0: not yet known
+  std::vector<std::pair<EdgeId, std::pair<FaceId, CoedgeId>>> uses_;  // ascending
 };
+
+/// "13 faces, 3 after joining (12 are 2 now)" and what was refused, by reason; each refused union is logged.
+std::string said(const GeometryArtifact& geometry, const std::vector<std::string>& refused) {
+  std::map<std::string, int> reasons;
+  for (const std::string& why : refused) {
+    log_info("  not joined: " + why);
+    ++reasons[why.substr(std::min(why.size(), why.find("): ") + 3))];
+  }
+  const Composites& c = geometry.composites;
+  std::string text = c.empty()
+                         ? "no faces joined"
+                         : fmt::format("{} faces and {} edges after joining ({} faces became {})",
+                                       geometry.tables.n_faces(), geometry.tables.n_edges(), c.member.size(), c.size());
+  for (const auto& [why, n] : reasons) text += fmt::format(", {} {} refused: {}", n, n == 1 ? "union" : "unions", why);
+  return text;
+}
 
 }  // namespace
 
@@ -169,15 +195,12 @@ std::string compose(GeometryArtifact& geometry, bool is_harm_only) {
     const Model cad(geometry.tables, geometry.brep);
     found = find_composites(cad, join_request(cad, is_harm_only));
   }
-  for (const std::string& why : found.refused) log_info("  not joined: " + why);
   if (!found.composites.empty()) {
     geometry.composites = std::move(found.composites);
     ModelTables joined = join_tables(geometry.tables, geometry.composites).tables;
     geometry.cad = std::exchange(geometry.tables, std::move(joined));
   }
-  const auto n = static_cast<std::int64_t>(geometry.composites.member.size());
-  return fmt::format("{} faces joined to {}, {} unions refused", n, n == 0 ? 0 : geometry.composites.size(),
-                     found.refused.size());
+  return said(geometry, found.refused);
 }
 
 }  // namespace st

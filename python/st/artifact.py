@@ -7,7 +7,7 @@ import numpy
 from .sources import Sources
 
 MAX_LEVEL = 20  # of an octree: keys have this many bits along each axis
-NEWEST_VERSION = {"geometry": 1, "raster": 8, "sizing": 7, "patches": 2, "mesh": 1, "failures": 1}
+NEWEST_VERSION = {"geometry": 2, "raster": 8, "sizing": 7, "patches": 2, "mesh": 1, "failures": 1}
 CELL_CHUNK = 65536  # points whose sizes are computed at once
 
 
@@ -68,13 +68,54 @@ class Artifact:
 
 
 class Geometry(Artifact):
-    """geometry.hdf: faces, edges, vertices, groups, findings."""
+    """geometry.hdf: faces, edges, groups, findings; where faces of the CAD are joined, numbered as in the mesh."""
 
     def __init__(self, path):
         super().__init__(path)
         self.face_name, self.edge_name = self["/st/face/name"], self["/st/edge/name"]
         self.face_area, self.edge_length = self["/st/face/area"], self["/st/edge/length"]
         self.group_name, self.face_group = self["/st/group/name"], self["/st/face/group"]
+        # of each face and edge, the numbers, from 0, in the CAD: several where they are joined
+        self.cad_faces = [[f] for f in range(len(self.face_name))]
+        self.cad_edges = [[e] for e in range(len(self.edge_name))]
+        if "/st/composites/member" in self:
+            self._join()
+
+    def _join(self):
+        members, offsets = self["/st/composites/member"], self["/st/composites/member_offsets"]
+        unions = [members[a:b].tolist() for a, b in zip(offsets, offsets[1:])]
+        others = sorted(set(range(len(self.face_name))) - {f for union in unions for f in union})
+        self.cad_faces = sorted(unions + [[f] for f in others])
+        first = [faces[0] for faces in self.cad_faces]
+        self.face_name, self.face_group = [self.face_name[f] for f in first], self.face_group[first]
+        self.face_area = numpy.array([self.face_area[faces].sum() for faces in self.cad_faces])
+        self.cad_edges = self._chains({f for union in unions for f in union})
+        self.edge_name = [self.edge_name[edges[0]] for edges in self.cad_edges]
+        self.edge_length = numpy.array([self.edge_length[edges].sum() for edges in self.cad_edges])
+
+    def _chains(self, joined_faces):
+        """Edges that are left, those that go on as one together; poles of joined faces are gone."""
+        gone = set(self["/st/composites/joined_edges"].tolist())
+        coedges, loops = self["/st/loop/coedge_offsets"], self["/st/face/loop_offsets"]
+        edge, uses = self["/st/coedge/edge"], {}
+        for f in range(len(loops) - 1):
+            for e in edge[coedges[loops[f]]:coedges[loops[f + 1]]].tolist():
+                uses.setdefault(e, set()).add(f)
+        is_pole = self["/st/edge/is_degenerate"]
+        gone |= {e for e, faces in uses.items() if is_pole[e] and faces <= joined_faces}
+        inside, chain, at = set(self["/st/composites/joined_vertices"].tolist()), {}, {}
+        for e, ends in enumerate(self["/st/edge/vertices"].reshape(-1, 2).tolist()):
+            if e in gone:
+                continue
+            chain[e] = [e]
+            for v in set() if is_pole[e] else inside.intersection(ends):
+                at.setdefault(v, []).append(e)
+        for a, b in at.values():
+            if chain[a] is not chain[b]:
+                chain[a] += chain[b]
+                for e in chain[b]:
+                    chain[e] = chain[a]
+        return sorted(sorted(edges) for edges in {id(c): c for c in chain.values()}.values())
 
     def faces_of(self, group):
         """Numbers, from 0, of the faces of a group."""

@@ -122,6 +122,18 @@ class Module(unittest.TestCase):
         self.assertEqual(st.read(WORK / "patches.hdf").failures, [])
         self.assertEqual(len(geometry.findings), st.run("st-info", WORK / "geometry.hdf")["counts"]["findings"])
 
+    def test_joined_faces_are_those_of_the_mesh(self):
+        out = WORK / "joined"
+        said = st.mesh(MODELS / "wing_of_8.brep", out, preset="preview", **{"st-import": {"composite": "smooth"}})
+        geometry, mesh, joined = st.read(out / "geometry.hdf"), st.read(out / "mesh.hdf"), said["st-import"]["joined"]
+        self.assertLess(joined["faces"], said["st-import"]["faces"])
+        self.assertEqual((len(geometry.face_name), len(geometry.edge_name)), (joined["faces"], joined["edges"]))
+        self.assertEqual(sorted(sum(geometry.cad_faces, [])), list(range(said["st-import"]["faces"])))
+        self.assertEqual(len(mesh["/st/face/name"]), joined["faces"])
+        for name in geometry.group_name:
+            exact = geometry.face_area[geometry.faces_of(name)].sum()
+            self.assertAlmostEqual(mesh.area_of(name), exact, delta=0.05 * exact)
+
     def test_areas_of_groups_are_those_of_their_faces(self):
         geometry, mesh = st.read(WORK / "geometry.hdf"), st.read(WORK / "mesh.hdf")
         self.assertEqual(mesh.group_name, geometry.group_name)

@@ -305,7 +305,7 @@ void write_all(const fs::path& dir) {
   write_parts({{"plate", box(10, 10, 4)}, {"block", BRepPrimAPI_MakeBox(gp_Pnt(3, 3, 4), 4, 4, 3).Shape()}},
               dir / "stacked.step");
   for (const char* shape : {"crossed_loop", "fan", "thin_pipe", "vertex_back", "vertex_ahead", "vertex_aside",
-                            "vertex_inside", "vertex_outside"})
+                            "vertex_inside", "vertex_outside", "wing_of_8"})
     st::test::write_brep(shape, dir / (std::string(shape) + ".brep"));
   for (const char* shape : {"parted_corner", "hourglass", "touching_boxes", "box_twice", "wing_in_body",
                             "pod_in_c_50_half", "capsule_in_sphere_50", "far_circle", "folded_flap", "folded_sliver"})

@@ -1,6 +1,7 @@
 #include "geometry/model/composites.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/model/model.h"
 
@@ -14,6 +15,34 @@ bool are_offsets(const std::vector<std::int32_t>& offsets, std::size_t n_rows, s
 
 bool are_below(std::span<const std::int32_t> ids, std::int32_t n) {
   return std::all_of(ids.begin(), ids.end(), [&](std::int32_t id) { return id >= 0 && id < n; });
+}
+
+bool is_finite(double x) { return std::isfinite(x); }
+bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
+bool is_finite(const std::array<Vec2, 3>& corners) {
+  return std::ranges::all_of(corners, [](Vec2 p) { return is_finite(p); });
+}
+
+template <class T>
+bool are_finite(const std::vector<T>& values) {
+  return std::ranges::all_of(values, [](const T& v) { return is_finite(v); });
+}
+
+/// Whether each joined vertex is the end of two edges that are left: chains of edges pass there, and end.
+bool are_between_two(const ModelTables& t, const Composites& c, const std::vector<std::uint8_t>& is_joined) {
+  std::vector<std::vector<EdgeId>> at(static_cast<std::size_t>(t.n_vertices()));
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    for (const std::size_t k : {0, 1})
+      if (const VertexId v = t.edge_vertices[2 * static_cast<std::size_t>(e) + k]; v != kNone && !is_joined[e])
+        at[v].push_back(e);
+  return std::ranges::all_of(c.joined_vertices, [&](VertexId v) { return at[v].size() == 2 && at[v][0] != at[v][1]; });
+}
+
+/// Whether every face is a member of one composite at most.
+bool are_single(std::vector<FaceId> members) {
+  std::ranges::sort(members);
+  return std::ranges::adjacent_find(members) == members.end();
 }
 
 }  // namespace
@@ -34,15 +63,20 @@ Chart Composites::chart(std::int32_t i) const {
 std::string Composites::contradiction(const ModelTables& t) const {
   if (member_offsets.empty()) return "faces of composites";
   const auto n = static_cast<std::size_t>(size());
-  if (!are_offsets(member_offsets, n, member.size()) || !are_below(member, t.n_faces())) return "faces of composites";
+  if (!are_offsets(member_offsets, n, member.size()) || !are_below(member, t.n_faces()) || !are_single(member))
+    return "faces of composites";
   if (!are_below(joined_edges, t.n_edges()) || !are_below(joined_vertices, t.n_vertices()))
     return "edges of composites";
+  if (!are_finite(node_xyz) || !are_finite(node_uv) || !are_finite(triangle_uv) || !are_finite(uv_bounds) ||
+      !are_finite(rim_t))
+    return "numbers of composites";
   if (!are_offsets(node_offsets, n, node_xyz.size()) || node_uv.size() != node_xyz.size()) return "nodes of composites";
   if (!are_offsets(triangle_offsets, n, triangle_nodes.size()) || triangle_face.size() != triangle_nodes.size() ||
       triangle_uv.size() != triangle_nodes.size() || uv_bounds.size() != 4 * n)
     return "triangles of composites";
   std::vector<std::uint8_t> is_joined(static_cast<std::size_t>(t.n_edges()), 0);
   for (const EdgeId e : joined_edges) is_joined[e] = 1;
+  if (!are_between_two(t, *this, is_joined)) return "edges of composites";
   if (!are_offsets(rim_offsets, rim_coedge.size(), rim_t.size()) || rim_node.size() != rim_t.size() ||
       rim_triangle.size() != rim_t.size() || !std::is_sorted(rim_coedge.begin(), rim_coedge.end()))
     return "rims of composites";
@@ -61,7 +95,7 @@ std::string Composites::contradiction(const ModelTables& t) const {
         if (r >= rim_coedge.size() || rim_coedge[r] != c || rim_offsets[r + 1] - rim_offsets[r] < 2)
           return "rims of composites";
         for (std::int32_t k = rim_offsets[r]; k < rim_offsets[r + 1]; ++k)
-          if (!are_below(std::span(&rim_node[k], 1), n_nodes) ||
+          if (!are_below(std::span(&rim_node[k], 1), n_nodes) || (k > rim_offsets[r] && !(rim_t[k - 1] < rim_t[k])) ||
               (k + 1 < rim_offsets[r + 1] && !are_below(std::span(&rim_triangle[k], 1), n_triangles)))
             return "rims of composites";
       }

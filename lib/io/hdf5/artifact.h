@@ -17,7 +17,7 @@
 namespace st {
 
 /// Newest schema versions that this build reads, and those that it writes.
-inline constexpr int kGeometryVersion = 1, kPatchesVersion = 2, kMeshVersion = 1;
+inline constexpr int kGeometryVersion = 2, kPatchesVersion = 2, kMeshVersion = 1;
 
 /// An input that an artifact was made from.
 struct InputRef {

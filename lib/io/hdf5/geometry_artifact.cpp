@@ -1,5 +1,7 @@
 // geometry.hdf: docs/artifacts.md
+#include <charconv>
 #include <cmath>
+#include <map>
 #include <type_traits>
 #include <utility>
 
@@ -10,8 +12,9 @@
 namespace st {
 namespace {
 
-constexpr int kFacetsVersion = 1;      // of the group /st/facets
-constexpr int kCompositesVersion = 1;  // of the group /st/composites
+constexpr int kFacetsVersion = 1;         // of the group /st/facets
+constexpr int kPlainGeometryVersion = 1;  // without composites, which older tools would take for faces of the CAD
+constexpr int kCompositesVersion = 1;     // of the group /st/composites
 
 void write_vertices_and_edges(Hdf5Writer& w, const ModelTables& t) {
   w.write("/st/vertex/xyz", t.vertex_xyz);
@@ -241,6 +244,28 @@ void write_composites(Hdf5Writer& w, const Composites& c) {
   w.set_attribute("/st/composites", "version", std::int64_t{kCompositesVersion});
 }
 
+/// The import names faces and edges by their numbers in the CAD: stages look for those of the tables.
+void name_as_joined(const JoinedTables& joined, std::vector<ImportFinding>& findings) {
+  std::map<EdgeId, EdgeId> edge_of;
+  for (EdgeId e = 0; e < joined.tables.n_edges(); ++e)
+    for (const EdgePiece& p : joined.pieces_of(e)) edge_of[p.edge] = e;
+  for (ImportFinding& f : findings) {
+    const bool is_face = f.entity.starts_with("face "), is_edge = f.entity.starts_with("edge ");
+    if (!is_face && !is_edge) continue;
+    const std::size_t end = std::min(f.entity.find(' ', 5), f.entity.size());
+    std::int32_t number = 0;
+    if (std::from_chars(&f.entity[5], f.entity.data() + end, number).ptr != f.entity.data() + end) continue;
+    const auto edge = edge_of.find(number - 1);
+    const std::string rest = f.entity.substr(end);
+    if (is_edge && edge == edge_of.end())
+      f.entity = "joined edge " + std::to_string(number) + rest;
+    else if (is_edge || (number >= 1 && static_cast<std::size_t>(number) <= joined.face_of.size()))
+      f.entity = f.entity.substr(0, 5) +
+                 std::to_string((is_edge ? edge->second : joined.face_of[static_cast<std::size_t>(number) - 1]) + 1) +
+                 " (" + std::to_string(number) + " of the CAD)" + rest;
+  }
+}
+
 /// Tables become those in which the composites are faces.
 void read_composites(const Hdf5Reader& r, GeometryArtifact& geometry) {
   if (const std::int64_t version = r.int_attribute("/st/composites", "version"); version > kCompositesVersion)
@@ -257,6 +282,7 @@ void read_composites(const Hdf5Reader& r, GeometryArtifact& geometry) {
   if (const std::string what = c.contradiction(geometry.tables); !what.empty())
     r.fail("/st/composites", "the " + what + " contradict the tables");
   JoinedTables joined = join_tables(geometry.tables, c);
+  name_as_joined(joined, geometry.findings);
   geometry.cad = std::exchange(geometry.tables, std::move(joined.tables));
   std::vector<std::int32_t> previous;
   for (const FaceId f : joined.cad_face) {
@@ -273,7 +299,7 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
   const ModelTables& t = geometry.composites.empty() ? geometry.tables : geometry.cad;
   ArtifactHeader header = geometry.header;
   header.schema = "geometry";
-  header.schema_version = kGeometryVersion;
+  header.schema_version = geometry.composites.empty() ? kPlainGeometryVersion : kGeometryVersion;
   header.unit = t.unit;
   header.unit_in_m = t.unit_in_m;
   Hdf5Writer w(path, header);

@@ -3,8 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <set>
 
+#include "geometry/model/joined_tables.h"
 #include "io/hdf5/artifact.h"
+#include "stages/cad_view.h"
+#include "stages/stored_model.h"
 #include "support/shapes.h"
 #include "support/staged.h"
 #include "unit/io/temporary_directory.h"
@@ -80,6 +85,91 @@ TEST(Compose, artifacts_keep_every_bit) {
   EXPECT_EQ(a.composites.rim_t, b.composites.rim_t);
   EXPECT_EQ(a.tables.coedge_edge, b.tables.coedge_edge);
   EXPECT_EQ(a.header.content_hash, b.header.content_hash);
+}
+
+/// A wing cut into 4 x 2 pieces, as st-import has it before joining.
+GeometryArtifact cut_wing_artifact() {
+  ImportResult cad = test::import_shape("wing_of_8");
+  GeometryArtifact geometry;
+  geometry.header.tool = "st-import";
+  geometry.tables = std::move(cad.tables);
+  geometry.brep = std::move(cad.brep);
+  return geometry;
+}
+
+TEST(Compose, says_both_numbers_of_faces) {
+  GeometryArtifact geometry = cut_wing_artifact();
+  const FaceId n = geometry.tables.n_faces();
+  const std::string said = compose(geometry, false);
+  EXPECT_LT(geometry.tables.n_faces(), n);
+  EXPECT_EQ(geometry.cad.n_faces(), n);
+  EXPECT_NE(said.find(std::to_string(geometry.tables.n_faces()) + " faces and "), std::string::npos) << said;
+}
+
+TEST(Compose, says_that_nothing_is_joined) {
+  ImportResult cad = test::import_shape("box");
+  GeometryArtifact geometry;
+  geometry.tables = std::move(cad.tables);
+  geometry.brep = std::move(cad.brep);
+  EXPECT_EQ(compose(geometry, false), "no faces joined");
+}
+
+TEST(Compose, keeps_vertices_of_groups) {
+  const GeometryArtifact plain = cut_wing_artifact();
+  for (VertexId v = 0; v < plain.tables.n_vertices(); ++v) {
+    GeometryArtifact geometry = plain;
+    geometry.tables.labels.vertex_groups.push_back({"tap", "", "{}", {v}});
+    compose(geometry, false);
+    ASSERT_EQ(geometry.tables.labels.vertex_groups.size(), 1u);
+    ASSERT_EQ(geometry.tables.labels.vertex_groups[0].ids.size(), 1u) << v;
+    const VertexId now = geometry.tables.labels.vertex_groups[0].ids[0];
+    EXPECT_TRUE(geometry.tables.vertex_xyz[now] == plain.tables.vertex_xyz[v]);
+  }
+}
+
+TEST(Compose, findings_mark_the_face_that_theirs_is_in) {
+  GeometryArtifact geometry = cut_wing_artifact();
+  const FaceId n = geometry.tables.n_faces();
+  for (FaceId f = 0; f < n; ++f)
+    geometry.findings.push_back({FindingKind::kSliverFace, "face " + std::to_string(f + 1) + " \"S\"", {}, 0.1});
+  compose(geometry, false);
+  const TemporaryDirectory folder;
+  const std::string path = folder / "geometry.hdf";
+  write_geometry(path, geometry);
+  GeometryArtifact read = read_geometry(path);
+  EXPECT_EQ(read.header.schema_version, 2);
+  const JoinedTables joined = join_tables(read.cad, read.composites);
+  for (FaceId f = 0; f < n; ++f)
+    EXPECT_EQ(read.findings[f].entity,
+              "face " + std::to_string(joined.face_of[f] + 1) + " (" + std::to_string(f + 1) + " of the CAD) \"S\"");
+  const std::vector<ImportFinding> last = {read.findings.back()};
+  const CellView view = view_cad(stored_model(read, path), last);
+  std::set<std::int32_t> marked;
+  for (std::size_t i = 0; i < view.types.size(); ++i)
+    if (view.values[5].second[i] > 0 && view.values[0].second[i] == 2) marked.insert(view.values[1].second[i]);
+  EXPECT_EQ(marked, (std::set<std::int32_t>{joined.face_of[n - 1] + 1}));
+}
+
+TEST(Compose, damaged_records_of_joined_faces_are_no_loop_without_end) {
+  GeometryArtifact geometry = cut_wing_artifact();
+  compose(geometry, false);
+  const auto damage = [&](const auto& change) {
+    Composites c = geometry.composites;
+    change(c);
+    EXPECT_NE(c.contradiction(geometry.cad), "");
+  };
+  EXPECT_EQ(geometry.composites.contradiction(geometry.cad), "");
+  damage([&](Composites& c) {
+    for (VertexId v = 0; v < geometry.cad.n_vertices(); ++v) c.joined_vertices.push_back(v);
+  });
+  damage([](Composites& c) { c.joined_edges.clear(); });
+  damage([](Composites& c) { c.member[1] = c.member[0]; });
+  damage([](Composites& c) { c.rim_t[1] = c.rim_t[0]; });
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  damage([&](Composites& c) { c.rim_t[1] = nothing; });
+  damage([&](Composites& c) { c.uv_bounds[1] = nothing; });
+  damage([&](Composites& c) { c.node_xyz[1].y = nothing; });
+  damage([&](Composites& c) { c.triangle_uv[1][2].x = nothing; });
 }
 
 }  // namespace
