@@ -136,6 +136,11 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
     throw Error(ExitCode::kUsage,
                 fmt::format("--moved: {} is not a mesh artifact: only these know the geometry that moved", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
+  if (!geometry.composites.empty())
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: has joined faces, and {} is no mesh artifact: import the CAD without --composite for "
+                            "meshes of other programs",
+                            o.geometry, o.mesh));
   if (!o.tolerance.empty())
     require_unit(parse_length(o.tolerance, "--tolerance"), geometry.header.unit_in_m, "--tolerance");
   MappedSizing sizing = map_sizing(o.sizing);
