@@ -43,7 +43,8 @@ std::vector<std::string> surface_texts(const std::vector<SurfaceType>& types) {
 Identity identity_of(const std::string& path) {
   const std::string schema = read_header(path).schema;
   if (schema == "geometry") {
-    ModelTables t = read_geometry(path).tables;
+    GeometryArtifact geometry = read_geometry(path);
+    ModelTables t = std::move(geometry.composites.empty() ? geometry.tables : geometry.cad);  // as groups files count
     return {std::move(t.labels),    color_texts(t.face_color), std::move(t.face_layer), surface_texts(t.face_type),
             std::move(t.edge_name), std::move(t.face_area),    std::move(t.face_box),   std::move(t.unit)};
   }

@@ -435,6 +435,8 @@ ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& grou
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
   const bool is_composed = asks_for_composites(o.composite, o.model);
+  if (is_composed && o.check)
+    throw Error(ExitCode::kUsage, "--composite joins faces of what is written, and --check writes nothing");
   ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
   nlohmann::json json = report(o.model, r);
@@ -474,7 +476,11 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.is_closed = r.is_closed;
     g.tables = std::move(r.tables);
     std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
-    if (is_composed) s.line += "; " + compose(g, o.composite == "harm");
+    if (is_composed) {
+      s.line += "; " + compose(g, o.composite == "harm");
+      json["joined"] = {
+          {"faces", g.tables.n_faces()}, {"edges", g.tables.n_edges()}, {"vertices", g.tables.n_vertices()}};
+    }
     json["hash"] = write_geometry(o.output, g);
     json["output"] = o.output;
   }

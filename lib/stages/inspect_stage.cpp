@@ -87,13 +87,20 @@ Json parse_or_text(const std::string& text) {
 
 /// Where the faces of a geometry come from; empty where they have the numbers of a CAD file.
 struct FaceOrigins {
-  std::vector<std::int64_t> n_of_input;  ///< [n_inputs]
-  std::vector<std::int32_t> file_face;   ///< [n_faces] of an imported geometry: number in the CAD file, kNone: none
+  std::vector<std::int64_t> n_of_input;                 ///< [n_inputs]
+  std::int64_t n_joined_faces = 0, n_joined_edges = 0;  ///< after joining; 0: none are joined
+  std::vector<std::int32_t> file_face;  ///< [n_faces] of an imported geometry: number in the CAD file, kNone: none
 };
 
 FaceOrigins face_origins(const std::string& path, const ArtifactDescription& artifact) {
   FaceOrigins origins;
-  if (artifact.header.schema != "geometry" || artifact.rows("/st/face/previous_id") == 0) return origins;
+  if (artifact.header.schema != "geometry") return origins;
+  if (artifact.rows("/st/composites/member") > 0) {
+    const ModelTables joined = read_geometry(path).tables;
+    origins.n_joined_faces = joined.n_faces();
+    origins.n_joined_edges = joined.n_edges();
+  }
+  if (artifact.rows("/st/face/previous_id") == 0) return origins;
   const std::vector<InputRef>& inputs = artifact.header.inputs;
   origins.n_of_input.assign(inputs.size(), 0);
   const std::vector<std::int32_t> previous = read_geometry(path).previous_faces;
@@ -129,6 +136,8 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact, con
   json["unit_in_m"] = h.unit_in_m ? Json(*h.unit_in_m) : Json(nullptr);
   json["counts"] = Json::object();
   for (const Count& c : counts_of(h.schema)) json["counts"][c.name] = artifact.rows(c.dataset) - c.surplus;
+  if (origins.n_joined_faces > 0)
+    json["joined"] = {{"faces", origins.n_joined_faces}, {"edges", origins.n_joined_edges}};
   json["properties"] = Json::object();
   for (const AttributeSummary& p : properties_of(artifact)) json["properties"][p.name] = to_json(p);
   json["inputs"] = Json::array();
@@ -151,6 +160,8 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
     text += fmt::format("  {:<16} {}\n", one_line(name), one_line(value));
   };
   for (const Count& c : counts_of(h.schema)) row(c.name, std::to_string(artifact.rows(c.dataset) - c.surplus));
+  if (origins.n_joined_faces > 0)
+    row("after joining", fmt::format("{} faces, {} edges", origins.n_joined_faces, origins.n_joined_edges));
   for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
   row("unit", h.unit.empty() ? "none" : h.unit_in_m ? fmt::format("{} ({:g} m)", h.unit, *h.unit_in_m) : h.unit);
   for (std::size_t i = 0; i < h.inputs.size(); ++i)

@@ -1,0 +1,67 @@
+"""Joined faces: what users read and write has the numbers of the CAD, and what cannot be joined is said."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from chain import INPUT, MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
+
+MODEL = MODELS / "wing_of_8.brep"
+VERTEX = '[[group]]\nname = "tap"\nof = "vertices"\nvertices = [{}]\n'
+
+
+class Composite(ToolTest):
+    def chain(self, *options):
+        make_chain(MODEL, self.folder, import_options=["--composite", "smooth", *options])
+        return self.folder
+
+    def joined(self, *options):
+        """What st-import says of the model."""
+        run = must("st-import", MODEL, "-o", self.folder / "g.hdf", "--composite", "smooth", "--json", *options)
+        return run.json()
+
+    def test_both_numbers_of_faces_are_said(self):
+        plain = must("st-import", MODEL, "-o", self.folder / "plain.hdf", "--json").json()
+        run = must("st-import", MODEL, "-o", self.folder / "g.hdf", "--composite", "smooth")
+        said = self.joined()
+        self.assertEqual(said["faces"], plain["faces"])
+        self.assertLess(said["joined"]["faces"], said["faces"])
+        self.assertIn(f"{said['faces']} faces, ", run.out)
+        self.assertIn(f"{said['joined']['faces']} faces and {said['joined']['edges']} edges after joining", run.out)
+        info = must("st-info", self.folder / "g.hdf", "--json").json()
+        self.assertEqual((info["counts"]["faces"], info["joined"]["faces"]), (said["faces"], said["joined"]["faces"]))
+        self.assertEqual((info["schema_version"], plain["faces"]), (2, said["faces"]))
+        self.assertEqual(must("st-info", self.folder / "plain.hdf", "--json").json()["schema_version"], 1)
+
+    def test_groups_have_the_numbers_of_the_cad(self):
+        said = self.joined()
+        groups = must("st-info", "--groups", self.folder / "g.hdf", "--json").json()["tables"][0]["groups"]
+        self.assertEqual(sorted(f for g in groups for f in g["faces"]), list(range(1, said["faces"] + 1)))
+
+    def test_vertices_of_groups_stay(self):
+        all_joined, n_vertices = self.joined()["joined"], self.joined()["vertices"]
+        self.assertLess(all_joined["vertices"], n_vertices)
+        groups = self.folder / "groups.toml"
+        for v in range(1, n_vertices + 1):
+            groups.write_text(VERTEX.format(v))
+            self.joined("--groups", groups)
+            tables = must("st-info", "--groups", self.folder / "g.hdf", "--json").json()["tables"]
+            self.assertIn("tap", [g["name"] for g in tables[0]["groups"]])
+            made = make_chain(MODEL, self.folder / str(v), import_options=["--composite", "smooth", "--groups", groups])
+            mesh = must("st-info", "--groups", self.folder / str(v) / "mesh.hdf", "--json").json()
+            taps = [g for g in mesh["tables"][0]["groups"] if g["name"] == "tap"]
+            self.assertEqual([len(g["vertices"]) for g in taps], [1], (v, made))
+
+    def test_nothing_is_joined_by_a_check(self):
+        self.expect_error(USAGE, "st-import", MODEL, "--check", "--composite", "smooth", says="--check writes nothing")
+
+    def test_meshes_of_other_programs_are_refused(self):
+        folder = self.chain()
+        must("st-export", folder / "mesh.hdf", "-o", folder / "m.stl")
+        self.expect_error(INPUT, "st-remesh", folder / "m.stl", folder / "geometry.hdf", folder / "sizing.hdf", "-o",
+                          folder / "n.hdf", says=["has joined faces", "without --composite"])
+        self.assertEqual(Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf").code, OK)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
