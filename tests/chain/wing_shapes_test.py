@@ -113,6 +113,15 @@ class WingShapes(ToolTest):
             rules.write_text(f"size = [{{ edges = {edges}, trailing_edge = false }}]\n")
             self.assertEqual(self.raster(name, "euler", "--sizes", rules).json()["lifting_surfaces"], [], name)
 
+    def test_what_is_said_of_short_trailing_edges_counts(self):
+        rules = self.folder / "sizes.toml"
+        wings = self.raster("vortex_generators", "euler").json()["lifting_surfaces"]
+        small = min(wings, key=lambda wing: wing["span"])
+        for word, n in (("false", len(wings) - 1), ("true", len(wings))):
+            rules.write_text(f"size = [{{ edges = {small['trailing_edges']}, trailing_edge = {word} }}]\n")
+            got = self.raster("vortex_generators", "euler", "--sizes", rules).json()["lifting_surfaces"]
+            self.assertEqual(len(got), n, word)
+
     def test_edges_away_from_their_vertices_are_said_at_import(self):
         for name, text in (("rudder", "away from 30 vertices, by up to 0.00283 at vertex "),
                            ("wing_with_fairing", "away from their vertex, by up to 0.0625")):
