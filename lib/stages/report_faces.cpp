@@ -4,6 +4,8 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/model/joined_tables.h"
+
 namespace st {
 
 std::vector<TriangleId> by_group_and_face(const SurfaceMesh& mesh) {
@@ -38,6 +40,21 @@ nlohmann::ordered_json unmeshed_faces(std::span<const FaceFailure> failures, con
                     {"is_closed", f.is_closed},
                     {"xyz", {f.xyz.x, f.xyz.y, f.xyz.z}}});
   return list;
+}
+
+nlohmann::ordered_json cad_numbers(const GeometryArtifact& geometry) {
+  using Json = nlohmann::ordered_json;
+  if (geometry.composites.empty()) return Json::object();
+  const JoinedTables joined = join_tables(geometry.cad, geometry.composites);
+  Json faces(joined.cad_face.size(), Json::array()), edges = Json::array();
+  for (std::size_t f = 0; f < joined.face_of.size(); ++f)
+    faces[static_cast<std::size_t>(joined.face_of[f])].push_back(f + 1);
+  for (EdgeId e = 0; e < joined.tables.n_edges(); ++e) {
+    Json pieces = Json::array();
+    for (const EdgePiece& p : joined.pieces_of(e)) pieces.push_back(p.edge + 1);
+    edges.push_back(std::move(pieces));
+  }
+  return {{"cad_faces", std::move(faces)}, {"cad_edges", std::move(edges)}};
 }
 
 }  // namespace st

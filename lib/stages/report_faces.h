@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/model/model.h"
+#include "io/hdf5/artifact.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -20,5 +21,9 @@ nlohmann::ordered_json faces_to_pick(const SurfaceMesh& mesh, std::span<const Tr
 
 /// Faces that have no mesh, or one that was closed from their edges: number, name, cause, remedy, place.
 nlohmann::ordered_json unmeshed_faces(std::span<const FaceFailure> failures, const FaceLabels& labels);
+
+/// Where faces are joined: `cad_faces` and `cad_edges`, of each one the numbers in the CAD, which groups files have.
+/// Else empty.
+nlohmann::ordered_json cad_numbers(const GeometryArtifact& geometry);
 
 }  // namespace st

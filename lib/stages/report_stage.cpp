@@ -14,7 +14,6 @@
 #include "base/base64.h"
 #include "base/log.h"
 #include "base/progress.h"
-#include "geometry/model/joined_tables.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -253,22 +252,8 @@ struct Contents {
   std::vector<FaceFailure> failures;
   std::optional<SizingArtifact> sizing;
   bool is_meshed = true, is_closed = false;  ///< closed: the CAD
-  Json cad_faces, cad_edges;                 ///< of each face and edge where some are joined: numbers in the CAD
+  Json cad_numbers = Json::object();         ///< see cad_numbers()
 };
-
-/// Groups files have the numbers of the CAD.
-void number_as_cad(const GeometryArtifact& geometry, Contents& c) {
-  if (geometry.composites.empty()) return;
-  const JoinedTables joined = join_tables(geometry.cad, geometry.composites);
-  c.cad_faces = Json(joined.cad_face.size(), Json::array());
-  for (std::size_t f = 0; f < joined.face_of.size(); ++f)
-    c.cad_faces[static_cast<std::size_t>(joined.face_of[f])].push_back(f + 1);
-  for (EdgeId e = 0; e < joined.tables.n_edges(); ++e) {
-    Json pieces = Json::array();
-    for (const EdgePiece& p : joined.pieces_of(e)) pieces.push_back(p.edge + 1);
-    c.cad_edges.push_back(std::move(pieces));
-  }
-}
 
 /// Throws Error(kMismatch) for files of several models.
 Contents read_contents(const RunFiles& files) {
@@ -281,7 +266,7 @@ Contents read_contents(const RunFiles& files) {
   if (geometry) {
     c.findings = std::move(geometry->findings);
     c.is_closed = geometry->is_closed;
-    number_as_cad(*geometry, c);
+    c.cad_numbers = cad_numbers(*geometry);
     c.model = stored_model(*geometry, files.geometry);
   }
   if (!c.is_meshed) {
@@ -362,7 +347,7 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
   meta["unmeshed"] = unmeshed_faces(c.failures, mesh.labels);
   meta["lines"] = lines.meta;
   meta["edges"] = lines.edges;
-  if (!c.cad_faces.is_null()) meta["cad_faces"] = c.cad_faces, meta["cad_edges"] = c.cad_edges;
+  meta.update(c.cad_numbers);
   meta["times"] = stage_times(o.times);
   describe_origin(files, c, order, meta);
   meta["sizes"] = sizes.meta;

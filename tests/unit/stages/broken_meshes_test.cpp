@@ -129,7 +129,7 @@ void name_a_node_twice(SurfaceMesh& m) {
 void fold(SurfaceMesh& m) {  // a node drawn over its neighbours' far edge, in the face's plane
   const TriangleId t = inner_triangle(m);
   const auto& n = m.triangles[t].n;
-  move_in_plane(m, t, m.node_xyz[n[0]] + 1.6 * (0.5 * (m.node_xyz[n[1]] + m.node_xyz[n[2]]) - m.node_xyz[n[0]]));
+  move_in_plane(m, t, m.node_xyz[n[0]] + 2.2 * (0.5 * (m.node_xyz[n[1]] + m.node_xyz[n[2]]) - m.node_xyz[n[0]]));
 }
 
 void flatten(SurfaceMesh& m) {  // a corner onto the middle of the opposite side: no area, and its neighbour folds over
