@@ -16,7 +16,7 @@
 namespace st {
 namespace {
 
-constexpr double kSlope = 0.2, kMaxLength = 0.1;
+constexpr double kRefinedSlope = 0.2, kRefinedMost = 0.1;
 
 SourceSpec sphere_source(Vec3 at, double extent, double length) {
   SourceSpec s;
@@ -41,11 +41,11 @@ class Refined {
   explicit Refined(const std::vector<SourceSpec>& specs, const std::vector<RasterBox>& boxes = {})
       : raster_(build_octree(test::kUnitBox, boxes)),
         lengths_(prolong(Neighbours(raster_.shape.view()), raster_.stored_length, raster_.stored_cause,
-                         {kSlope, kMaxLength})) {
+                         {kRefinedSlope, kRefinedMost})) {
     std::vector<SourceTree::Entry> entries;
-    for (const SourceSpec& s : specs) entries.push_back({make_source(s, kSlope), 2});
+    for (const SourceSpec& s : specs) entries.push_back({make_source(s, kRefinedSlope), 2});
     tree_ = std::make_unique<SourceTree>(std::move(entries));
-    OctreeFieldData data{raster_.shape.view(), lengths_.cells, lengths_.cause, kSlope, 1};
+    OctreeFieldData data{raster_.shape.view(), lengths_.cells, lengths_.cause, kRefinedSlope, 1};
     if (!specs.empty()) data.sources = tree_.get();
     field_ = std::make_unique<OctreeField>(data, nullptr);
   }
@@ -85,7 +85,7 @@ TEST(RefineOctree, shows_the_sources_in_every_cell) {
     const double h = static_cast<const SizeField&>(r.field()).size(x),
                  edge = octree.cell_edge(octree.leaf_levels[leaf]);
     const double ratio = h / shown.length[leaf];
-    ASSERT_TRUE((ratio > 0.799 && ratio < 1.5) || 2 * h > 0.999 * edge - kSlope * edge) << h << " " << edge;
+    ASSERT_TRUE((ratio > 0.799 && ratio < 1.5) || 2 * h > 0.999 * edge - kRefinedSlope * edge) << h << " " << edge;
   }
 }
 
