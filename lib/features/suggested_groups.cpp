@@ -1,7 +1,6 @@
 #include "features/suggested_groups.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/eigen.h"
 
 namespace st {
 namespace {
@@ -35,33 +35,14 @@ struct WingShape {
   bool is_rotor = false;  ///< blades that hang together: their trailing edges run outward from the axis
 };
 
-/// Directions of largest and second largest spread of places, with their standard deviations, by powers of the
-/// covariance.
-struct Spread {
-  std::array<Vec3, 2> axis = {Vec3{1, 0, 0}, Vec3{0, 1, 0}};
-  std::array<double, 2> deviation = {0, 0};
-};
-
-Spread spread_of(std::span<const Vec3> places) {
-  constexpr int kPowers = 60;
-  Spread spread;
+/// Directions in which places spread, the largest last; the values are variances.
+PrincipalAxes spread_of(std::span<const Vec3> places) {
+  const double share = 1.0 / static_cast<double>(places.size());
   Vec3 mean = {};
-  for (const Vec3& p : places) mean = mean + p * (1.0 / static_cast<double>(places.size()));
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto without = [&](Vec3 v) { return k == 0 ? v : v - spread.axis[0] * dot(v, spread.axis[0]); };
-    Vec3 axis = normalized(without(Vec3{0.6, 0.5, 0.4}));
-    double variance = 0;
-    for (int i = 0; i < kPowers; ++i) {
-      Vec3 next = {};
-      for (const Vec3& p : places) next = next + without(p - mean) * dot(without(p - mean), axis);
-      variance = norm(next) / static_cast<double>(places.size());
-      if (variance <= 0) break;
-      axis = normalized(next);
-    }
-    spread.axis[k] = axis;
-    spread.deviation[k] = std::sqrt(variance);
-  }
-  return spread;
+  for (const Vec3& p : places) mean += share * p;
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vec3& p : places) spread += share * to_eigen(p - mean) * to_eigen(p - mean).transpose();
+  return principal_axes(spread);
 }
 
 /// Mean cosine between pieces of the trailing edges and the way there from the middle of `tails`.
@@ -95,10 +76,10 @@ WingShape shape_of(const LiftingSurface& wing) {
   if (!shape.is_measured) return shape;
   shape.middle = shape.middle * (1.0 / n);
   shape.flow = normalized(shape.flow);
-  const Spread spread = spread_of(tails);
-  shape.along = spread.axis[0];
-  const double axial = std::abs(dot(shape.flow, cross(spread.axis[0], spread.axis[1])));
-  if (spread.deviation[1] > kRing * spread.deviation[0] && axial > kAxial)
+  const PrincipalAxes spread = spread_of(tails);
+  shape.along = spread.axis[2];
+  const double axial = std::abs(dot(shape.flow, spread.axis[0]));
+  if (spread.value[1] > kRing * kRing * spread.value[2] && axial > kAxial)
     (outward_share(wing, tails) > kOutward ? shape.is_rotor : shape.is_ring) = true;
   shape.area = wing.span * wing.median_chord;
   shape.root = wing.largest_chord;
@@ -142,12 +123,11 @@ class GroupSuggester {
 
   /// Another one is alike, and the flow at it goes elsewhere by 25 degrees or more: they turn about an axis.
   bool is_blade(std::size_t w) const {
-    int n_turned = 0;
     for (std::size_t other = 0; other < wings_.size(); ++other) {
       if (other == w || !is_known(other) || shapes_[other].is_ring || !is_alike(w, other)) continue;
-      n_turned += dot(shapes_[w].flow, shapes_[other].flow) < std::cos(radians(kTailplane));
+      if (dot(shapes_[w].flow, shapes_[other].flow) < std::cos(radians(kTailplane))) return true;
     }
-    return n_turned > 0;
+    return false;
   }
 
   /// Square to the symmetry plane, else along the largest wing.

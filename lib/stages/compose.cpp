@@ -137,7 +137,8 @@ class HarmFinder {
   std::vector<std::pair<EdgeId, std::pair<FaceId, CoedgeId>>> uses_;  // ascending
 };
 
-/// "13 faces, 3 after joining (12 are 2 now)" and what was refused, by reason; each refused union is logged.
+/// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each refused union is
+/// logged.
 std::string said(const GeometryArtifact& geometry, const std::vector<std::string>& refused) {
   std::map<std::string, int> reasons;
   for (const std::string& why : refused) {

@@ -89,8 +89,6 @@ Model with_vertices_of(const SurfaceMesh& mesh, Model&& model) {
     x = mesh.node_xyz[n];
   }
   if (is_same) return std::move(model);
-  if (&model.cad() != &model)
-    throw Error(ExitCode::kInput, "a mesh of another program needs the faces of the CAD: import without --composite");
   return model.facets().empty() ? Model(std::move(tables), model.brep()) : Model(std::move(tables), model.facets());
 }
 

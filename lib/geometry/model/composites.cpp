@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/model/id_checks.h"
 #include "geometry/model/model.h"
 
 namespace st {
 namespace {
-
-bool are_offsets(const std::vector<std::int32_t>& offsets, std::size_t n_rows, std::size_t n) {
-  return offsets.size() == n_rows + 1 && offsets.front() == 0 && std::is_sorted(offsets.begin(), offsets.end()) &&
-         static_cast<std::size_t>(offsets.back()) == n;
-}
-
-bool are_below(std::span<const std::int32_t> ids, std::int32_t n) {
-  return std::all_of(ids.begin(), ids.end(), [&](std::int32_t id) { return id >= 0 && id < n; });
-}
 
 bool is_finite(double x) { return std::isfinite(x); }
 bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
@@ -85,7 +77,7 @@ std::string Composites::contradiction(const ModelTables& t) const {
                        n_triangles = triangle_offsets[i + 1] - triangle_offsets[i];
     if (n_triangles == 0) return "triangles of composites";
     for (std::int32_t k = triangle_offsets[i]; k < triangle_offsets[i + 1]; ++k)
-      if (!are_below(triangle_nodes[k], n_nodes) || std::ranges::count(members(i), triangle_face[k]) != 1)
+      if (!are_below(triangle_nodes[k], n_nodes) || !std::ranges::binary_search(members(i), triangle_face[k]))
         return "triangles of composites";
     for (const FaceId f : members(i))
       for (const CoedgeId c : t.coedges(f)) {

@@ -2,21 +2,10 @@
 
 #include <algorithm>
 
+#include "geometry/model/id_checks.h"
 #include "geometry/model/model.h"
 
 namespace st {
-namespace {
-
-bool are_offsets(const std::vector<std::int32_t>& offsets, std::size_t n_rows, std::size_t n) {
-  return offsets.size() == n_rows + 1 && offsets.front() == 0 && std::is_sorted(offsets.begin(), offsets.end()) &&
-         static_cast<std::size_t>(offsets.back()) == n;
-}
-
-bool are_below(std::span<const std::int32_t> ids, std::int32_t n) {
-  return std::all_of(ids.begin(), ids.end(), [&](std::int32_t id) { return id >= 0 && id < n; });
-}
-
-}  // namespace
 
 Chart FacetShape::chart(FaceId f) const {
   const auto first = static_cast<std::ptrdiff_t>(face_node_offsets[f]),

@@ -1,9 +1,7 @@
 #include "geometry/model/facets.h"
 
 #include <BRepBuilderAPI_Copy.hxx>
-#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
-#include <IMeshTools_Parameters.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
 #include <TopLoc_Location.hxx>
@@ -17,6 +15,7 @@
 #include "base/assert.h"
 #include "base/packer.h"
 #include "geometry/brep/compound.h"
+#include "geometry/model/brep_facets.h"
 #include "geometry/model/model_editor.h"
 
 namespace st {
@@ -69,11 +68,7 @@ Facets facets_of(const Model::Impl& brep, std::span<const FaceId> ids, const Fac
     std::vector<TopoDS_Shape> faces;
     for (const FaceId f : ids) faces.push_back(brep.faces(f + 1));
     BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
-    IMeshTools_Parameters parameters;
-    parameters.Deflection = limits.deflection;
-    parameters.Angle = limits.angle;
-    parameters.ControlSurfaceDeflection = limits.is_exact;
-    const BRepMesh_IncrementalMesh mesher(copy.Shape(), parameters);
+    put_facets(copy.Shape(), limits);
     for (const FaceId f : ids) add_face(TopoDS::Face(copy.ModifiedShape(brep.faces(f + 1))), f, facets);
   } catch (const Standard_Failure&) {
     return {};

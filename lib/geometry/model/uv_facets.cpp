@@ -1,9 +1,7 @@
 #include "geometry/model/uv_facets.h"
 
 #include <BRepBuilderAPI_Copy.hxx>
-#include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
-#include <IMeshTools_Parameters.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
 #include <Standard_Failure.hxx>
@@ -14,6 +12,7 @@
 #include <utility>
 
 #include "geometry/brep/compound.h"
+#include "geometry/model/brep_facets.h"
 #include "geometry/model/model_editor.h"
 
 namespace st {
@@ -160,11 +159,7 @@ UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_
     for (std::size_t f = 0; f < is_wanted.size(); ++f)
       if (is_wanted[f]) faces.push_back(brep.faces(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
     BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
-    IMeshTools_Parameters parameters;
-    parameters.Deflection = limits.deflection;
-    parameters.Angle = limits.angle;
-    parameters.ControlSurfaceDeflection = limits.is_exact;
-    const BRepMesh_IncrementalMesh mesher(copy.Shape(), parameters);
+    put_facets(copy.Shape(), limits);
     for (std::size_t f = 0; f < is_wanted.size(); ++f) {
       facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
       if (!is_wanted[f]) continue;

@@ -16,8 +16,8 @@ void StretchEasing::run() {
   n_bad_ = faces_.n_bad();
   share(executor_, n_bad_);
   flaws_ = find_flaws(0);
-  best_ = {count_flaws(), faces_.state(), refinements_.all()};
   if (flaws_are_none()) return;
+  best_ = {count_flaws(), faces_.state(), refinements_.all()};
   run_rounds(&StretchFlaws::stretched);
   if (!is_best_) go_back();
   flaws_ = find_flaws(0);
