@@ -11,6 +11,7 @@
 #include "geometry/shape/projection.h"
 #include "judge/corner_points.h"
 #include "judge/face_surface.h"
+#include "judge/squared_angle.h"
 
 namespace st {
 
@@ -19,11 +20,6 @@ namespace {
 /// A parabola's segment has 2/3 of the box around it; an arc of up to 120 degrees (three sides per circle) has up to 10
 /// % more.
 constexpr double kArcSegment = 2.0 / 3.0 * 1.1;
-
-double distance_to_line(Vec3 p, Vec3 a, Vec3 b) {
-  const double length = distance(a, b);
-  return length > 0 ? norm(cross(p - a, b - a)) / length : distance(p, a);
-}
 
 /// How much of what a side of this length explains one of the requested length would: errors grow with its square.
 /// All, where no length is known.
@@ -128,10 +124,9 @@ struct FacePart {
   Vec3 node_place, off_place, stray_place;
 };
 
-/// Distance of a node from the surface: at its (u,v), or nearer where the projection from there ends.
-double distance_to_surface(const Surface& surface, Vec2 uv, Vec3 on_surface, Vec3 node, double size) {
+/// Distance of a node from the surface: `d`, at its (u,v), or less where the projection from there ends.
+double distance_to_surface(const Surface& surface, Vec2 uv, double d, Vec3 node, double size) {
   constexpr double kNear = 1e-3;  // of its requested length: not worth a projection
-  const double d = distance(on_surface, node);
   if (d <= kNear * size) return d;
   const auto foot = project_near(surface, node, uv);
   return foot ? std::min(d, distance(surface.point(*foot), node)) : d;
@@ -143,17 +138,6 @@ void add_corner(double d, double stray, Vec3 node, double size, FacePart& part) 
   if (d > part.node_distance) part.node_distance = d, part.node_place = node;
   if (off > part.off_surface) part.off_surface = off, part.off_place = node;
   if (stray > part.stray) part.stray = stray, part.stray_place = node;
-}
-
-/// The squared angle between two vectors, rad^2; 0 where one is zero.
-double squared_angle(Vec3 a, Vec3 b) {
-  constexpr double kSmall = 1e-2;  // of the squared sine: the series is exact to 1e-7 of the angle there
-  const double s2 = norm2(cross(a, b)), cosine = dot(a, b), n2 = norm2(a) * norm2(b);
-  if (!(n2 > 0)) return 0;
-  const double q = s2 / n2;
-  if (cosine > 0 && q < kSmall) return q * (1 + q * (1.0 / 3 + q * (8.0 / 45 + q * (4.0 / 35))));
-  const double angle = std::atan2(std::sqrt(s2), cosine);
-  return angle * angle;
 }
 
 /// Sum of the squared angles between the normals at the corners, rad^2; poles have none.
@@ -170,6 +154,7 @@ struct TriangleOnSurface {
   std::array<Vec3, 3> middle;  // of the surface, above the middle of each side
   std::array<Vec3, 3> node;    // of the mesh
   std::array<double, 3> size;
+  double area;  // between the surface's points
 };
 
 /// The triangle of the surface's points at its corners, against its four parts with corners on the surface; and against
@@ -179,14 +164,18 @@ void add_chords(const TriangleOnSurface& t, FacePart& part) {
                                                    // sphere
   constexpr double kSphere = 5.0 / 72.0 * 1.5;     // of the area, per rad^2 of turning
   const auto &x = t.x, &m = t.middle;
-  std::array<double, 3> heights;
-  for (int k = 0; k < 3; ++k) heights[k] = distance_to_line(m[k], x[k], x[(k + 1) % 3]);
-  const double height = *std::max_element(heights.begin(), heights.end());
-  double curved_side = std::numeric_limits<double>::infinity();  // the shortest: along the others less is curved
+  std::array<double, 3> length2, height2;  // of the sides, and of the middles above them, squared
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 side = x[(k + 1) % 3] - x[k], to_middle = m[k] - x[k];
+    length2[k] = norm2(side);
+    height2[k] = length2[k] > 0 ? norm2(cross(to_middle, side)) / length2[k] : norm2(to_middle);
+  }
+  const double largest2 = std::max({height2[0], height2[1], height2[2]}), height = std::sqrt(largest2);
+  double curved2 = std::numeric_limits<double>::infinity();  // the shortest side: along the others less is curved
   for (int k = 0; k < 3; ++k)
-    if (heights[k] >= 0.5 * height) curved_side = std::min(curved_side, distance(x[k], x[(k + 1) % 3]));
-  const double size = (t.size[0] + t.size[1] + t.size[2]) / 3, share = asked_share(curved_side, size);
-  const double flat = area_of(x[0], x[1], x[2]);
+    if (height2[k] >= 0.25 * largest2) curved2 = std::min(curved2, length2[k]);
+  const double size = (t.size[0] + t.size[1] + t.size[2]) / 3, share = asked_share(std::sqrt(curved2), size);
+  const double flat = t.area;
   const double curved =
       area_of(x[0], m[0], m[2]) + area_of(m[0], x[1], m[1]) + area_of(m[2], m[1], x[2]) + area_of(m[0], m[1], m[2]);
   const double found = std::max(kRichardson * std::fabs(curved - flat), kSphere * turning(t.normal) * flat);
@@ -202,15 +191,16 @@ void add_chords(const TriangleOnSurface& t, FacePart& part) {
 void add_nodes(const Surface& surface, const TriangleOnSurface& t, bool has_merged, FacePart& part) {
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
-    const double stray = distance_to_surface(surface, t.uv[k], t.x[k], t.node[k], t.size[k]);
-    add_corner(distance(t.x[k], t.node[k]), stray, t.node[k], t.size[k], part);
+    const double d = distance(t.x[k], t.node[k]);
+    const double stray = distance_to_surface(surface, t.uv[k], d, t.node[k], t.size[k]);
+    add_corner(d, stray, t.node[k], t.size[k], part);
     sum += stray;
   }
-  const double flat = area_of(t.x[0], t.x[1], t.x[2]), area = area_of(t.node[0], t.node[1], t.node[2]);
-  part.moved_volume += sum / 3 * std::max(flat, area);
+  const double area = area_of(t.node[0], t.node[1], t.node[2]);
+  part.moved_volume += sum / 3 * std::max(t.area, area);
   if (!has_merged) return;  // nodes drawn together
-  part.area += std::fabs(area - flat);
-  part.found_area += std::fabs(area - flat);
+  part.area += std::fabs(area - t.area);
+  part.found_area += std::fabs(area - t.area);
 }
 
 void add_part(const FacePart& part, FaceId f, ChordError& error) {
@@ -241,6 +231,7 @@ TriangleOnSurface triangle_of(const SurfaceMesh& mesh, std::size_t t, const Surf
     r.x[k] = p.x;
     r.normal[k] = cross(p.du, p.dv);
   }
+  r.area = area_of(r.x[0], r.x[1], r.x[2]);
   for (int k = 0; k < 3; ++k) {
     const int l = (k + 1) % 3;
     r.middle[k] = points.side(face, nodes[k], nodes[l], r.uv[k], r.uv[l], [&] {

@@ -8,6 +8,7 @@
 #include "base/threads.h"
 #include "geometry/shape/projection.h"
 #include "judge/face_surface.h"
+#include "judge/squared_angle.h"
 
 namespace st {
 
@@ -114,8 +115,8 @@ void add_triangle(const Surface& surface, const SurfaceMesh& mesh, TriangleId t,
   const std::array<Vec3, 3> x{mesh.node_xyz[n[0]], mesh.node_xyz[n[1]], mesh.node_xyz[n[2]]};
   const Vec3 middle = (x[0] + x[1] + x[2]) / 3;
   const Beside b = finder.beside(surface, x, &mesh.corner_uv[3 * static_cast<std::size_t>(t)]);
-  const double angle = angle_between(cross(x[1] - x[0], x[2] - x[0]), side * b.normal);
-  stats.add(middle, b.distance, degrees(angle));
+  const double squared = squared_angle(cross(x[1] - x[0], x[2] - x[0]), side * b.normal);
+  stats.add(middle, b.distance, degrees(std::sqrt(squared)));
 }
 
 /// +1 for faces whose triangles run counter-clockwise in (u,v), -1 for those turned at output: by the sum of their

@@ -74,13 +74,12 @@ void find_duplicates(const SurfaceMesh& mesh, NodeId high, std::span<const SideI
 
 /// Joins the corners that an edge puts into one fan, at both of its nodes.
 void join_fans(const SurfaceMesh& mesh, std::span<const SideId> sides, DisjointSets& corners) {
-  const auto corner_at = [&](SideId s, NodeId n) {
-    return mesh.triangles[s / 3].n[s % 3] == n ? s : s / 3 * 3 + (s % 3 + 1) % 3;
-  };
-  const NodeId a = side_start(mesh.triangles, sides[0]), b = mesh.triangles[sides[0] / 3].n[(sides[0] % 3 + 1) % 3];
+  const auto end_of = [](SideId s) { return s % 3 == 2 ? s - 2 : s + 1; };
   for (std::size_t i = 1; i < sides.size(); ++i) {
-    corners.join(corner_at(sides[0], a), corner_at(sides[i], a));
-    corners.join(corner_at(sides[0], b), corner_at(sides[i], b));
+    SideId from = sides[i], to = end_of(from);
+    if (!run_alike(mesh.triangles, sides[0], sides[i])) std::swap(from, to);
+    corners.join(sides[0], from);
+    corners.join(end_of(sides[0]), to);
   }
 }
 
@@ -216,7 +215,17 @@ class LastAtPlace {
   std::vector<NodeId> slots_;
 };
 
+/// Whether any two nodes are at one place.
+bool has_equal_places(std::span<const Vec3> xyz) {
+  const std::vector<std::int32_t> one_component(xyz.size(), 0);
+  LastAtPlace last(xyz, one_component);
+  for (std::size_t n = 0; n < xyz.size(); ++n)
+    if (last.exchange(static_cast<NodeId>(n)) != kNone) return true;
+  return false;
+}
+
 void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
+  if (!has_equal_places(mesh.node_xyz)) return;
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   const auto is_vertex = [&](NodeId n) {

@@ -15,15 +15,8 @@ namespace {
 
 constexpr std::size_t kPerPiece = 16'384;  // triangles or nodes
 
-double quality_of(double area, Vec3 a, Vec3 b, Vec3 c) {
-  const double sum = norm2(b - a) + norm2(c - b) + norm2(a - c);
-  return sum > 0 ? 4 * std::sqrt(3.0) * area / sum : 0;
-}
-
-std::array<double, 3> angles_of(const TriangleCorners& corners, TriangleId t) {
-  const auto [a, b, c] = corners(t);
-  return triangle_angles_deg(a, b, c);
-}
+/// `squares`: sum of the squared lengths of the sides.
+double quality_of(double area, double squares) { return squares > 0 ? 4 * std::sqrt(3.0) * area / squares : 0; }
 
 /// The bin of a value among bins of one width from `first`, the last without end.
 template <std::size_t n>
@@ -33,15 +26,68 @@ std::int64_t& bin_of(std::array<std::int64_t, n>& histogram, double value, doubl
   return histogram[static_cast<std::size_t>(std::min(bin, static_cast<double>(n - 1)))];
 }
 
-void add_angles(const std::array<double, 3>& angle_deg, double largest, QualityStats& s) {
-  const double smallest = std::min({angle_deg[0], angle_deg[1], angle_deg[2]});
-  s.min_angle_deg = std::min(s.min_angle_deg, smallest);
-  s.max_angle_deg = std::max(s.max_angle_deg, largest);
-  s.n_below_20_deg += smallest < 20;
-  s.n_below_10_deg += smallest < 10;
-  s.n_below_5_deg += smallest < 5;
-  s.n_above_150_deg += largest > kLargeAngleDeg;
-  for (const double angle : angle_deg) ++bin_of(s.angle_histogram, angle, 0, 10);
+/// Statistics of some triangles of a face. Angles are counted by their cosines, and worked out where one is smaller or
+/// larger than those before.
+struct ShapeSum {
+  QualityStats stats;
+  double most_acute = -1, most_obtuse = 1;  ///< cosines
+};
+
+double cosine_deg(double angle) { return std::cos(angle * kPi / 180); }
+
+struct TriangleShape {
+  double area, quality;
+  std::array<double, 3> cosine;  ///< of its angles
+};
+
+TriangleShape shape_of(const std::array<Vec3, 3>& x) {
+  const Vec3 ab = x[1] - x[0], ac = x[2] - x[0], bc = x[2] - x[1];
+  const double ab2 = norm2(ab), ac2 = norm2(ac), bc2 = norm2(bc), area = 0.5 * norm(cross(ab, ac));
+  return {
+      area,
+      quality_of(area, ab2 + ac2 + bc2),
+      {dot(ab, ac) / std::sqrt(ab2 * ac2), -dot(ab, bc) / std::sqrt(ab2 * bc2), dot(ac, bc) / std::sqrt(ac2 * bc2)}};
+}
+
+/// The bin of 10 degrees that an angle lies in: the first for NaN, of sides without length.
+std::size_t angle_bin(double cosine) {
+  static const auto ends = [] {
+    std::array<double, std::tuple_size_v<decltype(QualityStats::angle_histogram)> - 1> cosines;
+    for (std::size_t k = 0; k < cosines.size(); ++k) cosines[k] = cosine_deg(10.0 * static_cast<double>(k + 1));
+    return cosines;
+  }();
+  std::size_t bin = 0;
+  for (const double end : ends) bin += cosine <= end;
+  return bin;
+}
+
+/// Counts the angles of a triangle with corners `x`, and the smallest.
+void add_angles(const std::array<Vec3, 3>& x, const std::array<double, 3>& cosine, ShapeSum& sum) {
+  static const double cos5 = cosine_deg(5);
+  QualityStats& s = sum.stats;
+  std::size_t smallest = s.angle_histogram.size();
+  for (const double c : cosine) {
+    const std::size_t bin = angle_bin(c);
+    smallest = std::min(smallest, bin);
+    ++s.angle_histogram[bin];
+  }
+  s.n_below_20_deg += smallest < 2;
+  s.n_below_10_deg += smallest < 1;
+  const double acute = std::ranges::max(cosine);
+  s.n_below_5_deg += acute > cos5;
+  if (acute <= sum.most_acute) return;
+  sum.most_acute = acute;
+  s.min_angle_deg = std::min(s.min_angle_deg, std::ranges::min(triangle_angles_deg(x[0], x[1], x[2])));
+}
+
+void add_largest_angle(const std::array<Vec3, 3>& x, const std::array<double, 3>& cosine, ShapeSum& sum) {
+  static const double cos_large = cosine_deg(kLargeAngleDeg);
+  const double obtuse = std::ranges::min(cosine);
+  sum.stats.n_above_150_deg += obtuse < cos_large;
+  if (obtuse >= sum.most_obtuse) return;
+  sum.most_obtuse = obtuse;
+  double& largest = sum.stats.max_angle_deg;
+  largest = std::max(largest, std::ranges::max(triangle_angles_deg(x[0], x[1], x[2])));
 }
 
 /// The k-th smallest value. Reorders `values`.
@@ -56,16 +102,24 @@ double percentile(std::vector<double>& values, double share) {
 }
 
 /// Statistics of parts: `mean` is the sum until finish(), `p1` is set by set_percentiles().
-void add_triangle(const SurfaceMesh& mesh, const TriangleCorners& corners, TriangleId t, double quality,
-                  QualityStats& s) {
+TriangleShape add_triangle(const SurfaceMesh& mesh, const TriangleCorners& corners, TriangleId t, ShapeSum& sum) {
+  const std::array<Vec3, 3> x = corners(t);
+  const TriangleShape shape = shape_of(x);
+  const double quality = shape.quality;
+  QualityStats& s = sum.stats;
   if (s.n_triangles++ == 0) s.min = 2, s.min_angle_deg = 180;
   s.mean += quality;
   s.n_below_03 += quality < 0.3;
   ++s.histogram[std::clamp(static_cast<int>(10 * quality), 0, 9)];
   if (quality < s.min) s.min = quality, s.worst = t;
-  const auto angles = angles_of(corners, t);
-  const auto in_space = corners.is_stretched() ? angles_of(TriangleCorners(mesh), t) : angles;
-  add_angles(angles, *std::max_element(in_space.begin(), in_space.end()), s);
+  add_angles(x, shape.cosine, sum);
+  if (corners.is_stretched()) {
+    const std::array<Vec3, 3> in_space = TriangleCorners(mesh)(t);
+    add_largest_angle(in_space, shape_of(in_space).cosine, sum);
+  } else {
+    add_largest_angle(x, shape.cosine, sum);
+  }
+  return shape;
 }
 
 void add_part(const QualityStats& part, QualityStats& s) {
@@ -96,21 +150,24 @@ Stats& at(std::vector<Stats>& list, std::int32_t i) {
 }
 
 /// Model, groups and faces but for the percentiles: each piece of the mesh has its own sums, added up in order.
-void add_shapes(const SurfaceMesh& mesh, const TriangleCorners& corners, std::span<const double> quality,
-                QualityReport& report) {
-  using Parts = std::map<std::pair<FaceId, std::int32_t>, QualityStats>;
+void add_shapes(const SurfaceMesh& mesh, const TriangleCorners& corners, std::span<double> quality,
+                std::span<double> area, QualityReport& report) {
+  using Parts = std::map<std::pair<FaceId, std::int32_t>, ShapeSum>;
   std::vector<Parts> pieces((quality.size() + kPerPiece - 1) / kPerPiece);
   parallel_for(quality.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
     Parts& parts = pieces[begin / kPerPiece];
-    for (std::size_t t = begin; t < end; ++t)
-      add_triangle(mesh, corners, static_cast<TriangleId>(t), quality[t],
-                   parts[{mesh.triangle_face[t], mesh.triangle_group[t]}]);
+    for (std::size_t t = begin; t < end; ++t) {
+      const TriangleShape shape = add_triangle(mesh, corners, static_cast<TriangleId>(t),
+                                               parts[{mesh.triangle_face[t], mesh.triangle_group[t]}]);
+      quality[t] = shape.quality;
+      area[t] = shape.area;
+    }
   });
   for (const Parts& parts : pieces)
     for (const auto& [key, part] : parts) {
-      add_part(part, report.model);
-      add_part(part, at(report.faces, key.first));
-      add_part(part, at(report.groups, key.second));
+      add_part(part.stats, report.model);
+      add_part(part.stats, at(report.faces, key.first));
+      add_part(part.stats, at(report.groups, key.second));
     }
   finish(report.model);
   for (auto* list : {&report.faces, &report.groups})
@@ -167,7 +224,9 @@ void JumpStats::add(double ratio) {
   ++bin_of(histogram, ratio, 1, kBinWidth);
 }
 
-double triangle_quality(Vec3 a, Vec3 b, Vec3 c) { return quality_of(0.5 * norm(cross(b - a, c - a)), a, b, c); }
+double triangle_quality(Vec3 a, Vec3 b, Vec3 c) {
+  return quality_of(0.5 * norm(cross(b - a, c - a)), norm2(b - a) + norm2(c - b) + norm2(a - c));
+}
 
 /// Of the three nodes, the mean of their vectors up to the sign, which has no meaning.
 std::array<Vec3, 3> TriangleCorners::operator()(TriangleId t) const {
@@ -187,17 +246,10 @@ QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges) {
 
 QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners) {
   std::vector<double> quality(mesh.triangles.size()), area(mesh.triangles.size());
-  parallel_for(quality.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const auto [a, b, c] = corners(static_cast<TriangleId>(t));
-      area[t] = 0.5 * norm(cross(b - a, c - a));
-      quality[t] = quality_of(area[t], a, b, c);
-    }
-  });
   QualityReport report;
   report.groups.resize(mesh.labels.group_name.size());
   report.faces.resize(mesh.labels.face_name.size());
-  add_shapes(mesh, corners, quality, report);
+  add_shapes(mesh, corners, quality, area, report);
   set_percentiles(mesh.triangle_group, quality, report.groups);
   set_percentiles(mesh.triangle_face, quality, report.faces);
   measure_jumps(mesh, edges, area, report);
@@ -213,6 +265,16 @@ void ConformityStats::add(double ratio) {
   n_within += ratio >= kConformityMin && ratio <= kConformityMax;
   sum += ratio;
   ++bin_of(histogram, ratio, 0, kBinWidth);
+}
+
+void ConformityStats::add(const ConformityStats& other) {
+  if (other.n_edges == 0) return;
+  min = n_edges ? std::min(min, other.min) : other.min;
+  max = n_edges ? std::max(max, other.max) : other.max;
+  n_edges += other.n_edges;
+  n_within += other.n_within;
+  sum += other.sum;
+  for (std::size_t k = 0; k < histogram.size(); ++k) histogram[k] += other.histogram[k];
 }
 
 namespace {
@@ -311,7 +373,6 @@ ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& ed
   std::size_t n_seen = 0;
   edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
     const double ratio = ratios[n_seen++];
-    report.model.add(ratio);
     if (!forced.take(a, b, sides, ratio)) {
       report.free.add(ratio);
       if (ratio < kConformityMin || ratio > kConformityMax)
@@ -322,6 +383,7 @@ ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& ed
     at(report.groups, mesh.triangle_group[sides[0] / 3]).add(ratio);
     at(report.faces, mesh.triangle_face[sides[0] / 3]).add(ratio);
   });
+  for (const ConformityStats& face : report.faces) report.model.add(face);
   report.forced = forced.places();
   if (ratios.empty()) return report;
   report.p1 = percentile(ratios, 0.01);

@@ -94,6 +94,7 @@ struct ConformityStats {
   double share() const { return n_edges ? static_cast<double>(n_within) / static_cast<double>(n_edges) : 1.0; }
   double mean() const { return n_edges ? sum / static_cast<double>(n_edges) : 1.0; }
   void add(double ratio);
+  void add(const ConformityStats& other);
 };
 
 inline constexpr double kConformityMin = 0.7, kConformityMax = 1.4;

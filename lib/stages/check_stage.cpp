@@ -105,15 +105,14 @@ double slack_area(const ModelTables& tables, FaceId f) {
 }
 
 /// Width of each face however it is turned: of the rectangle with the same area and moment of inertia about its long
-/// axis, as the mesh has it. So a cylinder is about as wide as its diameter. [n_faces] model unit.
-std::vector<double> face_extents(const SurfaceMesh& mesh, std::size_t n_faces) {
+/// axis, as the mesh has it. So a cylinder is about as wide as its diameter. `origin` [n_faces]: near each face.
+/// Returns [n_faces] model unit.
+std::vector<double> face_extents(const SurfaceMesh& mesh, std::span<const Vec3> origin) {
   struct Moments {
     double area = 0;
-    Vec3 first;
-    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+    Vec3 first, squares, products;  // products: y z, z x, x y
   };
-  std::vector<Moments> faces(n_faces);
-  const std::vector<Vec3> origin = face_places(mesh, n_faces);
+  std::vector<Moments> faces(origin.size());
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
     const FaceId f = mesh.triangle_face[t];
     std::array<Vec3, 3> x;
@@ -122,15 +121,20 @@ std::vector<double> face_extents(const SurfaceMesh& mesh, std::size_t n_faces) {
     const Vec3 sum = x[0] + x[1] + x[2];
     faces[f].area += area;
     faces[f].first = faces[f].first + area / 3 * sum;
-    for (const Vec3 p : {x[0], x[1], x[2], sum}) {
-      faces[f].second += area / 12 * to_eigen(p) * to_eigen(p).transpose();
+    for (const Vec3& p : {x[0], x[1], x[2], sum}) {
+      faces[f].squares += area / 12 * Vec3{p.x * p.x, p.y * p.y, p.z * p.z};
+      faces[f].products += area / 12 * Vec3{p.y * p.z, p.z * p.x, p.x * p.y};
     }
   }
   std::vector<double> width;
   for (const Moments& m : faces) {
     const double area = std::max(m.area, 1e-300);
     const Eigen::Vector3d middle = to_eigen(m.first) / area;
-    const PrincipalAxes axes = principal_axes(m.second / area - middle * middle.transpose());
+    Eigen::Matrix3d second = to_eigen(m.squares).asDiagonal();
+    second(1, 2) = second(2, 1) = m.products.x;
+    second(0, 2) = second(2, 0) = m.products.y;
+    second(0, 1) = second(1, 0) = m.products.z;
+    const PrincipalAxes axes = principal_axes(second / area - middle * middle.transpose());
     width.push_back(std::sqrt(12 * std::max(0.0, axes.value[1])));
   }
   return width;
@@ -153,7 +157,7 @@ AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, cons
   constexpr double kWide = 2;  // requested lengths
   AreaChecks c;
   const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
-  const std::vector<double> extent = face_extents(mesh, tables.n_faces());
+  const std::vector<double> extent = face_extents(mesh, place);
   double largest = 0;
   FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {

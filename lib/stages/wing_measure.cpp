@@ -34,10 +34,16 @@ struct Ball {
 class WingMesh {
  public:
   WingMesh(const SurfaceMesh& mesh, const WingRecord& wing) : mesh_(mesh) {
+    FaceId last = kNone;  // triangles come face by face
+    bool is_skin = false, is_base = false;
     for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-      const FaceId f = mesh.triangle_face[t];
-      if (wing.faces.empty() || std::ranges::binary_search(wing.faces, f)) skin_.push_back(ball_of(t));
-      if (std::ranges::binary_search(wing.bases, f)) base_.push_back(ball_of(t));
+      if (const FaceId f = mesh.triangle_face[t]; f != last) {
+        last = f;
+        is_skin = wing.faces.empty() || std::ranges::binary_search(wing.faces, f);
+        is_base = std::ranges::binary_search(wing.bases, f);
+      }
+      if (is_skin) skin_.push_back(ball_of(t));
+      if (is_base) base_.push_back(ball_of(t));
     }
     Box3 box;
     for (const WingRecord::Station& s : wing.stations) box.add(s.trailing);

@@ -69,6 +69,40 @@ TEST(Quality, histogram_of_angles_of_half_squares_has_two_bins) {
   EXPECT_EQ(r.model.angle_histogram[8] + r.model.angle_histogram[9], 300);
 }
 
+TEST(Quality, angles_are_those_of_the_inverse_tangent) {
+  const std::vector<Vec3> x{{0, 0, 0},   {1, 0, 0},         {0.4, 0.02, 0}, {3, 0.3, 0.1},
+                            {0.5, 2, 1}, {0.52, 2.1, 1.05}, {0, 1, 1e-3}};
+  std::vector<Triangle> triangles;
+  for (NodeId a = 0; a < 7; ++a)
+    for (NodeId b = a + 1; b < 7; ++b)
+      for (NodeId c = b + 1; c < 7; ++c) triangles.push_back({{a, b, c}});
+  const SurfaceMesh m = shapes::from(x, triangles);
+  const QualityStats q = measure_quality(m, edges_of(m)).model;
+  QualityStats expected;
+  expected.min_angle_deg = 180;
+  for (const Triangle& t : triangles) {
+    const std::array<double, 3> angles = triangle_angles_deg(x[t.n[0]], x[t.n[1]], x[t.n[2]]);
+    for (const double angle : angles) ++expected.angle_histogram[static_cast<std::size_t>(angle / 10)];
+    const auto [smallest, largest] = std::ranges::minmax(angles);
+    expected.min_angle_deg = std::min(expected.min_angle_deg, smallest);
+    expected.max_angle_deg = std::max(expected.max_angle_deg, largest);
+    expected.n_below_20_deg += smallest < 20;
+    expected.n_below_10_deg += smallest < 10;
+    expected.n_below_5_deg += smallest < 5;
+    expected.n_above_150_deg += largest > kLargeAngleDeg;
+  }
+  EXPECT_EQ(q.angle_histogram, expected.angle_histogram);
+  EXPECT_EQ(q.min_angle_deg, expected.min_angle_deg);
+  EXPECT_EQ(q.max_angle_deg, expected.max_angle_deg);
+  EXPECT_EQ(q.n_below_20_deg, expected.n_below_20_deg);
+  EXPECT_EQ(q.n_below_10_deg, expected.n_below_10_deg);
+  EXPECT_EQ(q.n_below_5_deg, expected.n_below_5_deg);
+  EXPECT_EQ(q.n_above_150_deg, expected.n_above_150_deg);
+  EXPECT_GT(q.n_below_20_deg, q.n_below_10_deg);  // each count has triangles of its own
+  EXPECT_GT(q.n_below_10_deg, q.n_below_5_deg);
+  EXPECT_GT(q.n_above_150_deg, 0);
+}
+
 TEST(Quality, counts_triangles_by_their_smallest_angle) {
   const auto flat = [](double height) { return shapes::from({{0, 0, 0}, {1, 0, 0}, {0.5, height, 0}}, {{{0, 1, 2}}}); };
   const auto below = [&](double angle_deg) {
