@@ -146,6 +146,7 @@ class BackgroundSource final : public SizeSource {
  public:
   BackgroundSource(BackgroundMesh mesh, double slope) : SizeSource(slope), mesh_(std::move(mesh)) {
     border_ = border_of(mesh_);
+    border_.insert(border_.end(), mesh_.triangles.begin(), mesh_.triangles.end());
     leave_out_flat();
     for (const LocalSize& s : mesh_.node_size) {
       min_size_ = std::min(min_size_, s.length);
@@ -396,6 +397,22 @@ class GrowthLimiter {
 
 }  // namespace
 
+LocalSize uniaxial(const LocalSize& s) {
+  constexpr double kEqual = 1 + 1e-6;
+  const bool is_stretched = s.along > kEqual * s.length && norm(s.direction) > 0;
+  return is_stretched ? LocalSize{s.length, s.along, normalized(s.direction)} : LocalSize{s.length, s.length, {}};
+}
+
+LocalSize size_of_metric(const std::array<double, 6>& metric) {
+  const auto [xx, yy, zz, xy, yz, xz] = metric;
+  if (!std::isfinite(xx + yy + zz + xy + yz + xz)) return {};
+  Eigen::Matrix3d m;
+  m << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  const PrincipalAxes axes = principal_axes(m);
+  if (!(axes.value[0] > 0)) return {};
+  return uniaxial({1 / std::sqrt(axes.value[2]), 1 / std::sqrt(axes.value[0]), axes.axis[0]});
+}
+
 std::int64_t remove_stretch(BackgroundMesh& mesh) {
   std::int64_t n_stretched = 0;
   for (LocalSize& s : mesh.node_size) {
@@ -418,6 +435,10 @@ void append(const BackgroundMesh& other, BackgroundMesh& mesh) {
   for (std::array<std::int32_t, 4> tet : other.tets) {
     for (std::int32_t& node : tet) node += first;
     mesh.tets.push_back(tet);
+  }
+  for (std::array<std::int32_t, 3> triangle : other.triangles) {
+    for (std::int32_t& node : triangle) node += first;
+    mesh.triangles.push_back(triangle);
   }
 }
 

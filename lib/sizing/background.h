@@ -1,4 +1,4 @@
-// Background meshes: lengths at the nodes of tetrahedra, as solvers and other meshers store them.
+// Background meshes: lengths at the nodes of tetrahedra or triangles, as solvers and other meshers store them.
 #pragma once
 
 #include <array>
@@ -15,15 +15,24 @@ namespace st {
 struct BackgroundMesh {
   std::vector<Vec3> node_xyz;
   std::vector<LocalSize> node_size;
-  std::vector<std::array<std::int32_t, 4>> tets;  ///< nodes, any orientation
+  std::vector<std::array<std::int32_t, 4>> tets;       ///< nodes, any orientation
+  std::vector<std::array<std::int32_t, 3>> triangles;  ///< of surfaces, from which lengths grow like from the border
+
+  bool is_empty() const { return tets.empty() && triangles.empty(); }
 };
+
+/// The lengths of a metric xx yy zz xy yz xz: its longest along its direction, the smallest in the others. Length 0
+/// where it is not positive definite.
+LocalSize size_of_metric(const std::array<double, 6>& metric);
+/// Nearly equal lengths are one; a direction of any length.
+LocalSize uniaxial(const LocalSize& s);
 
 /// Takes the smallest length in all directions; the number of nodes that had a longer one.
 std::int64_t remove_stretch(BackgroundMesh& mesh);
 
 void transform(const Similarity& motion, BackgroundMesh& mesh);
 
-/// Appends the nodes and tetrahedra of another mesh.
+/// Appends the nodes and cells of another mesh.
 void append(const BackgroundMesh& other, BackgroundMesh& mesh);
 
 /// Lowers lengths of nodes until no tetrahedron has a gradient above `slope`, then longer ones until the same holds for

@@ -15,7 +15,7 @@ struct SourceSet {
   BackgroundMesh background;        ///< of all files together, limited to the slope
   double slope = 0;                 ///< by which their lengths grow, > 0 where there are any
 
-  bool is_empty() const { return sources.empty() && background.tets.empty(); }
+  bool is_empty() const { return sources.empty() && background.is_empty(); }
   /// Smallest length that any of them asks for; infinity where it is empty. That of the tree, without making one.
   double min_size() const;
   /// Null where it is empty.

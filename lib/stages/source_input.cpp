@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "base/nearest_name.h"
 #include "io/file/text_file.h"
+#include "io/foreign/size_mesh.h"
 
 namespace st {
 namespace {
@@ -143,9 +144,15 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
   const auto take = [&](SourceFile&& file, const std::string& path, const std::string& role) {
     merge(specs, file, path);
     add_background(std::move(file.background), motion, is_stretched, input);
-    input.files.push_back(file_ref(role, path));
+    if (is_size_mesh(path))
+      for (const std::string& part : files_of_size_mesh(path)) input.files.push_back(file_ref(role, part));
+    else
+      input.files.push_back(file_ref(role, path));
   };
-  if (!background.empty()) take(read_background_file(background), background, "background");
+  if (is_size_mesh(background))
+    take({{}, read_size_mesh(background), {}}, background, "background");
+  else if (!background.empty())
+    take(read_background_file(background), background, "background");
   for (const std::string& path : files) take(read_source_file(path, scale), path, "sources");
   limit_background(slope, input.set.background);
   for (SourceSpec& spec : specs) {

@@ -90,6 +90,51 @@ class Sizes(ToolTest):
             self.assertLess(abs(float(row["length"]) / at["length"] - 1), 0.35)
 
 
+class OfAnotherProgram(ToolTest):
+    """Lengths on the nodes of a mesh that a mesh adapter or a solver wrote."""
+
+    def setUp(self):
+        super().setUp()
+        box = artifacts_of("box")
+        self.raster = box / "raster.hdf"
+        must("st-export", box / "mesh.hdf", "--sizing", box / "sizing.hdf", "-o", self.folder / "flow.sol")
+        must("st-export", box / "mesh.hdf", "-o", self.folder / "flow.mesh")
+        head, *lengths = (self.folder / "flow.sol").read_text().split("1 1\n")
+        self.lengths = [float(v) for v in lengths[0].split()[:-1]]
+        self.head = head + "1 1\n"
+
+    def write(self, values):
+        (self.folder / "flow.sol").write_text(self.head + "\n".join(map(str, values)) + "\nEnd\n")
+
+    def prolong(self, background):
+        return must("st-prolong", self.raster, "-o", self.folder / "s.hdf", "--background", self.folder / background,
+                    "--json").json()["expected_triangles"]
+
+    def test_lengths_of_a_solution_count_on_the_surface_that_they_are_given_on(self):
+        self.write([0.25 * h for h in self.lengths])
+        fine = self.prolong("flow.sol")
+        self.assertEqual(self.prolong("flow.mesh"), fine)  # either of the two names both
+        self.write(self.lengths)
+        self.assertAlmostEqual(fine / self.prolong("flow.sol"), 16, delta=0.5)
+
+    def test_an_array_of_vtkhdf_counts_by_its_name(self):
+        mesh = self.folder / "mesh.hdf"
+        mesh.write_bytes((artifacts_of("box") / "mesh.hdf").read_bytes())
+        self.assertEqual(self.prolong("mesh.hdf:size"), self.prolong("mesh.hdf"))
+        self.expect_error(INPUT, "st-prolong", self.raster, "-o", self.folder / "n.hdf", "--background",
+                          f"{mesh}:none", says="has no array 'none'")
+
+    def test_what_cannot_be_read_is_refused_by_name(self):
+        for values, says in ((self.lengths[1:], "'End' is no number"),
+                             ([-1.0] + self.lengths[1:], "have no length above 0")):
+            self.write(values)
+            self.expect_error(INPUT, "st-prolong", self.raster, "-o", self.folder / "n.hdf", "--background",
+                              self.folder / "flow.sol", says=says)
+        (self.folder / "flow.mesh").unlink()
+        self.expect_error(INPUT, "st-prolong", self.raster, "-o", self.folder / "n.hdf", "--background",
+                          self.folder / "flow.sol", says="no mesh beside it")
+
+
 class Sources(ToolTest):
     """Sources and backgrounds count exactly, and can be changed in a finished field."""
 

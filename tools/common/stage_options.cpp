@@ -73,8 +73,9 @@ void declare(OptionSet& set, ProlongStageOptions& o) {
   set.number(o.kTargetTriangles, o.target_triangles);
   set.number(o.kMaxTriangles, o.max_triangles);
   set.optional_inputs("--sources", o.sources, "file with sources: TOML, .bac or .ba3; repeatable");
-  set.optional_input("--background", o.background,
-                     "background mesh with edge lengths: .bac, .ba3 or .msh (version 2.2)");
+  set.optional_array("--background", o.background,
+                     "mesh with edge lengths or metrics at its nodes: .bac, .ba3, .msh (version 2.2), .sol, .solb with "
+                     "its mesh, .vtu or .vtkhdf with an ARRAY");
   set.text("--transform", o.transform, "STEPS",
            "move sources and background: 'rotate X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'");
   set.optional_input("--blank", o.blank, "closed mesh that lengths do not pass, instead of the raster's own surface");

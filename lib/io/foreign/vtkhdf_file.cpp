@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "io/foreign/cell_file.h"
 #include "io/foreign/triangulation_file.h"
 #include "io/hdf5/hdf5_open.h"
 
@@ -25,33 +26,57 @@ class VtkhdfParser {
   VtkhdfParser& operator=(const VtkhdfParser&) = delete;
 
   TriangulationFile run() {
-    const auto xyz = require<double>("Points", H5T_NATIVE_DOUBLE);
-    const auto n_cells = require<std::int64_t>("NumberOfCells", H5T_NATIVE_INT64);  // of each part
-    if (n_cells.size() != 1) fail("has " + std::to_string(n_cells.size()) + " parts; write the mesh as one");
-    const auto nodes = require<std::int64_t>("Connectivity", H5T_NATIVE_INT64),
-               offsets = require<std::int64_t>("Offsets", H5T_NATIVE_INT64),
-               types = require<std::int64_t>("Types", H5T_NATIVE_INT64);
+    CellFile cells = read_cells();
     const auto face = read<std::int64_t>("CellData/face", H5T_NATIVE_INT64);
-    if (xyz.size() % 3 != 0 || offsets.size() != types.size() + 1 ||
-        n_cells[0] != static_cast<std::int64_t>(types.size()))
-      fail("has arrays that do not fit each other");
     TriangulationFile result;
-    for (std::size_t i = 0; i < xyz.size(); i += 3) result.node_xyz.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
-    for (std::size_t c = 0; c < types.size(); ++c) {
+    result.node_xyz = std::move(cells.node_xyz);
+    for (std::size_t c = 0; c < cells.type.size(); ++c) {
       constexpr std::int64_t kTriangle = 5;
-      if (types[c] != kTriangle) fail("cell " + std::to_string(c) + " is no triangle; write triangles only");
-      if (offsets[c] < 0 || offsets[c + 1] != offsets[c] + 3 || static_cast<std::size_t>(offsets[c + 1]) > nodes.size())
-        fail("cell " + std::to_string(c) + " has offsets that do not fit");
-      const std::int64_t* n = nodes.data() + offsets[c];
+      if (cells.type[c] != kTriangle) fail("cell " + std::to_string(c) + " is no triangle; write triangles only");
+      if (cells.offset[c + 1] != cells.offset[c] + 3) fail(misfit(c));
+      const std::int64_t* n = cells.node.data() + cells.offset[c];
       result.triangles.push_back({n[0], n[1], n[2]});
-      if (face && face->size() == types.size()) result.surface.push_back((*face)[c]);
+      if (face && face->size() == cells.type.size()) result.surface.push_back((*face)[c]);
     }
-    if (auto size = read<double>("PointData/size", H5T_NATIVE_DOUBLE); size && 3 * size->size() == xyz.size())
+    if (auto size = read<double>("PointData/size", H5T_NATIVE_DOUBLE); size && size->size() == result.node_xyz.size())
       result.node_size = std::move(*size);
     return result;
   }
 
+  CellFile read_with_sizes(const std::string& array) {
+    CellFile cells = read_cells();
+    for (const char* usual : kUsualSizes) {
+      auto values = read<double>("PointData/" + (array.empty() ? usual : array), H5T_NATIVE_DOUBLE);
+      if (!values) continue;
+      cells.value = std::move(*values);
+      return cells;
+    }
+    fail(missing_sizes(array));
+  }
+
  private:
+  CellFile read_cells() const {
+    const auto xyz = require<double>("Points", H5T_NATIVE_DOUBLE);
+    const auto n_cells = require<std::int64_t>("NumberOfCells", H5T_NATIVE_INT64);  // of each part
+    if (n_cells.size() != 1) fail("has " + std::to_string(n_cells.size()) + " parts; write the mesh as one");
+    CellFile cells;
+    cells.node = require<std::int64_t>("Connectivity", H5T_NATIVE_INT64);
+    cells.offset = require<std::int64_t>("Offsets", H5T_NATIVE_INT64);
+    cells.type = require<std::int64_t>("Types", H5T_NATIVE_INT64);
+    if (xyz.size() % 3 != 0 || cells.offset.size() != cells.type.size() + 1 ||
+        n_cells[0] != static_cast<std::int64_t>(cells.type.size()))
+      fail("has arrays that do not fit each other");
+    for (std::size_t i = 0; i < xyz.size(); i += 3) cells.node_xyz.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+    for (std::size_t c = 0; c < cells.type.size(); ++c)
+      if (cells.offset[c] < 0 || cells.offset[c + 1] < cells.offset[c] ||
+          static_cast<std::size_t>(cells.offset[c + 1]) > cells.node.size())
+        fail(misfit(c));
+    return cells;
+  }
+  static std::string misfit(std::size_t cell) {
+    return "cell " + std::to_string(cell) + " has offsets that do not fit";
+  }
+
   [[noreturn]] void fail(const std::string& what) const { throw Error(ExitCode::kInput, path_ + ": " + what); }
 
   /// The whole dataset; nullopt: there is none of this name, or it is not made of numbers.
@@ -102,5 +127,9 @@ bool is_foreign_vtkhdf(const std::string& path) {
 }
 
 TriangulationFile read_vtkhdf(const std::string& path) { return VtkhdfParser(path).run(); }
+
+CellFile read_vtkhdf_cells(const std::string& path, const std::string& array) {
+  return VtkhdfParser(path).read_with_sizes(array);
+}
 
 }  // namespace st

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "io/file/byte_cursor.h"
+#include "io/foreign/cell_file.h"
 #include "io/foreign/triangulation_file.h"
 
 namespace st {
@@ -53,15 +54,25 @@ class VtuParser {
   VtuParser(const std::string& path, const std::string& bytes) : path_(path), bytes_(bytes) {}
 
   TriangulationFile run() {
-    read_head();
-    const std::string_view piece = find_piece();
-    n_nodes_ = count_of(piece, "NumberOfPoints");
-    n_cells_ = count_of(piece, "NumberOfCells");
-    TriangulationFile result;
-    const std::vector<double> xyz = values<double>(require("Points", ""), 3 * n_nodes_);
-    for (std::size_t i = 0; i < n_nodes_; ++i) result.node_xyz.push_back({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
+    TriangulationFile result = read_nodes();
     read_cells(result);
     if (const auto size = find("PointData", "size")) result.node_size = values<double>(*size, n_nodes_);
+    return result;
+  }
+
+  CellFile cells(const std::string& array) {
+    const TriangulationFile nodes = read_nodes();
+    CellFile result;
+    result.node_xyz = nodes.node_xyz;
+    result.type = values<std::int64_t>(require("Cells", "types"), n_cells_);
+    result.offset = values<std::int64_t>(require("Cells", "offsets"), n_cells_);
+    result.offset.insert(result.offset.begin(), 0);
+    result.node = all_values<std::int64_t>(require("Cells", "connectivity"));
+    for (std::size_t c = 0; c < n_cells_; ++c)
+      if (result.offset[c + 1] < result.offset[c] ||
+          static_cast<std::size_t>(result.offset[c + 1]) > result.node.size())
+        fail("cell " + std::to_string(c) + " has offsets that do not fit");
+    result.value = all_values<double>(size_array(array));
     return result;
   }
 
@@ -259,6 +270,27 @@ class VtuParser {
     return result;
   }
 
+  /// Finds the piece; its nodes alone.
+  TriangulationFile read_nodes() {
+    read_head();
+    const std::string_view piece = find_piece();
+    n_nodes_ = count_of(piece, "NumberOfPoints");
+    n_cells_ = count_of(piece, "NumberOfCells");
+    TriangulationFile result;
+    const std::vector<double> xyz = values<double>(require("Points", ""), 3 * n_nodes_);
+    for (std::size_t i = 0; i < n_nodes_; ++i) result.node_xyz.push_back({xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]});
+    return result;
+  }
+
+  /// The array of lengths or metrics: of this name, or one of the usual.
+  Array size_array(const std::string& name) const {
+    std::optional<Array> array;
+    for (const char* usual : kUsualSizes)
+      if (!array) array = find("PointData", name.empty() ? usual : name);
+    if (!array) fail(missing_sizes(name));
+    return *array;
+  }
+
   void read_cells(TriangulationFile& result) const {
     constexpr int kTriangle = 5, kQuadrangle = 9, kPixel = 8, kPolygon = 7, kStrip = 6, kCurved = 22;
     const std::vector<std::int64_t> offsets = values<std::int64_t>(require("Cells", "offsets"), n_cells_);
@@ -292,6 +324,10 @@ class VtuParser {
 }  // namespace
 
 TriangulationFile parse_vtu(const std::string& path, const std::string& bytes) { return VtuParser(path, bytes).run(); }
+
+CellFile parse_vtu_cells(const std::string& path, const std::string& bytes, const std::string& array) {
+  return VtuParser(path, bytes).cells(array);
+}
 
 std::vector<double> parse_vtu_point_array(const std::string& path, const std::string& bytes, const std::string& name) {
   return VtuParser(path, bytes).point_array(name);

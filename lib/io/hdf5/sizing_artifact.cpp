@@ -56,6 +56,7 @@ constexpr int kPlainSizingVersion = 4;      // of a sizing with the same length 
 constexpr int kStretchedSizingVersion = 5;  // of one whose cells tell the lengths, not cones
 constexpr int kConeSizingVersion = 6;       // of one without faces and sources
 constexpr int kFacesSizingVersion = 7;      // of one whose cones have the same length in all directions
+constexpr int kStretchedConesVersion = 8;   // of one without lengths on surfaces
 constexpr const char* kSizing = "/st/sizing";
 constexpr const char* kNotSampled = "not_sampled";
 constexpr const char* kRoot = "/st/octree/root";
@@ -100,6 +101,7 @@ constexpr const char* kSourceSlope = "source_slope";
 constexpr const char* kBackgroundNode = "/st/background/node";
 constexpr const char* kBackgroundSize = "/st/background/size";
 constexpr const char* kBackgroundTet = "/st/background/tet";
+constexpr const char* kBackgroundTriangle = "/st/background/triangle";
 constexpr const char* kFaceOffset = "/st/face/cell_offset";
 constexpr const char* kFaceLeaf = "/st/face/cell_leaf";
 constexpr const char* kFaceArea = "/st/face/cell_area";
@@ -430,7 +432,7 @@ void write_sources(Hdf5Writer& file, const SourceSet& set) {
     file.write<std::uint8_t>(kSourceKind, kinds);
     file.write<double>(kSourceNumbers, numbers, kSourceColumns);
   }
-  if (set.background.tets.empty()) return;
+  if (set.background.is_empty()) return;
   std::vector<double> sizes;
   for (const LocalSize& s : set.background.node_size)
     sizes.insert(sizes.end(), {s.length, s.along, s.direction.x, s.direction.y, s.direction.z});
@@ -439,6 +441,10 @@ void write_sources(Hdf5Writer& file, const SourceSet& set) {
   file.write<Vec3>(kBackgroundNode, set.background.node_xyz);
   file.write<double>(kBackgroundSize, sizes, 5);
   file.write<std::int32_t>(kBackgroundTet, tets, 4);
+  if (set.background.triangles.empty()) return;
+  std::vector<std::int32_t> corners;
+  for (const auto& triangle : set.background.triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+  file.write<std::int32_t>(kBackgroundTriangle, corners, 3);
 }
 
 BackgroundMesh read_background(const Hdf5Reader& file) {
@@ -456,6 +462,11 @@ BackgroundMesh read_background(const Hdf5Reader& file) {
   }
   for (std::size_t t = 0; t + 4 <= tets.size(); t += 4)
     mesh.tets.push_back({tets[t], tets[t + 1], tets[t + 2], tets[t + 3]});
+  if (!file.has(kBackgroundTriangle)) return mesh;
+  const std::vector<std::int32_t> corners = file.read<std::int32_t>(kBackgroundTriangle, 3);
+  require_ids(file, kBackgroundTriangle, corners, mesh.node_xyz.size());
+  for (std::size_t t = 0; t + 3 <= corners.size(); t += 3)
+    mesh.triangles.push_back({corners[t], corners[t + 1], corners[t + 2]});
   return mesh;
 }
 
@@ -732,7 +743,8 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   if (!sizing.cones.first.empty()) header.schema_version = kConeSizingVersion;
   const bool has_faces = sizing.faces.n_faces() > 0;
   if (has_faces) header.schema_version = kFacesSizingVersion;
-  if (!sizing.cones.stretch.empty()) header.schema_version = kSizingVersion;
+  if (!sizing.cones.stretch.empty()) header.schema_version = kStretchedConesVersion;
+  if (!sizing.sources.background.triangles.empty()) header.schema_version = kSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;

@@ -18,7 +18,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 8, kSizingVersion = 8;
+inline constexpr int kRasterVersion = 8, kSizingVersion = 9;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {

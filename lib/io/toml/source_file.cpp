@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "base/eigen.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
 #include "io/file/text_file.h"
@@ -101,13 +100,6 @@ std::array<std::int32_t, 4> tet_of(const LineReader& file, const std::map<std::i
   return tet;
 }
 
-/// Nearly equal lengths are one; a direction of any length.
-LocalSize uniaxial(const LocalSize& s) {
-  constexpr double kEqual = 1 + 1e-6;
-  const bool is_stretched = s.along > kEqual * s.length && norm(s.direction) > 0;
-  return is_stretched ? LocalSize{s.length, s.along, normalized(s.direction)} : LocalSize{s.length, s.length, {}};
-}
-
 // --- FLITE .bac ---
 
 void read_bac_nodes(LineReader& file, std::int64_t n_nodes, std::int64_t n_tets, BackgroundMesh& mesh) {
@@ -178,12 +170,11 @@ void read_msh_elements(LineReader& file, const std::map<std::int64_t, std::int32
 }
 
 /// `m`: nine components; the lengths are one over the roots of the eigenvalues.
-LocalSize size_of_metric(const LineReader& file, const double* m) {
-  Eigen::Matrix3d metric;
-  metric << m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8];
-  const PrincipalAxes axes = principal_axes(0.5 * (metric + metric.transpose()));
-  if (!(axes.value[0] > 0)) file.fail("a metric must be positive definite");
-  return uniaxial({1 / std::sqrt(axes.value[2]), 1 / std::sqrt(axes.value[0]), axes.axis[0]});
+LocalSize read_metric(const LineReader& file, const double* m) {
+  const LocalSize size =
+      size_of_metric({m[0], m[4], m[8], 0.5 * (m[1] + m[3]), 0.5 * (m[5] + m[7]), 0.5 * (m[2] + m[6])});
+  if (!(size.length > 0)) file.fail("a metric must be positive definite");
+  return size;
 }
 
 void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
@@ -206,7 +197,7 @@ void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>&
     const auto it = index.find(file.node_number(v[0]));
     if (it == index.end()) file.fail("$NodeData names a node that does not exist");
     if (!is_metric && !(v[1] > 0)) file.fail("length must be positive");
-    mesh.node_size[it->second] = is_metric ? size_of_metric(file, v.data() + 1) : LocalSize{v[1], v[1], {}};
+    mesh.node_size[it->second] = is_metric ? read_metric(file, v.data() + 1) : LocalSize{v[1], v[1], {}};
   }
 }
 

@@ -135,6 +135,7 @@ SizingArtifact sample_sizing() {
   s.sources.background.node_xyz.resize(4);
   s.sources.background.node_size.resize(4);
   s.sources.background.tets.resize(6);
+  s.sources.background.triangles.resize(5);
   s.faces = sample_raster().faces;
   s.face_lmin = {0.1, 0, 0.2};
   s.undercuts.resize(9);

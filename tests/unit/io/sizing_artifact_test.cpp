@@ -111,7 +111,7 @@ TEST_F(SizingArtifacts, stretched_cones_are_kept_and_mapped) {
   const SizingArtifact sizing = sizing_of_stretched_cones();
   const std::string hash = write_sizing(file("a.hdf"), sizing);
   const SizingArtifact read = read_sizing(file("a.hdf"));
-  EXPECT_EQ(read.header.schema_version, kSizingVersion);
+  EXPECT_EQ(read.header.schema_version, 8);
   EXPECT_EQ(write_sizing(file("b.hdf"), read), hash);
   const MappedSizing mapped = map_sizing(file("a.hdf"));
   EXPECT_TRUE(mapped.field->is_stretched());
@@ -125,6 +125,27 @@ TEST_F(SizingArtifacts, stretched_cones_are_kept_and_mapped) {
     n_stretched += a.along > a.length;
   }
   EXPECT_GT(n_stretched, 10);
+}
+
+TEST_F(SizingArtifacts, lengths_on_surfaces_are_kept_and_count) {
+  SizingArtifact sizing = sizing_of_stretched_cones();
+  sizing.faces = sample_raster().faces;
+  sizing.face_lmin = sample_raster().face_lmin;
+  sizing.labels = sample_raster().labels;
+  sizing.sources.slope = 0.2;
+  sizing.sources.background.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  sizing.sources.background.node_size.assign(3, {1e-3, 1e-3, {}});
+  sizing.sources.background.triangles = {{0, 1, 2}};
+  const std::string hash = write_sizing(file("a.hdf"), sizing);
+  const SizingArtifact read = read_sizing(file("a.hdf"));
+  EXPECT_EQ(read.header.schema_version, kSizingVersion);
+  EXPECT_EQ(read.sources.background.triangles, sizing.sources.background.triangles);
+  EXPECT_EQ(write_sizing(file("b.hdf"), read), hash);
+  int hint = 0;
+  EXPECT_NEAR(map_sizing(file("a.hdf")).field->size({0.2, 0.2, 0.01}, hint), sizing.scale * (1e-3 + 0.2 * 0.01), 1e-12);
+  sizing.sources.background.triangles[0][2] = 3;
+  write_sizing(file("c.hdf"), sizing);
+  EXPECT_ERROR(read_sizing(file("c.hdf")), kInput, "/st/background/triangle: row 2 names entity 3 of");
 }
 
 TEST_F(SizingArtifacts, stretched_cones_that_do_not_fit_are_refused) {

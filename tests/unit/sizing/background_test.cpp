@@ -90,6 +90,25 @@ TEST(BackgroundMesh, grows_from_its_border_outside) {
   EXPECT_NEAR(background_at(*field, {-3, -4, 0.3}), 0.1 + 5 * kBackgroundSlope, 1e-12);
 }
 
+TEST(BackgroundMesh, of_a_surface_grows_to_all_sides_however_steep_it_is) {
+  BackgroundMesh mesh;
+  mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  mesh.node_size = {{0.1, 0.1, {}}, {0.1, 0.1, {}}, {0.1, 0.1, {}}, {5, 5, {}}};
+  mesh.triangles = {{0, 1, 2}, {1, 3, 2}};
+  EXPECT_FALSE(mesh.is_empty());
+  EXPECT_EQ(limit_growth(kBackgroundSlope, mesh), 0);
+  const auto field = make_background(mesh, kBackgroundSlope);
+  EXPECT_NEAR(background_at(*field, {0.3, 0.3, 0}), 0.1, 1e-12);
+  EXPECT_NEAR(background_at(*field, {0.3, 0.3, 0.5}), 0.1 + 0.5 * kBackgroundSlope, 1e-12);
+  EXPECT_NEAR(background_at(*field, {0.3, 0.3, -2}), 0.1 + 2 * kBackgroundSlope, 1e-12);
+  EXPECT_NEAR(background_at(*field, {1, 1, 0}), 0.1 + std::sqrt(0.5) * kBackgroundSlope, 1e-12);
+  BackgroundMesh both = cube_of_tets(2, [](Vec3) { return 1.0; });
+  append(mesh, both);
+  EXPECT_EQ(both.triangles[1], (std::array<std::int32_t, 3>{28, 30, 29}));
+  EXPECT_NEAR(background_at(*make_background(both, kBackgroundSlope), {0.3, 0.3, 0.4}), 0.1 + 0.4 * kBackgroundSlope,
+              1e-12);
+}
+
 TEST(BackgroundMesh, of_any_lengths_is_limited_to_the_slope_and_keeps_its_least) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0.01, 1);

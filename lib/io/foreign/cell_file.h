@@ -1,0 +1,50 @@
+// Meshes of volumes and surfaces with values on their nodes, as solvers and other meshers write them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/vec.h"
+
+namespace st {
+
+/// Cells as a file has them, unchecked but for the file's own structure.
+struct CellFile {
+  std::vector<Vec3> node_xyz;
+  std::vector<std::int64_t> type;    ///< [n_cells] VTK's number
+  std::vector<std::int64_t> offset;  ///< [n_cells+1] into `node`
+  std::vector<std::int64_t> node;    ///< of all cells, from 0
+  std::vector<double> value;         ///< [n_nodes][n_components]; components of tensors: xx yy zz xy yz xz, or rows
+};
+
+/// Arrays of lengths that are looked for where none is named.
+inline constexpr const char* kUsualSizes[] = {"size", "metric"};
+/// What a reader says where it finds none.
+inline std::string missing_sizes(const std::string& array) {
+  return array.empty() ? "has neither 'size' nor 'metric' among its point data; name its array of lengths: FILE:ARRAY"
+                       : "has no array '" + array + "' among its point data";
+}
+
+/// `array`: of the point data; empty: one of kUsualSizes. All throw Error(kInput) naming file and place. `bytes`: the
+/// whole file.
+CellFile parse_vtu_cells(const std::string& path, const std::string& bytes, const std::string& array);
+CellFile read_vtkhdf_cells(const std::string& path, const std::string& array);
+/// INRIA's Medit: nodes and cells of a .mesh or .meshb.
+CellFile parse_medit_mesh(const std::string& path, const std::string& bytes);
+/// The first length or metric of SolAtVertices of a .sol or .solb, as in CellFile.
+std::vector<double> parse_medit_solution(const std::string& path, const std::string& bytes, std::size_t n_nodes);
+
+/// Corners of a cell of VTK's type `type`, curved ones without their nodes between: 3 for triangles, 4 for tetrahedra
+/// and quadrilaterals, 5 for pyramids, 6 for wedges, 8 for hexahedra; 0: vertices and lines, -1: any other.
+int n_corners_of(std::int64_t type);
+/// Whether cells of the type have a volume.
+bool is_volume(std::int64_t type);
+
+/// Tetrahedra that fill a cell of 4 to 8 corners. A quadrilateral side is cut from its lowest node, so neighbours fit.
+void split_volume(std::int64_t type, const std::int32_t* corner, std::vector<std::array<std::int32_t, 4>>& tets);
+/// One or two triangles.
+void split_surface(std::int64_t type, const std::int32_t* corner, std::vector<std::array<std::int32_t, 3>>& triangles);
+
+}  // namespace st

@@ -1,0 +1,227 @@
+// INRIA's Medit, as text (.mesh, .sol) and in the binary form of libMeshb (.meshb, .solb), versions 1 to 4.
+#include <limits>
+#include <map>
+#include <string_view>
+
+#include "base/error.h"
+#include "io/file/byte_cursor.h"
+#include "io/foreign/cell_file.h"
+
+namespace st {
+namespace {
+
+/// Keywords by their number in the binary form.
+enum Keyword : std::int32_t {
+  kDimension = 3,
+  kVertices = 4,
+  kTriangles = 6,
+  kQuadrilaterals = 7,
+  kTetrahedra = 8,
+  kPrisms = 9,
+  kHexahedra = 10,
+  kPyramids = 49,
+  kEnd = 54,
+  kSolAtVertices = 62,
+};
+const std::map<std::string_view, Keyword>& keywords() {
+  static const std::map<std::string_view, Keyword> all{
+      {"Dimension", kDimension},           {"Vertices", kVertices},     {"Triangles", kTriangles},
+      {"Quadrilaterals", kQuadrilaterals}, {"Tetrahedra", kTetrahedra}, {"Prisms", kPrisms},
+      {"Hexahedra", kHexahedra},           {"Pyramids", kPyramids},     {"End", kEnd},
+      {"SolAtVertices", kSolAtVertices}};
+  return all;
+}
+
+struct CellKind {
+  int n_corners;
+  std::int64_t vtk_type;
+};
+/// Of a keyword that lists cells; 0 corners: none.
+CellKind cell_kind(Keyword keyword) {
+  switch (keyword) {
+    case kTriangles:
+      return {3, 5};
+    case kQuadrilaterals:
+      return {4, 9};
+    case kTetrahedra:
+      return {4, 10};
+    case kHexahedra:
+      return {8, 12};
+    case kPrisms:
+      return {6, 13};
+    case kPyramids:
+      return {5, 14};
+    default:
+      return {0, 0};
+  }
+}
+
+/// The numbers of a file, one after the other, whatever its form.
+class MeditReader {
+ public:
+  MeditReader(const std::string& path, const std::string& bytes) : in_(path, bytes) {
+    constexpr std::int32_t kNative = 1, kSwapped = 16777216;
+    if (bytes.empty()) in_.fail("empty file; write it again");
+    std::int32_t first = 0;
+    if (bytes.size() >= sizeof first) std::memcpy(&first, bytes.data(), sizeof first);
+    in_.is_binary = first == kNative || first == kSwapped;
+    if (first == kSwapped) in_.fail("written on a machine of another byte order; write it as text");
+    if (in_.is_binary) {
+      in_.value<std::int32_t>();
+      version_ = in_.value<std::int32_t>();
+      if (version_ < 1 || version_ > 4) in_.fail("version " + std::to_string(version_) + " is not read, 1 to 4 are");
+    } else if (word() != "MeshVersionFormatted") {
+      in_.fail("no file of Medit: it does not begin with MeshVersionFormatted");
+    } else {
+      word();
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { in_.fail(what); }
+  std::size_t count(std::int64_t n, std::size_t n_numbers, const char* what) {
+    return in_.count(n, in_.is_binary ? 4 * n_numbers : 2 * n_numbers, what);  // bytes that they take at least
+  }
+
+  /// The next keyword that is known; kEnd at the end. Its numbers come next; those that are not read are passed over.
+  Keyword next() { return in_.is_binary ? next_binary() : next_text(); }
+
+  std::int64_t integer() {
+    if (!in_.is_binary) {
+      skip_comments();
+      return in_.integer();
+    }
+    return version_ >= 4 ? in_.value<std::int64_t>() : in_.value<std::int32_t>();
+  }
+  /// Of the numbers that are small in every version.
+  std::int64_t small_integer() { return in_.is_binary ? in_.value<std::int32_t>() : integer(); }
+  double real() {
+    if (!in_.is_binary) {
+      skip_comments();
+      return in_.real();
+    }
+    return version_ == 1 ? in_.value<float>() : in_.value<double>();
+  }
+
+ private:
+  void skip_comments() {
+    while (!in_.is_at_end() && in_.bytes()[in_.position()] == '#') in_.line();
+  }
+  std::string_view word() {
+    skip_comments();
+    return in_.word();
+  }
+  Keyword next_text() {
+    for (;;) {
+      const std::string_view text = word();
+      if (text.empty()) return kEnd;
+      if (const auto known = keywords().find(text); known != keywords().end()) return known->second;
+    }
+  }
+  Keyword next_binary() {
+    for (;;) {
+      if (next_ > 0) in_.seek(next_);
+      const std::size_t at = in_.position();
+      const auto code = in_.value<std::int32_t>();
+      const std::int64_t next = version_ >= 3 ? in_.value<std::int64_t>() : in_.value<std::int32_t>();
+      if (code == kEnd) return kEnd;
+      if (next != 0 && (next <= static_cast<std::int64_t>(at) || next > static_cast<std::int64_t>(in_.bytes().size())))
+        in_.fail("damaged: a section ends at byte " + std::to_string(next) + "; write it again");
+      next_ = static_cast<std::size_t>(next);
+      for (const auto& [name, keyword] : keywords())
+        if (keyword == code) return keyword;
+      if (next == 0) return kEnd;
+    }
+  }
+
+  ByteCursor in_;
+  std::int32_t version_ = 2;
+  std::size_t next_ = 0;  ///< where the next section of a binary file begins; 0: behind this one
+};
+
+void require_space(MeditReader& in) {
+  if (const std::int64_t dimension = in.small_integer(); dimension != 3)
+    in.fail("has " + std::to_string(dimension) + " dimensions; three are expected");
+}
+
+void read_vertices(MeditReader& in, CellFile& file) {
+  const std::size_t n = in.count(in.integer(), 4, "vertices");
+  file.node_xyz.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double x = in.real(), y = in.real(), z = in.real();
+    in.integer();  // reference
+    file.node_xyz.push_back({x, y, z});
+  }
+}
+
+void read_cells(MeditReader& in, const CellKind& kind, CellFile& file) {
+  const std::size_t n = in.count(in.integer(), static_cast<std::size_t>(kind.n_corners) + 1, "cells");
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int k = 0; k < kind.n_corners; ++k) file.node.push_back(in.integer() - 1);
+    in.integer();  // reference
+    file.type.push_back(kind.vtk_type);
+    file.offset.push_back(static_cast<std::int64_t>(file.node.size()));
+  }
+}
+
+/// The values of a solution that are wanted of each node.
+struct Wanted {
+  std::size_t first = 0, n = 0, n_all = 0;
+};
+
+Wanted choose_values(MeditReader& in) {
+  constexpr std::int64_t kScalar = 1, kVector = 2, kSymmetric = 3, kMatrix = 4;
+  Wanted wanted;
+  const std::int64_t n_types = in.small_integer();
+  if (n_types < 1 || n_types > 1000) in.fail("a solution of " + std::to_string(n_types) + " fields");
+  for (std::int64_t k = 0; k < n_types; ++k) {
+    const std::int64_t type = in.small_integer();
+    if (type < kScalar || type > kMatrix) in.fail("a field of type " + std::to_string(type) + ", 1 to 4 are known");
+    const std::size_t n = type == kScalar ? 1 : type == kVector ? 3 : type == kSymmetric ? 6 : 9;
+    if (wanted.n == 0 && type != kVector) wanted.first = wanted.n_all, wanted.n = n;
+    wanted.n_all += n;
+  }
+  if (wanted.n == 0) in.fail("has vectors alone; a length or a metric for each node is expected");
+  return wanted;
+}
+
+}  // namespace
+
+CellFile parse_medit_mesh(const std::string& path, const std::string& bytes) {
+  MeditReader in(path, bytes);
+  CellFile file;
+  file.offset.push_back(0);
+  for (Keyword keyword = in.next(); keyword != kEnd; keyword = in.next()) {
+    if (keyword == kDimension) require_space(in);
+    if (keyword == kVertices) read_vertices(in, file);
+    if (const CellKind kind = cell_kind(keyword); kind.n_corners > 0) read_cells(in, kind, file);
+  }
+  return file;
+}
+
+std::vector<double> parse_medit_solution(const std::string& path, const std::string& bytes, std::size_t n_nodes) {
+  MeditReader in(path, bytes);
+  for (Keyword keyword = in.next(); keyword != kEnd; keyword = in.next()) {
+    if (keyword == kDimension) require_space(in);
+    if (keyword != kSolAtVertices) continue;
+    const std::int64_t n = in.integer();
+    if (n < 0 || static_cast<std::size_t>(n) != n_nodes)
+      in.fail("has values for " + std::to_string(n) + " nodes, the mesh " + std::to_string(n_nodes));
+    const Wanted wanted = choose_values(in);
+    in.count(n, wanted.n_all, "values");
+    std::vector<double> values(n_nodes * wanted.n);
+    for (std::size_t i = 0; i < n_nodes; ++i) {
+      double* const v = values.data() + i * wanted.n;
+      for (std::size_t k = 0; k < wanted.n_all; ++k)
+        if (const double x = in.real(); k >= wanted.first && k < wanted.first + wanted.n) v[k - wanted.first] = x;
+      // Medit's triangle is xx, xy, yy, xz, yz, zz
+      if (wanted.n == 6) {
+        const double xx = v[0], xy = v[1], yy = v[2], xz = v[3], yz = v[4], zz = v[5];
+        v[0] = xx, v[1] = yy, v[2] = zz, v[3] = xy, v[4] = yz, v[5] = xz;
+      }
+    }
+    return values;
+  }
+  in.fail("has no SolAtVertices: no lengths at nodes");
+}
+
+}  // namespace st

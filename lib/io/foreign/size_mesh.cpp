@@ -1,0 +1,165 @@
+#include "io/foreign/size_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <utility>
+
+#include "base/error.h"
+#include "io/file/text_file.h"
+#include "io/foreign/cell_file.h"
+
+namespace st {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// FILE:ARRAY in two; without an array where there is a file of the whole name.
+std::pair<std::string, std::string> split_name(const std::string& file) {
+  const std::size_t colon = file.rfind(':');
+  if (colon == std::string::npos || fs::exists(file)) return {file, ""};
+  return {file.substr(0, colon), file.substr(colon + 1)};
+}
+
+bool has_suffix(const std::string& path, std::initializer_list<const char*> suffixes) {
+  const std::string own = fs::path(path).extension().string();
+  return std::find(suffixes.begin(), suffixes.end(), own) != suffixes.end();
+}
+bool is_medit_mesh(const std::string& path) { return has_suffix(path, {".mesh", ".meshb"}); }
+bool is_medit_solution(const std::string& path) { return has_suffix(path, {".sol", ".solb"}); }
+
+/// The file of the same name with one of these suffixes.
+std::string beside(const std::string& path, std::initializer_list<const char*> suffixes, const char* what) {
+  for (const char* suffix : suffixes)
+    if (const fs::path other = fs::path(path).replace_extension(suffix); fs::is_regular_file(other))
+      return other.string();
+  throw Error(ExitCode::kInput, fmt::format("{}: has no {} beside it: {}", path, what,
+                                            fs::path(path).replace_extension(*suffixes.begin()).string()));
+}
+
+CellFile read_medit(const std::vector<std::string>& mesh_and_solution) {
+  const std::string &mesh = mesh_and_solution[0], &solution = mesh_and_solution[1];
+  CellFile file = parse_medit_mesh(mesh, read_text_file(mesh));
+  file.value = parse_medit_solution(solution, read_text_file(solution), file.node_xyz.size());
+  return file;
+}
+
+/// Cells as simplices whose nodes exist.
+void split_cells(const std::string& path, const CellFile& file, BackgroundMesh& mesh) {
+  const auto n_nodes = static_cast<std::int64_t>(file.node_xyz.size());
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (std::size_t c = 0; c < file.type.size(); ++c) {
+    const int n = n_corners_of(file.type[c]);
+    if (n == 0) continue;
+    if (n < 0)
+      throw Error(ExitCode::kInput, fmt::format("{}: cell {} is of VTK's type {}, which is not read; cut cells into "
+                                                "tetrahedra (ParaView: Tetrahedralize)",
+                                                path, c, file.type[c]));
+    std::array<std::int32_t, 8> corner{};
+    for (int k = 0; k < n; ++k) {
+      const std::int64_t at = file.offset[c] + k, node = at < file.offset[c + 1] ? file.node[at] : -1;
+      if (node < 0 || node >= n_nodes)
+        throw Error(ExitCode::kInput, fmt::format("{}: cell {} names a node that does not exist", path, c));
+      corner[k] = static_cast<std::int32_t>(node);
+    }
+    if (is_volume(file.type[c]))
+      split_volume(file.type[c], corner.data(), mesh.tets);
+    else
+      split_surface(file.type[c], corner.data(), triangles);
+  }
+  if (mesh.tets.empty()) mesh.triangles = std::move(triangles);
+  if (mesh.is_empty()) throw Error(ExitCode::kInput, path + ": has neither tetrahedra nor triangles");
+}
+
+/// Of one node; length 0: neither a positive length nor a positive definite metric.
+LocalSize size_of(const double* v, std::size_t n_components) {
+  if (n_components == 1) return v[0] > 0 && std::isfinite(v[0]) ? LocalSize{v[0], v[0], {}} : LocalSize{};
+  if (n_components == 6) return size_of_metric({v[0], v[1], v[2], v[3], v[4], v[5]});
+  return size_of_metric({v[0], v[4], v[8], 0.5 * (v[1] + v[3]), 0.5 * (v[5] + v[7]), 0.5 * (v[2] + v[6])});
+}
+
+void read_sizes(const std::string& path, const CellFile& file, BackgroundMesh& mesh) {
+  const std::size_t n_nodes = file.node_xyz.size(),
+                    n_components = file.value.size() / std::max<std::size_t>(n_nodes, 1);
+  if (n_components * n_nodes != file.value.size() || (n_components != 1 && n_components != 6 && n_components != 9))
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: has {} values for {} nodes; one length each, or a metric of 6 or 9 components is "
+                            "expected",
+                            path, file.value.size(), n_nodes));
+  std::vector<char> is_used(n_nodes, 0);
+  for (const auto& tet : mesh.tets)
+    for (const std::int32_t n : tet) is_used[n] = 1;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::int32_t n : triangle) is_used[n] = 1;
+  std::size_t n_bad = 0, first = 0;
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    mesh.node_size.push_back(size_of(file.value.data() + i * n_components, n_components));
+    if (!is_used[i] || mesh.node_size[i].length > 0) continue;
+    if (n_bad++ == 0) first = i;
+  }
+  if (n_bad == 0) return;
+  const Vec3 x = file.node_xyz[first];
+  throw Error(
+      ExitCode::kInput,
+      fmt::format("{}: {} of {} nodes have no {}, the first is node {} at ({:.6g} {:.6g} {:.6g})", path, n_bad, n_nodes,
+                  n_components == 1 ? "length above 0" : "metric that is positive definite", first, x.x, x.y, x.z));
+}
+
+/// Leaves out nodes that no cell has: they may lie anywhere, and without a length.
+void drop_unused(BackgroundMesh& mesh) {
+  std::vector<std::int32_t> number(mesh.node_xyz.size(), -1);
+  BackgroundMesh kept;
+  const auto keep = [&](auto& cells) {
+    for (auto& cell : cells)
+      for (std::int32_t& n : cell) {
+        if (number[n] < 0) {
+          number[n] = static_cast<std::int32_t>(kept.node_xyz.size());
+          kept.node_xyz.push_back(mesh.node_xyz[n]);
+          kept.node_size.push_back(mesh.node_size[n]);
+        }
+        n = number[n];
+      }
+  };
+  keep(mesh.tets);
+  keep(mesh.triangles);
+  mesh.node_xyz = std::move(kept.node_xyz);
+  mesh.node_size = std::move(kept.node_size);
+}
+
+}  // namespace
+
+bool is_size_mesh(const std::string& file) {
+  const std::string path = split_name(file).first;
+  return is_medit_mesh(path) || is_medit_solution(path) || has_suffix(path, {".vtu", ".vtkhdf", ".hdf", ".h5"});
+}
+
+std::vector<std::string> files_of_size_mesh(const std::string& file) {
+  const std::string path = split_name(file).first;
+  if (is_medit_mesh(path)) return {path, beside(path, {".sol", ".solb"}, "solution")};
+  if (is_medit_solution(path)) return {beside(path, {".mesh", ".meshb"}, "mesh"), path};
+  return {path};
+}
+
+BackgroundMesh read_size_mesh(const std::string& file) {
+  const auto [path, array] = split_name(file);
+  const std::vector<std::string> files = files_of_size_mesh(file);
+  const CellFile cells = files.size() == 2            ? read_medit(files)
+                         : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, read_text_file(path), array)
+                                                      : read_vtkhdf_cells(path, array);
+  if (cells.node_xyz.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw Error(ExitCode::kInput, path + ": has more nodes than 2147483647");
+  for (std::size_t i = 0; i < cells.node_xyz.size(); ++i)
+    if (const Vec3 x = cells.node_xyz[i]; !std::isfinite(x.x + x.y + x.z))
+      throw Error(ExitCode::kInput, fmt::format("{}: node {} has no place", path, i));
+  BackgroundMesh mesh;
+  mesh.node_xyz = cells.node_xyz;
+  split_cells(path, cells, mesh);
+  read_sizes(path, cells, mesh);
+  drop_unused(mesh);
+  return mesh;
+}
+
+}  // namespace st

@@ -1,0 +1,26 @@
+// Background meshes from the files of solvers and other meshers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sizing/background.h"
+
+namespace st {
+
+/// Whether read_size_mesh() reads files of this name.
+bool is_size_mesh(const std::string& file);
+/// The files that read_size_mesh() reads: one, or a mesh and its solution. Throws as that does.
+std::vector<std::string> files_of_size_mesh(const std::string& file);
+
+/// Lengths or metrics at the nodes of a mesh of volumes or surfaces: `file` is
+///   - Medit's .sol or .solb, with the .mesh or .meshb of the same name beside it, or that mesh, with the solution
+///     beside it; the first scalar or symmetric tensor counts,
+///   - VTK's .vtu, or .vtkhdf, .hdf, .h5: FILE:ARRAY names the array of the point data, without it `size` or `metric`;
+///     one, six (xx yy zz xy yz xz) or nine components.
+/// Cells are cut into tetrahedra; triangles count where there are none. Nodes without a cell are passed over. Throws
+/// Error(kInput) naming file and place: for what cannot be read, and for a length that is not positive or a metric that
+/// is not positive definite, with the number of such nodes and the first.
+BackgroundMesh read_size_mesh(const std::string& file);
+
+}  // namespace st

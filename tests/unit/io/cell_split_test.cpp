@@ -1,0 +1,75 @@
+// Cells of any kind as tetrahedra and triangles.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "io/foreign/cell_file.h"
+
+namespace st {
+namespace {
+
+double volume_of(const std::vector<Vec3>& x, const std::array<std::int32_t, 4>& t) {
+  return std::abs(dot(cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]), x[t[3]] - x[t[0]])) / 6;
+}
+
+TEST(SplitCells, fill_every_kind_however_its_nodes_are_numbered) {
+  const std::vector<Vec3> cube{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  struct Kind {
+    std::int64_t type;
+    std::vector<Vec3> corner;
+    double volume;
+  };
+  const std::vector<Kind> kinds{{10, {cube[0], cube[1], cube[2], cube[4]}, 1.0 / 6},
+                                {12, cube, 1},
+                                {11, {cube[0], cube[1], cube[3], cube[2], cube[4], cube[5], cube[7], cube[6]}, 1},
+                                {13, {cube[0], cube[1], cube[2], cube[4], cube[5], cube[6]}, 0.5},
+                                {14, {cube[0], cube[1], cube[2], cube[3], cube[4]}, 1.0 / 3}};
+  std::mt19937 random(7);
+  for (const Kind& kind : kinds)
+    for (int round = 0; round < 50; ++round) {
+      std::vector<std::int32_t> number(kind.corner.size());
+      for (std::size_t k = 0; k < number.size(); ++k) number[k] = static_cast<std::int32_t>(k);
+      std::shuffle(number.begin(), number.end(), random);
+      std::vector<Vec3> x(number.size());
+      for (std::size_t k = 0; k < number.size(); ++k) x[number[k]] = kind.corner[k];
+      std::vector<std::array<std::int32_t, 4>> tets;
+      split_volume(kind.type, number.data(), tets);
+      double volume = 0;
+      for (const auto& tet : tets) volume += volume_of(x, tet);
+      EXPECT_NEAR(volume, kind.volume, 1e-12) << kind.type;
+    }
+}
+
+TEST(SplitCells, cut_a_common_side_alike) {
+  // two boxes side by side, the nodes of the second in another order
+  for (const auto& second : {std::array<std::int32_t, 8>{1, 8, 9, 2, 5, 10, 11, 6}, {5, 6, 2, 1, 10, 11, 9, 8}}) {
+    const std::array<std::int32_t, 8> first{0, 1, 2, 3, 4, 5, 6, 7};
+    const auto diagonals = [](const std::array<std::int32_t, 8>& corner) {
+      std::vector<std::array<std::int32_t, 4>> tets;
+      split_volume(12, corner.data(), tets);
+      std::vector<std::pair<std::int32_t, std::int32_t>> found;
+      for (const auto& tet : tets)
+        for (const auto& [a, b] : {std::pair{1, 6}, {2, 5}})
+          if (std::ranges::count(tet, a) && std::ranges::count(tet, b)) found.emplace_back(a, b);
+      std::ranges::sort(found);
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+      return found;
+    };
+    EXPECT_EQ(diagonals(first), diagonals(second));
+    EXPECT_EQ(diagonals(first).size(), 1u);
+  }
+}
+
+TEST(SplitCells, quadrilaterals_are_two_triangles_without_overlap) {
+  const std::int32_t quad[] = {3, 0, 1, 2}, pixel[] = {3, 0, 2, 1};
+  for (const auto& [type, corner] : {std::pair{9, quad}, {8, pixel}}) {
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    split_surface(type, corner, triangles);
+    EXPECT_EQ(triangles, (std::vector<std::array<std::int32_t, 3>>{{0, 1, 2}, {0, 2, 3}})) << type;
+  }
+}
+
+}  // namespace
+}  // namespace st
