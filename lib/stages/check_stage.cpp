@@ -140,8 +140,11 @@ std::vector<double> face_extents(const SurfaceMesh& mesh, std::span<const Vec3> 
   return width;
 }
 
-/// Of an area: a larger difference is wrong, whatever explains it.
+/// Of an area: a larger difference is wrong, whatever explains it, unless the face is small.
 constexpr double kMostOff = 0.03;
+/// Chords of one length take 0.5 (length / width)^2 of the area of a disc, whose width is that of face_extents(), and
+/// twice as much of a hemisphere: with 20 % more for chords that are not all alike.
+constexpr double kRound = 1.2;
 
 /// Faces that differ in area from the CAD's.
 struct AreaChecks {
@@ -150,8 +153,9 @@ struct AreaChecks {
 };
 
 /// Wrong are faces off by more than the tolerance, what chords explain, and the slack of the CAD. Of a face wider than
-/// two requested lengths only chords of the requested length explain anything, and no more than kMostOff of its area.
-/// Others beyond that are below the sizes: they look as the sizes make them.
+/// two requested lengths only chords of the requested length explain anything: no more than kMostOff of its area, or of
+/// a face less than six lengths wide what a hemisphere lacks. Others beyond kMostOff are below the sizes: they look as
+/// the sizes make them.
 AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
                        const ChordError& chords, double tolerance) {
   constexpr double kWide = 2;  // requested lengths
@@ -168,7 +172,8 @@ AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, cons
     const bool is_wide = width > kWide * size;
     const double explained = is_wide ? chords.area[f] : chords.found_area[f];
     double allowed = tolerance * cad + explained + slack_area(tables, f);
-    if (is_wide) allowed = std::min(allowed, std::max(kMostOff, tolerance) * cad);
+    if (is_wide)
+      allowed = std::min(allowed, std::max({kMostOff, tolerance, kRound * (size / width) * (size / width)}) * cad);
     if (difference > allowed && measure.face_area[f] > 0)
       c.areas.defects.add({place[f], f, kNone});
     else if (difference > kMostOff * cad && measure.face_area[f] > 0)
