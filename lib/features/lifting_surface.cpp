@@ -134,7 +134,7 @@ class SurfaceMeasurer {
     const double share = measured_way(places, profiles) / way_of(places);
     if (share < kMeasured) {
       why = {fmt::format("planes cut the profile of a wing on {:.0f} % of its length, half is needed", 100 * share)};
-      return find_part(measured_edges(chain, places, profiles));
+      return find_part(measured_edges(chain, places, profiles), chain);
     }
     drop_oblique(axis, profiles);
     try_other_cuts(places, profiles);
@@ -142,11 +142,11 @@ class SurfaceMeasurer {
     if (!is_measured(surface)) return std::nullopt;
     if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
       why = {fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase), false};
-      return find_part(part);
+      return find_part(part, chain);
     }
     if (const std::vector<WingEdge> part = without_rims(chain, surface); part.size() < chain.size()) {
       why = {kRimOfEnd, false};
-      return find_part(part);
+      return find_part(part, chain);
     }
     why = {why_no_wing(surface), false};
     if (why.text.empty() && has_nose_on(surface, surface)) {
@@ -179,9 +179,10 @@ class SurfaceMeasurer {
   bool is_off() const { return is_off_; }
 
  private:
-  std::optional<SurfaceDraft> find_part(const std::vector<WingEdge>& part) const {
+  /// None where the part is the whole again: planes may cut an edge on half of its length to rounding.
+  std::optional<SurfaceDraft> find_part(const std::vector<WingEdge>& part, const std::vector<WingEdge>& whole) const {
     Reason why;
-    return part.empty() ? std::nullopt : find(part, why);
+    return part.empty() || part.size() == whole.size() ? std::nullopt : find(part, why);
   }
 
   static bool is_measured(const LiftingSurface& surface) {

@@ -9,6 +9,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import CORPUS, ToolTest, main_on_corpus, must  # noqa: E402
 
 CUT_MODEL = Path(os.environ["ST_BIN"]).parent / "tests/support/cut_model"
+VARIED_MODELS = CUT_MODEL.parent / "varied_models"
 WINGS = {
     "aero_d150_fullspan.brep": 5,
     "aero_d150_half_with_tail.brep": 3,
@@ -59,6 +60,12 @@ class Wings(ToolTest):
     def check(self, name, n_wings):
         done = self.raster(name, "--preset", "preview")
         self.assertEqual(len(done.json()["lifting_surfaces"]), n_wings, f"{name}: {done}")
+
+    def test_an_edge_with_profiles_on_half_of_its_length_ends(self):
+        """To rounding: it once searched the part that planes cut, which was the whole edge, until the stack ended."""
+        subprocess.run([VARIED_MODELS, self.folder, "7389", "7389"], check=True, capture_output=True, timeout=100)
+        must("st-import", *self.folder.glob("v7389*"), "-o", self.folder / "geometry.hdf")
+        self.assertEqual(self.raster("").json()["lifting_surfaces"], [])
 
     def test_cut_at_random_places_stay_the_same_wings(self):
         for name, (spans, cuts) in CUT_WINGS.items():
