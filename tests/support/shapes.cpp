@@ -302,6 +302,8 @@ Handle(Geom_BSplineCurve) wavy_curve() {
   return new Geom_BSplineCurve(poles, k.knots, k.multiplicities, 3);
 }
 
+TopoDS_Shape ball_at(double x, double radius) { return BRepPrimAPI_MakeSphere(gp_Pnt(x, 0, 0), radius).Shape(); }
+
 TopoDS_Shape drilled_cylinder() {
   const gp_Ax2 across(gp_Pnt(0, 0, 15), gp_Dir(1, 0, 0));
   return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 30).Shape(), BRepPrimAPI_MakeCylinder(across, 3, 20).Shape())
@@ -565,6 +567,13 @@ const std::map<std::string, Factory>& factories() {
       {"cone", [] { return BRepPrimAPI_MakeCone(kZ, 10, 0, 20).Shape(); }},
       {"torus", [] { return BRepPrimAPI_MakeTorus(20, 6).Shape(); }},
       {"drilled_cylinder", drilled_cylinder},
+      {"ball_with_stem",  // that meets the seam of the ball
+       [] {
+         const gp_Ax2 along_x(gp_Pnt(0, 0, 0), gp::DX());
+         return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeCylinder(along_x, 1, 9)).Shape();
+       }},
+      {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
+      {"two_balls", [] { return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
       {"thin_cylinder", [] { return BRepPrimAPI_MakeCylinder(0.05, 30).Shape(); }},
       {"stepped_box", [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},

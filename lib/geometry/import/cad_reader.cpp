@@ -26,6 +26,11 @@
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepRepr_RepresentationItem.hxx>
+#include <StepShape_Edge.hxx>
+#include <StepShape_EdgeLoop.hxx>
+#include <StepShape_FaceBound.hxx>
+#include <StepShape_FaceSurface.hxx>
+#include <StepShape_OrientedEdge.hxx>
 #include <TColStd_HSequenceOfExtendedString.hxx>
 #include <TCollection_AsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
@@ -396,6 +401,40 @@ void name_faces_by_entity(const Handle(XSControl_WorkSession) & session, CadFile
         face.name = names[k - 1];
 }
 
+/// Whether a loop passes an edge twice.
+bool has_seam(const StepShape_FaceSurface& face) {
+  for (int b = 1; b <= face.NbBounds(); ++b) {
+    const auto loop = Handle(StepShape_EdgeLoop)::DownCast(face.BoundsValue(b)->Bound());
+    std::set<const StepShape_Edge*> seen;
+    for (int e = 1; !loop.IsNull() && e <= loop->NbEdgeList(); ++e)
+      if (!seen.insert(loop->EdgeListValue(e)->EdgeElement().get()).second) return true;
+  }
+  return false;
+}
+
+/// What ADVANCED_FACEs say of the side that they face, and of their seams.
+void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file) {
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  TopTools_IndexedMapOfShape faces;
+  std::vector<CadPart::FaceAttributes> said;
+  for (int i = 1; i <= session->Model()->NbEntities(); ++i) {
+    const auto entity = Handle(StepShape_FaceSurface)::DownCast(session->Model()->Value(i));
+    if (entity.IsNull()) continue;
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
+    if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces.Contains(shape.Located({}))) continue;
+    faces.Add(shape.Located({}));
+    CadPart::FaceAttributes& face = said.emplace_back();
+    face.same_sense = entity->SameSense();
+    face.has_seam = has_seam(*entity);
+  }
+  for (CadPart& part : file.parts)
+    for (auto& face : part.faces)
+      if (const int k = faces.FindIndex(face.face.Located({})); k > 0) {
+        face.same_sense = said[k - 1].same_sense;
+        face.has_seam = said[k - 1].has_seam;
+      }
+}
+
 /// Files that the STEP file refers to and that could not be read.
 std::vector<std::string> missing_files(const STEPCAFControl_Reader& reader) {
   std::set<std::string> names;
@@ -425,6 +464,7 @@ CadFile read_step(const std::string& path) {
   file.missing_files = missing_files(reader);
   file.parts = DocumentReader(document).parts();
   name_faces_by_entity(reader.Reader().WS(), file);
+  read_senses(reader.Reader().WS(), file);
   XCAFApp_Application::GetApplication()->Close(document);
   return file;
 }

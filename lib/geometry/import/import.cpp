@@ -39,6 +39,7 @@
 #include "geometry/import/topology_report.h"
 #include "geometry/import/touching_bodies.h"
 #include "geometry/import/unite.h"
+#include "geometry/import/wrong_sides.h"
 #include "geometry/model/group_selection.h"
 #include "geometry/model/imported_shape.h"
 #include "geometry/model/model.h"
@@ -294,13 +295,14 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   const occt::AskedAir air = occt::parse_air(options);
   Progress progress("importing", 1);
   progress.step("reading", 0);
-  const CadFile file = occt::read_cad(path);
+  CadFile file = occt::read_cad(path);
   const ModelUnit unit = choose_unit(file.unit_in_mm, options.unit);
   require_units(options, unit);
   ImportResult result;
   result.format = file.format;
   for (const std::string& name : file.missing_files)
     result.findings.push_back({FindingKind::kMissingFile, "", {}, 0, false, name});
+  occt::mend_wrong_sides(file, result.findings);
   ImportedShape model = occt::collect_parts(file, path);
   occt::require_sound_geometry(model.shape, path);
   progress.step("looking for faces without area and duplicates", 0.4);

@@ -64,6 +64,7 @@ KIND(kNoImprint, "ends or lies on other faces, not joined", "ends or lies on oth
 KIND(kNoSpaceCurve, "edge without a curve in space", "edge without a curve in space: {}")  // an edge without one
 KIND(kMovedLoop, "loop in another period of its surface, moved", "loop in another period of its surface, moved by {}")
 KIND(kTurnedLoop, "loop that ran the wrong way around its face, turned", "")
+KIND(kOtherSide, "face on the wrong side of its loop, replaced by the rest of its surface", "")
 KIND(kStrayHole, "hole outside its face, left out", "hole outside its face, left out{}")
 KIND(kLeftOutFace, "face left out", "face left out: {}")
 KIND(kFoldedFace, "face folds over itself", "")  // a face that folds over itself

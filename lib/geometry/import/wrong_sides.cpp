@@ -1,0 +1,140 @@
+#include "geometry/import/wrong_sides.h"
+
+#include <BRepTools_ReShape.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom_Surface.hxx>
+#include <Precision.hxx>
+#include <ShapeFix_Face.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Wire.hxx>
+#include <cmath>
+#include <optional>
+
+#include "base/boxes.h"
+#include "geometry/brep/shape_queries.h"
+#include "geometry/model/imported_shape.h"
+
+namespace st::occt {
+namespace {
+
+/// Whether the line of constant v is a point.
+bool is_pole(const Handle(Geom_Surface) & surface, double u, double period, double v) {
+  constexpr int kStations = 4;
+  for (int k = 1; k < kStations; ++k)
+    if (surface->Value(u, v).Distance(surface->Value(u + k * period / kStations, v)) > Precision::Confusion())
+      return false;
+  return true;
+}
+
+/// Whether the surface has no border; its bounds.
+std::optional<Box2> bounds_all_around(const Handle(Geom_Surface) & surface) {
+  if (surface.IsNull() || !surface->IsUPeriodic()) return std::nullopt;
+  Box2 b;
+  surface->Bounds(b.lo.x, b.hi.x, b.lo.y, b.hi.y);
+  if (Precision::IsInfinite(b.lo.y) || Precision::IsInfinite(b.hi.y)) return std::nullopt;
+  const auto is_end = [&](double v) { return is_pole(surface, b.lo.x, surface->UPeriod(), v); };
+  if (!surface->IsVPeriodic() && !(is_end(b.lo.y) && is_end(b.hi.y))) return std::nullopt;
+  return b;
+}
+
+/// The one loop of a face that has no seam and no pole on it.
+std::optional<TopoDS_Wire> plain_loop(const TopoDS_Face& face) {
+  std::optional<TopoDS_Wire> loop;
+  for (TopoDS_Iterator w(face); w.More(); w.Next()) {
+    if (w.Value().ShapeType() != TopAbs_WIRE || loop) return std::nullopt;
+    loop = TopoDS::Wire(w.Value());
+  }
+  if (!loop) return std::nullopt;
+  for (TopExp_Explorer e(*loop, TopAbs_EDGE); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    if (BRep_Tool::IsClosed(edge, face) || BRep_Tool::Degenerated(edge)) return std::nullopt;
+  }
+  return loop;
+}
+
+bool may_be_on_either_side(const TopoDS_Face& face) {
+  return bounds_all_around(BRep_Tool::Surface(face)) && plain_loop(face);
+}
+
+/// The rest of the surface, facing the other way, with the loop as its hole; its seam is far from that.
+TopoDS_Face other_side(const TopoDS_Face& face) {
+  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  const std::optional<TopoDS_Wire> loop = plain_loop(forward);
+  if (!loop) return {};
+  TopoDS_Shape rest = forward.EmptyCopied();
+  BRep_Builder().Add(rest, loop->Reversed());
+  ShapeFix_Face fix(TopoDS::Face(rest));
+  if (!fix.FixAddNaturalBound()) return {};
+  return TopoDS::Face(fix.Face().Oriented(TopAbs::Reverse(face.Orientation())));
+}
+
+/// What is known of the faces of a part, by their place among its faces.
+struct PartFaces {
+  const CadPart& part;
+  TopTools_IndexedMapOfShape index;
+
+  explicit PartFaces(const CadPart& p) : part(p) {
+    for (const CadPart::FaceAttributes& f : p.faces) index.Add(f.face);
+  }
+  const CadPart::FaceAttributes* find(const TopoDS_Shape& face) const {
+    const int k = index.FindIndex(face);
+    return k > 0 ? &part.faces[k - 1] : nullptr;
+  }
+};
+
+/// Faces of a shell that may be on either side of their loop, and are on the wrong one: those that had a seam in the
+/// file, and those that do not face as the file says, by what holds for the shell's other faces.
+std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFaces& faces) {
+  std::vector<TopoDS_Face> with_seam, agreeing, other;
+  int n_agree = 0, n_other = 0;  // of those that can be on one side only
+  for (TopExp_Explorer f(shell, TopAbs_FACE); f.More(); f.Next()) {
+    const TopoDS_Face face = TopoDS::Face(f.Current());
+    const CadPart::FaceAttributes* in_file = faces.find(face);
+    if (!in_file || !in_file->same_sense) continue;
+    const bool agrees = (face.Orientation() == TopAbs_FORWARD) == *in_file->same_sense;
+    if (!may_be_on_either_side(face))
+      ++(agrees ? n_agree : n_other);
+    else if (in_file->has_seam)
+      with_seam.push_back(face);
+    else
+      (agrees ? agreeing : other).push_back(face);
+  }
+  if (n_agree != n_other) {  // the reader may have turned the whole shell
+    const std::vector<TopoDS_Face>& wrong = n_agree > n_other ? other : agreeing;
+    with_seam.insert(with_seam.end(), wrong.begin(), wrong.end());
+  }
+  return with_seam;
+}
+
+}  // namespace
+
+void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings) {
+  std::int32_t first = 0;  // number of the part's first face in the file, from 0
+  for (CadPart& part : file.parts) {
+    const PartFaces faces(part);
+    const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+    bool is_changed = false;
+    for (TopExp_Explorer s(part.shape, TopAbs_SHELL); s.More(); s.Next())
+      for (const TopoDS_Face& face : wrong_sides_of(s.Current(), faces)) {
+        const TopoDS_Face mended = other_side(face);
+        if (mended.IsNull() || reshape->IsRecorded(face)) continue;
+        reshape->Replace(face, mended);
+        is_changed = true;
+        const Box3 box = rough_box(mended);
+        findings.push_back({FindingKind::kOtherSide, file_label(first + faces.index.FindIndex(face) - 1), box.center(),
+                            box.diagonal(), true});
+      }
+    first += static_cast<std::int32_t>(part.faces.size());
+    if (!is_changed) continue;
+    for (CadPart::FaceAttributes& f : part.faces) f.face = reshape->Apply(f.face);
+    part.shape = reshape->Apply(part.shape);
+  }
+}
+
+}  // namespace st::occt

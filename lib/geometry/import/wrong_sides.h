@@ -1,0 +1,18 @@
+// Faces that the reader of STEP takes for what is on the other side of their loop.
+#pragma once
+
+#include <vector>
+
+#include "geometry/brep/cad_file.h"
+#include "geometry/import/import.h"
+
+namespace st::occt {
+
+/// A ball with a stem is a sphere with one loop. Where the seam meets the loop, or is not in the file, OpenCASCADE
+/// takes the small cap inside the loop, and turns it: the solid is the stem alone. Such a face has one loop without a
+/// seam on a surface that closes all around (sphere, torus, what turns about an axis from pole to pole), and gets the
+/// rest of its surface where the file has a seam in its loop, or where it does not face as the file says while the
+/// other faces of its shell do. In a shell of such faces alone those without a seam stay. Each is said in `findings`.
+void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings);
+
+}  // namespace st::occt
