@@ -73,6 +73,11 @@ struct ConeKernels {
   /// second cell, bit 1: to the first. `lengths` [n * kFacePlaces] is scratch. Returns how many it added.
   std::int32_t (*settle_face)(const ConeFace& face, std::int32_t set, const float* cones, float largest,
                               std::int32_t ways, FaceCone* on_face, std::int32_t n, float* lengths);
+  /// The smallest of `largest` and of what the cones `own` [n], those of the shortest lengths first, tell at a place.
+  /// `place`: the numbers of a SplitPlace. `winner` (may be null) becomes the place in `own` of the first that tells
+  /// it; kNone: none tells less than `largest`.
+  float (*least)(const float* cones, const std::int32_t* own, std::int32_t n, const float* place, float largest,
+                 std::int32_t* winner);
 };
 
 const ConeKernels& cone_kernels();

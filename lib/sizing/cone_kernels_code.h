@@ -45,11 +45,19 @@ inline F8 root(const F8& v) {
 }
 inline I8 where(const I8& mask, std::int32_t a, const I8& b) { return mask ? a - I8{} : b; }
 inline bool is_any(const I8& mask) { return __builtin_ia32_movmskps256(reinterpret_cast<F8>(mask)) != 0; }
-inline float least_of(const F8& v) {
-  float l = v[0];
-  for (int i = 1; i < 8; ++i) l = v[i] < l ? v[i] : l;
-  return l;
+inline F4 least_half(const F8& v) {
+  const F4 a = __builtin_shufflevector(v, v, 0, 1, 2, 3), b = __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  return a < b ? a : b;
 }
+/// Four numbers from each place.
+inline F8 load_fours(const float* p, const float* q) {
+  return __builtin_shufflevector(load_four(p), load_four(q), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+// Of both fours of a and b: the first two numbers in turn, and the last two; the first two of each, and the last two.
+inline F8 mix_first(const F8& a, const F8& b) { return __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13); }
+inline F8 mix_last(const F8& a, const F8& b) { return __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15); }
+inline F8 join_first(const F8& a, const F8& b) { return __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13); }
+inline F8 join_last(const F8& a, const F8& b) { return __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15); }
 #else
 typedef std::int32_t I4Anywhere __attribute__((vector_size(16), aligned(4), may_alias));
 struct F8 {
@@ -100,13 +108,23 @@ inline I8 where(const I8& mask, std::int32_t x, const I8& y) {
   return {mask.a ? x - I4{} : y.a, mask.b ? x - I4{} : y.b};
 }
 inline bool is_any(const I8& mask) { return signs(mask.a | mask.b) != 0; }
-inline float least_of(const F8& v) {
-  const F4 four = least(v.a, v.b);
-  float l = four[0];
-  for (int i = 1; i < 4; ++i) l = four[i] < l ? four[i] : l;
-  return l;
-}
+inline F4 least_half(const F8& v) { return least(v.a, v.b); }
+inline F8 load_fours(const float* p, const float* q) { return {load_four(p), load_four(q)}; }
+inline F4 mix_first(const F4& x, const F4& y) { return __builtin_shufflevector(x, y, 0, 4, 1, 5); }
+inline F4 mix_last(const F4& x, const F4& y) { return __builtin_shufflevector(x, y, 2, 6, 3, 7); }
+inline F4 join_first(const F4& x, const F4& y) { return __builtin_shufflevector(x, y, 0, 1, 4, 5); }
+inline F4 join_last(const F4& x, const F4& y) { return __builtin_shufflevector(x, y, 2, 3, 6, 7); }
+inline F8 mix_first(const F8& x, const F8& y) { return {mix_first(x.a, y.a), mix_first(x.b, y.b)}; }
+inline F8 mix_last(const F8& x, const F8& y) { return {mix_last(x.a, y.a), mix_last(x.b, y.b)}; }
+inline F8 join_first(const F8& x, const F8& y) { return {join_first(x.a, y.a), join_first(x.b, y.b)}; }
+inline F8 join_last(const F8& x, const F8& y) { return {join_last(x.a, y.a), join_last(x.b, y.b)}; }
 #endif
+
+inline float least_of(const F8& v) {
+  const F4 four = least_half(v), other = __builtin_shufflevector(four, four, 2, 3, 0, 1),
+           two = four < other ? four : other, last = __builtin_shufflevector(two, two, 1, 0, 3, 2);
+  return (two < last ? two : last)[0];
+}
 
 constexpr float kProbe[3][kProbes] = {{-1, 1, -1, 1, -1, 1, -1, 1, -1, 1, 0, 0, 0, 0, 0, 0},
                                       {-1, -1, 1, 1, -1, -1, 1, 1, 0, 0, -1, 1, 0, 0, 0, 0},
@@ -344,8 +362,74 @@ std::int32_t settle_face(const ConeFace& face, std::int32_t set, const float* co
   return n_added;
 }
 
-constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone,
-                               take_lengths, wins_nearby, wins_on_face, settle_face};
+/// Eight cones side by side.
+struct EightCones {
+  F8 x[3], length, slope, side[2][3], half[2];
+
+  explicit EightCones(const float* const (&cone)[8]) {
+    turn(cone, 0, x[0], x[1], x[2], length);
+    turn(cone, 4, slope, side[0][0], side[0][1], side[0][2]);
+    turn(cone, 8, side[1][0], side[1][1], side[1][2], half[0]);
+    float last[8];
+    for (int i = 0; i < 8; ++i) last[i] = cone[i][kConeNumbers - 1];
+    half[1] = load(last);
+  }
+
+  /// At a place, see ConeKernels::least.
+  F8 length_at(const float* place) const {
+    F8 way[3];
+    for (int k = 0; k < 3; ++k) way[k] = (all(place[k]) - x[k]) + all(place[4 + k]);
+    for (int e = 0; e < 2; ++e) {
+      const F8 within = most(least(dot(way, side[e]), half[e]), -half[e]);
+      for (int k = 0; k < 3; ++k) way[k] = way[k] - within * side[e][k];
+    }
+    return length + slope * root(dot(way, way));
+  }
+
+ private:
+  static F8 dot(const F8 (&a)[3], const F8 (&b)[3]) { return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1]; }
+  /// Four numbers of each from the n-th on, by number.
+  static void turn(const float* const (&cone)[8], int n, F8& first, F8& second, F8& third, F8& fourth) {
+    F8 of[4];
+    for (int i = 0; i < 4; ++i) of[i] = load_fours(cone[i] + n, cone[i + 4] + n);
+    const F8 ab_first = mix_first(of[0], of[1]), ab_last = mix_last(of[0], of[1]), cd_first = mix_first(of[2], of[3]),
+             cd_last = mix_last(of[2], of[3]);
+    first = join_first(ab_first, cd_first);
+    second = join_last(ab_first, cd_first);
+    third = join_first(ab_last, cd_last);
+    fourth = join_last(ab_last, cd_last);
+  }
+};
+
+float least_length(const float* cones, const std::int32_t* own, std::int32_t n, const float* place, float largest,
+                   std::int32_t* winner) {
+  F8 best = all(largest);
+  I8 from = where(best >= best, -1, I8{});  // where in `own` the eight begin that tell it
+  float result = largest;
+  for (std::int32_t k = 0; k < n; k += 8) {
+    const float* cone[8];
+    for (std::int32_t i = 0; i < 8; ++i)
+      cone[i] = cones + kConeNumbers * static_cast<std::int64_t>(own[k + i < n ? k + i : n - 1]);
+    if (!(cone[0][3] < result)) break;  // the shortest of those from here on
+    const F8 length = EightCones(cone).length_at(place);
+    from = where(length < best, k, from);
+    best = least(length, best);
+    result = least_of(best);
+  }
+  if (!winner) return result;
+  float lengths[8];
+  std::int32_t begin[8];
+  store(lengths, best);
+  store(begin, from);
+  std::int32_t first = n;
+  for (std::int32_t i = 0; i < 8; ++i)
+    if (lengths[i] == result && begin[i] >= 0 && begin[i] + i < first) first = begin[i] + i;
+  *winner = first < n ? first : -1;
+  return result;
+}
+
+constexpr ConeKernels kKernels{is_near_cell, sides_ahead,  cone_lengths, offer_cone,  take_lengths,
+                               wins_nearby,  wins_on_face, settle_face,  least_length};
 
 }  // namespace
 }  // namespace st

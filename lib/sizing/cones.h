@@ -27,6 +27,9 @@ struct SplitPlace {
       : high{static_cast<float>(from_lo.x), static_cast<float>(from_lo.y), static_cast<float>(from_lo.z), 0},
         low{rest(from_lo.x), rest(from_lo.y), rest(from_lo.z), 0} {}
 
+  /// All eight.
+  const float* numbers() const { return reinterpret_cast<const float*>(this); }
+
  private:
   static float rest(double x) { return static_cast<float>(x - static_cast<double>(static_cast<float>(x))); }
 };

@@ -10,12 +10,6 @@
 namespace st {
 namespace {
 
-float least_of(const Float4& v) {
-  const Float4 other = __builtin_shufflevector(v, v, 2, 3, 0, 1), two = v < other ? v : other,
-               last = __builtin_shufflevector(two, two, 1, 0, 3, 2);
-  return (two < last ? two : last)[0];
-}
-
 /// Of the deepest level, on one axis.
 std::uint32_t cell_at(double on_grid) { return std::min(static_cast<std::uint32_t>(on_grid), kCoordinateEnd - 1); }
 
@@ -76,29 +70,14 @@ Vec3 OctreeField::from_center(std::int32_t leaf, const Place& x) const {
 }
 
 double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t* winner) const {
-  using Int4 [[gnu::vector_size(16)]] = std::int32_t;
   const SplitPlace place(x.from_lo);
-  const auto largest = static_cast<float>(data_.max_length);
-  Float4 least = largest - Float4{};
-  Int4 by = Int4{} - 1, at{0, 1, 2, 3};  // of the site's cones
-  const std::int32_t* const own = data_.site_cones.data() + data_.first_cone[site];
-  const std::int32_t n = data_.first_cone[site + 1] - data_.first_cone[site], last = n - 1;
-  for (std::int32_t k = 0; k < n; k += 4, at += 4) {
-    const auto cone = [&](std::int32_t i) -> const Cone& { return data_.cones[own[std::min(i, last)]]; };
-    const Cone& shortest = cone(k);  // of those from here on
-    if (k > 0 && !(shortest.length < least_of(least))) break;
-    const Float4 length = FourCones(shortest, cone(k + 1), cone(k + 2), cone(k + 3)).length_at(place);
-    by = length < least ? at : by;
-    least = length < least ? length : least;
-  }
-  const float result = least_of(least);
-  if (winner) {
-    std::int32_t first = n;
-    for (int i = 0; i < 4; ++i)
-      if (least[i] == result && by[i] >= 0) first = std::min({first, by[i], last});
-    *winner = first < n ? own[first] : kNone;
-  }
-  return static_cast<double>(result);
+  const std::int32_t first = data_.first_cone[site];
+  const std::int32_t* const own = data_.site_cones.data() + first;
+  const float length =
+      kernels_.least(reinterpret_cast<const float*>(data_.cones.data()), own, data_.first_cone[site + 1] - first,
+                     place.numbers(), static_cast<float>(data_.max_length), winner);
+  if (winner && *winner != kNone) *winner = own[*winner];
+  return static_cast<double>(length);
 }
 
 /// Which parts of the leaf the place may lie in: one, or the first and the second where that is not certain.

@@ -10,6 +10,7 @@
 
 #include "base/similarity.h"
 #include "sizing/blanking.h"
+#include "sizing/cone_kernels.h"
 #include "sizing/cones.h"
 #include "sizing/octree.h"
 #include "sizing/prolong.h"
@@ -194,6 +195,7 @@ class OctreeField : public SizeField {
 
   static constexpr int kTopLevel = 5;
   OctreeFieldData data_;
+  const ConeKernels& kernels_ = cone_kernels();
   std::vector<std::int32_t> top_;  // [8^kTopLevel] node of that level, or ~leaf: the first steps of every search in one
   std::vector<std::uint64_t> is_split_;  // a bit for each leaf, smaller than looking into `cells`; empty: none is
   std::unique_ptr<std::atomic<std::uint64_t>[]> near_;  // [n_leaves] FewSources, where there are sources

@@ -25,10 +25,15 @@ std::vector<Box3> cores_of(const std::vector<SourceTree::Entry>& entries) {
 }  // namespace
 
 FewSources::FewSources(const std::int32_t* source, std::size_t n) : bits_(kMost + 2) {
-  if (n > kMost || std::any_of(source, source + n, [](std::int32_t s) { return s >= kEnd; })) return;
-  bits_ = n + 1;
+  const auto are_below = [&](int bits) {
+    return std::all_of(source, source + n, [bits](std::int32_t s) { return s < 1 << bits; });
+  };
+  const bool is_small = n <= kMost && are_below(kBits);
+  if (!is_small && !(n <= kMostWide && are_below(kWideBits))) return;
+  const int bits = is_small ? kBits : kWideBits;
+  bits_ = (n + 1) | (is_small ? 0 : kWide);
   for (std::size_t i = 0; i < n; ++i)
-    bits_ |= static_cast<std::uint64_t>(source[i]) << (4 + kBits * static_cast<int>(i));
+    bits_ |= static_cast<std::uint64_t>(source[i]) << (4 + bits * static_cast<int>(i));
 }
 
 SourceTree::SourceTree(std::vector<Entry> entries) : entries_(std::move(entries)), tree_(cores_of(entries_)) {

@@ -14,10 +14,10 @@ namespace st {
 /// The few sources that count somewhere, as one number: a set of at most kMost, or that there are more.
 class FewSources {
  public:
-  static constexpr int kMost = 3;
+  static constexpr int kMost = 5;  ///< of small ids; of others kMostWide
 
   FewSources() = default;  ///< not known
-  /// `n` of them, ids below 2^20; more than kMost or larger ids: many.
+  /// `n` of them. More than fit, or ids from 2^20 on: many.
   FewSources(const std::int32_t* source, std::size_t n);
   static FewSources from_bits(std::uint64_t bits) {
     FewSources few;
@@ -31,12 +31,15 @@ class FewSources {
   bool are_many() const { return bits_ == kMost + 2; }
   /// Precondition: known, not many.
   int n() const { return static_cast<int>(bits_ & 7) - 1; }
-  std::int32_t operator[](int i) const { return static_cast<std::int32_t>(bits_ >> (4 + kBits * i)) & (kEnd - 1); }
+  std::int32_t operator[](int i) const {
+    const int bits = (bits_ & kWide) != 0 ? kWideBits : kBits;
+    return static_cast<std::int32_t>(bits_ >> (4 + bits * i)) & ((1 << bits) - 1);
+  }
 
  private:
-  static constexpr int kBits = 20;
-  static constexpr std::int32_t kEnd = 1 << kBits;
-  std::uint64_t bits_ = 0;  // 1 + their number in the lowest, then the ids
+  static constexpr int kBits = 12, kWideBits = 20, kMostWide = 3;  // of an id
+  static constexpr std::uint64_t kWide = 8;
+  std::uint64_t bits_ = 0;  // 1 + their number in the lowest three, whether ids are wide, then the ids
 };
 
 /// Sources and background meshes, each with the cause that its lengths get (pack_cause). Immutable.

@@ -97,6 +97,44 @@ TEST(ConeKernels, ask_every_cone_that_is_known) {
   EXPECT_FALSE(kernels.wins_nearby(all.cell.numbers(), won.numbers(), 0.997F, 0.04F, all.known({})));
 }
 
+/// Expects of cones, the shortest lengths first, what they tell one by one at a place.
+void expect_least(const ConeKernels& kernels, const std::vector<Cone>& cones, const std::vector<std::int32_t>& own,
+                  Vec3 x, float largest) {
+  const SplitPlace place(x);
+  double least = static_cast<double>(largest);
+  std::int32_t teller = kNone, winner = -5;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (const double length = cones[own[i]].length_at(x); length < least) {
+      least = length;
+      teller = static_cast<std::int32_t>(i);
+    }
+  const auto n = static_cast<std::int32_t>(own.size());
+  const float length = kernels.least(cones.front().numbers(), own.data(), n, place.numbers(), largest, &winner);
+  EXPECT_NEAR(length, least, 1e-6 * least);
+  EXPECT_EQ(length, kernels.least(cones.front().numbers(), own.data(), n, place.numbers(), largest, nullptr));
+  EXPECT_EQ(winner, teller);
+}
+
+TEST(ConeKernels, find_the_least_of_cones_at_a_place) {
+  std::vector<const ConeKernels*> kernels{&detail::cone_kernels_anywhere()};
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) kernels.push_back(&detail::cone_kernels_avx2());
+#endif
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    RandomCones all(seed);
+    std::sort(all.cone.begin(), all.cone.end(), [](const Cone& a, const Cone& b) { return a.length < b.length; });
+    const double at = 0.1 * (seed % 7);
+    const Vec3 x{all.cell.c[0] + at, all.cell.c[1] - at, all.cell.c[2] + 1e-9};
+    std::vector<std::int32_t> own;
+    for (std::int32_t i = 0; i < 40; i += 1 + static_cast<std::int32_t>(seed) % 3) {
+      for (const ConeKernels* k : kernels)
+        for (const float largest : {0.06F, 0.2F}) expect_least(*k, all.cone, own, x, largest);
+      own.push_back(i);
+    }
+    for (const ConeKernels* k : kernels) expect_least(*k, all.cone, {own[3], own[3], own[3]}, x, 1);
+  }
+}
+
 #if defined(__x86_64__)
 /// Whether the cone wins on a face of the cell over those known, by both kinds of kernels; likewise what they add to
 /// two cells, of which one has the cones of even numbers.

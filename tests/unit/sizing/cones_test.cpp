@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "sizing/cone_kernels.h"
 #include "sizing/octree_field.h"
 #include "unit/sizing/cases.h"
 
@@ -231,7 +232,10 @@ TEST(Cones, tell_four_at_once_what_each_tells) {
     }
     const Vec3 x = middle + 2e-4 * vec();
     const Float4 length = FourCones(cones[0], cones[1], cones[2], cones[3]).length_at(SplitPlace(x));
-    for (int k = 0; k < 4; ++k) ASSERT_NEAR(length[k], cones[k].length_at(x), 1e-6 * length[k]);
+    for (std::int32_t k = 0; k < 4; ++k) {
+      ASSERT_NEAR(length[k], cones[k].length_at(x), 1e-6 * length[k]);
+      ASSERT_EQ(cone_kernels().least(cones[0].numbers(), &k, 1, SplitPlace(x).numbers(), 1, nullptr), length[k]);
+    }
   }
 }
 

@@ -88,7 +88,7 @@ TEST(SourceTree, names_the_few_that_count_nearby) {
   const SourceTree tree = tree_of(random_sources(100, 4));
   std::mt19937 random(12);
   int n_none = 0, n_few = 0, n_many = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 3000; ++i) {
     const Vec3 x = random_place(random);
     const double radius = 0.0003 * std::pow(300, random_place(random, 0, 1).x), upper = 0.02 * (1 + i % 9);
     const FewSources near = tree.find_near(x, radius, upper);
@@ -106,18 +106,19 @@ TEST(SourceTree, names_the_few_that_count_nearby) {
 }
 
 TEST(FewSources, are_kept_in_one_number) {
-  const std::vector<std::int32_t> ids{5, 0, (1 << 20) - 1, 7};
-  for (std::size_t n = 0; n <= FewSources::kMost; ++n) {
-    const FewSources few = FewSources::from_bits(FewSources(ids.data(), n).bits());
-    EXPECT_TRUE(few.is_known());
-    EXPECT_FALSE(few.are_many());
-    EXPECT_EQ(few.are_none(), n == 0);
-    ASSERT_EQ(few.n(), static_cast<int>(n));
-    for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(few[static_cast<int>(i)], ids[i]);
-  }
-  const std::int32_t too_large = 1 << 20;
-  EXPECT_TRUE(FewSources(ids.data(), 4).are_many());
-  EXPECT_TRUE(FewSources(&too_large, 1).are_many());
+  const std::vector<std::int32_t> wide{5, 0, (1 << 20) - 1}, small{5, 0, (1 << 12) - 1, 7, 9};
+  for (const auto& ids : {wide, small})
+    for (std::size_t n = 0; n <= ids.size(); ++n) {
+      const FewSources few = FewSources::from_bits(FewSources(ids.data(), n).bits());
+      EXPECT_TRUE(few.is_known());
+      EXPECT_FALSE(few.are_many());
+      EXPECT_EQ(few.are_none(), n == 0);
+      ASSERT_EQ(few.n(), static_cast<int>(n));
+      for (std::size_t i = 0; i < n; ++i) EXPECT_EQ(few[static_cast<int>(i)], ids[i]);
+    }
+  const std::vector<std::int32_t> too_many_wide{1 << 12, 0, 1, 2}, too_many{0, 1, 2, 3, 4, 5}, too_large{1 << 20};
+  for (const auto& ids : {too_many_wide, too_many, too_large})
+    EXPECT_TRUE(FewSources(ids.data(), ids.size()).are_many());
   EXPECT_FALSE(FewSources().is_known());
 }
 
