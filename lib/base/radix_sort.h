@@ -9,15 +9,16 @@
 
 namespace st {
 
-/// Sorts ascending by key_of(item), a 64-bit number; items of one key end in any order. O(n) per digit that differs.
-/// `other` is overwritten: who sorts often keeps it.
+/// Sorts ascending by key_of(item), a 64-bit number; items of one key keep their order. O(n) per digit that
+/// differs. `other` is overwritten: who sorts often keeps it.
 template <class Item, class KeyOf>
 void radix_sort(std::vector<Item>& items, std::vector<Item>& other, const KeyOf& key_of) {
   constexpr int kDigitBits = 11;
   constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
   constexpr std::size_t kSmall = 2048;  // below, comparison sorting is faster than counting
   if (items.size() < kSmall)
-    return std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); });
+    return std::stable_sort(items.begin(), items.end(),
+                            [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); });
   std::uint64_t varying = 0;
   for (const Item& item : items) varying |= key_of(item) ^ key_of(items.front());
   other.resize(items.size(), items.front());

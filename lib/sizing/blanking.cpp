@@ -588,13 +588,20 @@ class Blanker {
     if (parts.spare_part == part) return parts.spare;
     Vec3 nearest = without ? *without : own.center;
     double least = std::numeric_limits<double>::infinity();
-    for (int s = 0; s < kSamples; ++s) {
-      if (parts.part[s] != part) continue;
-      const Vec3 y = own.sample(s);
-      if (norm2(y - x) >= least || (without && y == *without)) continue;
-      least = norm2(y - x);
+    const Vec3 low = own.sample(0), high = own.sample(7), from_low = low - x, from_high = high - x;
+    const double dx2[2] = {from_low.x * from_low.x, from_high.x * from_high.x},
+                 dy2[2] = {from_low.y * from_low.y, from_high.y * from_high.y},
+                 dz2[2] = {from_low.z * from_low.z, from_high.z * from_high.z};
+    const auto look_at = [&](double distance2, Vec3 y) {
+      if (distance2 >= least || (without && y == *without)) return;
+      least = distance2;
       nearest = y;
-    }
+    };
+    for (int s = 0; s < kSamples - 1; ++s)
+      if (parts.part[s] == part)
+        look_at(dx2[s & 1] + dy2[s >> 1 & 1] + dz2[s >> 2 & 1],
+                {s & 1 ? high.x : low.x, s & 2 ? high.y : low.y, s & 4 ? high.z : low.z});
+    if (parts.part[kSamples - 1] == part) look_at(norm2(own.sample(kSamples - 1) - x), own.sample(kSamples - 1));
     return nearest;
   }
 

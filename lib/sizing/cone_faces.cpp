@@ -68,26 +68,41 @@ class FaceAgreement {
     for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next) f(links_[k].sample);
   }
 
-  /// Both sites' cones, each once.
-  void gather(std::int32_t a, std::int32_t b) {
+  /// Both sites' cones, each once. Whether any is of one site alone.
+  bool gather(std::int32_t a, std::int32_t b) {
     on_face_.clear();
-    for_each_sample(a, [&](std::int32_t s) {
-      seen_[s] = static_cast<std::int32_t>(on_face_.size());
-      on_face_.push_back({s, 1});
+    const auto take = [&](std::int32_t site, const auto& is_new) {
+      const std::size_t before = on_face_.size();
+      const std::int32_t begin = samples_.first[site], end = samples_.first[site + 1];
+      on_face_.resize(before + static_cast<std::size_t>(end - begin));
+      FaceCone* out = on_face_.data() + before;
+      for (std::int32_t i = begin; i < end; ++i) {
+        *out = {samples_.sample[i], site == a ? 1 : 2};
+        out += is_new(samples_.sample[i], static_cast<std::size_t>(out - on_face_.data()));
+      }
+      on_face_.resize(static_cast<std::size_t>(out - on_face_.data()));
+      for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next)
+        if (is_new(links_[k].sample, on_face_.size())) on_face_.push_back({links_[k].sample, site == a ? 1 : 2});
+    };
+    take(a, [&](std::int32_t s, std::size_t at) {
+      seen_[s] = static_cast<std::int32_t>(at);
+      return true;
     });
-    for_each_sample(b, [&](std::int32_t s) {
+    const std::size_t n_first = on_face_.size();
+    std::size_t n_both = 0;
+    take(b, [&](std::int32_t s, std::size_t) {
       const auto at = static_cast<std::size_t>(seen_[s]);
-      if (at < on_face_.size() && on_face_[at].sample == s)
-        on_face_[at].of |= 2;
-      else
-        on_face_.push_back({s, 2});
+      if (at >= n_first || on_face_[at].sample != s) return true;
+      on_face_[at].of = 3;
+      ++n_both;
+      return false;
     });
+    return n_both < on_face_.size();
   }
 
   void settle(std::int32_t a, std::int32_t b, std::int32_t ways) {
-    gather(a, b);
+    if (!gather(a, b)) return;
     const auto n = static_cast<std::int32_t>(on_face_.size());
-    if (std::none_of(on_face_.begin(), on_face_.end(), [](const FaceCone& c) { return c.of != 3; })) return;
     lengths_.resize(std::max(lengths_.size(), on_face_.size() * kFacePlaces));
     const ConeFace face = face_of(a, b);
     const std::int32_t n_sets = n > kManyCones ? kFaceSets : 1;

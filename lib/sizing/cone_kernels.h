@@ -12,7 +12,7 @@ inline constexpr int kConeNumbers = 13;
 inline constexpr int kProbes = 16;  // of a cell: its corners, the centres of its faces, its own centre (twice)
 
 // Of the length known at a place: less is no gain.
-inline constexpr float kClearlyOnFace = 0.998F;  // where cells touch
+inline constexpr float kClearlyOnFace = 0.999F;  // where cells touch
 
 /// Likewise, for cones that are near and for others.
 struct ConeShares {

@@ -61,7 +61,10 @@ class ConeSpread {
 
   ConeTable take() {
     const SiteGraph graph = make_graph();
-    const SiteSamples all = agree_on_faces(graph, cones_, largest_, pruned_sites());
+    SiteSamples kept = pruned_sites();
+    sites_ = {};  // most of the memory
+    entries_ = {};
+    const SiteSamples all = agree_on_faces(graph, cones_, largest_, std::move(kept));
     ConeTable table;
     table.of_site.reserve(all.sample.size());
     table.at_center.assign(all.at_center.size(), kNone);
@@ -76,7 +79,7 @@ class ConeSpread {
       table.of_site.push_back(number[s]);
     }
     table.first = all.first;
-    for (std::size_t site = 0; site < sites_.size(); ++site) {
+    for (std::size_t site = 0; site < all.at_center.size(); ++site) {
       std::sort(table.of_site.begin() + table.first[site], table.of_site.begin() + table.first[site + 1],
                 [&](std::int32_t a, std::int32_t b) {
                   return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length
@@ -88,15 +91,9 @@ class ConeSpread {
   }
 
  private:
-  /// Of a site and a sample, in this order.
   struct Event {
-    std::uint64_t key;
+    std::int32_t site, sample;
     std::int32_t n;  // samples of the site with it; 0: it lies there and is not taken yet
-
-    Event(std::int32_t site, std::int32_t sample, std::int32_t n)
-        : key(static_cast<std::uint64_t>(site) << 32 | static_cast<std::uint32_t>(sample)), n(n) {}
-    std::int32_t site() const { return static_cast<std::int32_t>(key >> 32); }
-    std::int32_t sample() const { return static_cast<std::int32_t>(key); }
   };
   static constexpr std::size_t kAhead = 4;  // events
   /// What an offer needs comes first.
@@ -143,6 +140,8 @@ class ConeSpread {
   };
   SiteGraph make_graph() {
     SiteGraph graph;
+    graph.cell.reserve(sites_.size());
+    graph.of_beside.reserve(sites_.size());
     for (std::size_t site = 0; site < sites_.size(); ++site) {
       graph.cell.push_back(sites_[site].cell);
       graph.of_beside.push_back(beside(static_cast<std::int32_t>(site)));
@@ -204,21 +203,18 @@ class ConeSpread {
 
   /// Site by site: so those that are looked at lie beside each other in memory.
   void pass_on_in_order(std::vector<Event> events) {
-    const int bits = std::bit_width(samples_.size());  // of a sample: fewer digits to sort by
-    radix_sort(events, sorting_, [bits](const Event& e) {
-      return static_cast<std::uint64_t>(e.site()) << bits | static_cast<std::uint64_t>(e.sample());
-    });
+    radix_sort(events, sorting_, [](const Event& e) { return static_cast<std::uint64_t>(e.site); });
     for (std::size_t i = 0; i < events.size(); ++i) {
       if (i + 2 * kAhead < events.size()) fetch(events[i + 2 * kAhead]);
-      if (i + kAhead < events.size()) fetch_beside(events[i + kAhead].site());
+      if (i + kAhead < events.size()) fetch_beside(events[i + kAhead].site);
       pass_on(events[i]);
     }
   }
 
   /// Asks the memory for what an event will need. Inlined: else it is taken for a function without effect.
   [[gnu::always_inline]] void fetch(const Event& e) const {
-    sites_[e.site()].fetch();
-    __builtin_prefetch(&cones_[e.sample()]);
+    sites_[e.site].fetch();
+    __builtin_prefetch(&cones_[e.sample]);
   }
   [[gnu::always_inline]] void fetch_beside(std::int32_t site) const {
     const auto [first, last] = sites_[site].beside;
@@ -226,10 +222,10 @@ class ConeSpread {
   }
 
   void pass_on(const Event& e) {
-    const std::int32_t site = e.site(), sample = e.sample();
+    const std::int32_t site = e.site, sample = e.sample;
     float least = 0;
     if (e.n == 0 && !offer(site, sample, kOwnShares, least)) return;
-    if (e.n != 0 && sites_[site].n != e.n && !is_still_best(sites_[site], sample)) return;
+    if (e.n != 0 && sites_[site].n != e.n && !sites_[site].is_winner(sample)) return;
     const auto [first, last] = beside(site);
     const std::int32_t ahead = sides_ahead(sites_[site], sample);
     for (std::int32_t k = first; k < last; ++k) {
@@ -328,11 +324,6 @@ class ConeSpread {
                                  std::min(s.n, Site::kOwn), entries_.data(), s.more});
   }
 
-  bool is_still_best(const Site& s, std::int32_t sample) const {
-    if (s.is_winner(sample)) return true;
-    return kernels_.is_near(s.cell.numbers(), cones_[sample].numbers()) && wins_nearby(s, sample, kSpreadShares.nearby);
-  }
-
   /// Those of the site that win at a probe, or clearly where the site is close to them.
   const std::vector<std::int32_t>& pruned(std::int32_t site) {
     const Site& s = sites_[site];
@@ -350,7 +341,7 @@ class ConeSpread {
     });
     for (const std::int32_t sample : near_) {
       const KnownCones known{cones_.front().numbers(),
-                             kNone,
+                             s.winner_towards(cones_[sample]),  // kept as all winners; most are beaten by it
                              kNone,
                              kept_.data(),
                              static_cast<std::int32_t>(kept_.size()),

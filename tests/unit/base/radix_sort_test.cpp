@@ -51,6 +51,21 @@ TEST(RadixSort, sorts_items_by_a_key_of_theirs) {
   }
 }
 
+TEST(RadixSort, keeps_the_order_of_items_of_one_key) {
+  struct Item {
+    std::uint64_t key;
+    std::size_t n;
+  };
+  std::vector<Item> other;
+  for (const std::size_t n : {5000, 1000}) {
+    std::vector<Item> items;
+    for (const std::uint64_t key : random_keys(n, 0x7001)) items.push_back({key, items.size()});
+    radix_sort(items, other, [](const Item& item) { return item.key; });
+    for (std::size_t i = 1; i < n; ++i)
+      EXPECT_TRUE(items[i - 1].key < items[i].key || items[i - 1].n < items[i].n) << n << " " << i;
+  }
+}
+
 TEST(RadixSort, keeps_one_of_equal_keys) {
   std::vector<std::uint64_t> keys(5000, 42);
   sort_unique(keys);

@@ -69,10 +69,18 @@ TEST(ConeFaces, give_a_cell_what_tells_less_on_its_face) {
   EXPECT_EQ(row.settled(1), (CellSamples{0})) << "the model lies elsewhere, and no step passes the slope";
 }
 
+TEST(ConeFaces, give_a_cell_what_tells_a_little_less_on_its_face) {
+  CellRow row(2);
+  row.add_cone({0, 0, 0}, 1);
+  row.add_cone({0.5, 0.5, 0}, 1.1397F);  // 0.15 % less at its place
+  row.set_samples({{0, 1}, {0}});
+  EXPECT_EQ(row.settled(1), (CellSamples{0, 1}));
+}
+
 TEST(ConeFaces, leave_out_what_tells_hardly_less) {
   CellRow row(2);
   row.add_cone({0, 0, 0}, 1);
-  row.add_cone({0, 0.01, 0}, 1);
+  row.add_cone({0, 0.005, 0}, 1);
   row.set_samples({{0, 1}, {0}});
   EXPECT_EQ(row.settled(1), (CellSamples{0}));
 }
