@@ -4,6 +4,7 @@
 #include <cmath>
 #include <queue>
 
+#include "meshing/face/ridge_lines.h"
 #include "meshing/face/row_chains.h"
 #include "meshing/face/row_ladder.h"
 #include "meshing/face/row_layer.h"
@@ -28,7 +29,9 @@ class RowBlock {
     line_.lowest.assign(line_.nodes.size(), 0);
     line_.highest = line_.lowest;
     line_.is_closed = chain_.is_closed;
-    for (const std::int32_t n : chain_.nodes) is_used_[n] = kChain;
+    is_inside_ = chain_.nodes.front() >= m_.n_boundary;
+    for (const std::int32_t n : chain_.nodes)
+      if (!is_inside_) is_used_[n] = kChain;
     height_ = w_.mesh.nodes[chain_.nodes[chain_.nodes.size() / 2]].request;
   }
 
@@ -70,7 +73,7 @@ class RowBlock {
   /// Edges of the lines behind which no row lies.
   void add_ends(std::vector<Side>& sides) const {
     sides.insert(sides.end(), ended_.begin(), ended_.end());
-    for (std::size_t i = 0; n_rows_ > 0 && i < line_.joined.size(); ++i)
+    for (std::size_t i = 0; (n_rows_ > 0 || is_inside_) && i < line_.joined.size(); ++i)
       if (line_.joined[i]) sides.push_back({line_.nodes[i], line_.nodes[i + 1]});
   }
 
@@ -234,8 +237,15 @@ class RowBlock {
   std::size_t n_rows_ = 0;
   double height_ = 0;
   bool is_exhausted_ = false;
-  mutable int hint_ = 0;  // of the field
+  bool is_inside_ = false;  // the chain is no part of a loop
+  mutable int hint_ = 0;    // of the field
 };
+
+RowChain chain_inside(const std::vector<std::int32_t>& nodes) {
+  RowChain chain;
+  chain.nodes = nodes;
+  return chain;
+}
 
 }  // namespace
 
@@ -243,6 +253,11 @@ std::vector<Side> lay_row_blocks(FaceWork& work) {
   std::vector<Use> is_used(work.mesh.n_boundary, kFree);
   std::vector<RowBlock> blocks;
   for (RowChain& chain : find_row_chains(work)) blocks.emplace_back(work, std::move(chain), is_used);
+  for (std::vector<std::int32_t>& line : lay_ridges(work))
+    for (int side = 0; side < 2; ++side) {
+      blocks.emplace_back(work, chain_inside(line), is_used);
+      std::reverse(line.begin(), line.end());
+    }
   std::priority_queue<std::pair<double, std::int32_t>> queue;  // minus height, minus block: the finest first
   for (std::size_t i = 0; i < blocks.size(); ++i)
     if (!blocks[i].map()) queue.push({-blocks[i].height(), -static_cast<std::int32_t>(i)});

@@ -1,0 +1,196 @@
+#include "meshing/face/ridge_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "meshing/face/row_chains.h"
+#include "meshing/face/row_line.h"
+#include "meshing/face/stretch.h"
+
+namespace st {
+namespace {
+
+// Where each number comes from: docs/design/heuristics.md.
+constexpr int kBeside = 3;                 // nodes of a loop on each side, among which the seed's length is least
+constexpr double kStraight = radians(30);  // a loop that turns by less goes on
+constexpr double kAspect = 1.5;            // length along over across: less begins no line
+constexpr double kHasDirection = 1.1;      // likewise: less tells no direction
+constexpr int kSearched = 40;              // steps from a loop without that
+constexpr int kMostSteps = 20000;          // of a line
+constexpr double kWindow = 3;              // lengths across to each side, in which the least one is looked for
+constexpr double kWindowOfStep = 0.05;     // likewise, of a step: the direction may be off by three degrees
+constexpr int kProbes = 4;                 // on each side
+constexpr int kRefined = 9;                // golden sections between probes
+constexpr double kClearlyShorter = 0.995;  // of the length where the line goes straight
+constexpr double kTurned = 0.7;            // cosine between steps: a line that turns more ends
+constexpr double kClear = 1.5;             // lengths across, to other nodes and edges that must stay
+constexpr std::size_t kLeastNodes = 4;
+
+class RidgeLayer {
+ public:
+  explicit RidgeLayer(FaceWork& work) : w_(work), m_(work.mesh) {}
+
+  std::vector<std::vector<std::int32_t>> run() {
+    std::vector<std::vector<std::int32_t>> lines;
+    for (const auto& [seed, inward] : find_seeds())
+      for (std::vector<std::int32_t>& line : insert(trace(seed, inward), seed)) lines.push_back(std::move(line));
+    return lines;
+  }
+
+ private:
+  struct Seed {
+    std::int32_t node;
+    Vec3 inward;
+  };
+
+  /// Nodes where the length is least along their loop.
+  std::vector<Seed> find_seeds() const {
+    const auto n = static_cast<std::size_t>(m_.n_boundary);
+    std::vector<std::int32_t> next(n, kNone), previous(n, kNone);
+    for (const auto& [a, b] : w_.segments) {
+      next[a] = next[a] == kNone ? b : a;
+      previous[b] = previous[b] == kNone ? a : b;
+    }
+    std::vector<Seed> seeds;
+    for (std::int32_t i = 0; i < m_.n_boundary; ++i)
+      if (is_least(i, next) && is_least(i, previous, true)) {
+        const MeshNode &at = m_.nodes[i], &a = m_.nodes[previous[i]], &b = m_.nodes[next[i]];
+        if (at.is_pole || std::abs(turning(at.x - a.x, b.x - at.x, at.normal)) > kStraight) continue;
+        seeds.push_back({i, normalized(cross(at.normal, b.x - a.x))});
+      }
+    return seeds;
+  }
+
+  /// Of those alike the first one along `step` counts: `is_strict` in the other direction.
+  bool is_least(std::int32_t i, const std::vector<std::int32_t>& step, bool is_strict = false) const {
+    std::int32_t at = i;
+    for (int k = 0; k < kBeside; ++k) {
+      if (step[at] == kNone || step[at] == at) return false;
+      at = step[at];
+      const double other = m_.nodes[at].request, own = m_.nodes[i].request;
+      if (is_strict ? other <= own : other < own) return false;
+    }
+    return true;
+  }
+
+  /// Places one length along apart, from a loop on, while edges may be longer along the way.
+  std::vector<MeshNode> trace(std::int32_t seed, Vec3 inward) {
+    std::vector<MeshNode> line;
+    MeshNode at = m_.nodes[seed];
+    Vec3 ahead = inward;
+    triangle_ = kNone;
+    for (int n = 0; n < kMostSteps && (n < kSearched || !line.empty()); ++n) {
+      const std::optional<MeshNode> next = step_from(at, ahead);
+      if (!next || !goes_to(next->p, seed)) break;
+      ahead = normalized(next->x - at.x);
+      at = *next;
+      if (aspect_of(at) >= kAspect)
+        line.push_back(at);
+      else if (!line.empty())
+        break;
+    }
+    return line;
+  }
+
+  /// From where the search was last, or from the seed; false: an edge that must stay is in the way.
+  bool goes_to(Vec2 p, std::int32_t seed) {
+    if (triangle_ == kNone) triangle_ = m_.triangle_towards(seed, p);
+    if (triangle_ != kNone) triangle_ = m_.locate(p, triangle_);
+    return triangle_ != kNone && m_.triangles[triangle_].state == kUnfinished;
+  }
+
+  std::optional<MeshNode> step_from(const MeshNode& at, Vec3 ahead) {
+    Vec3 d = ahead - dot(ahead, at.normal) * at.normal;
+    if (aspect_of(at) > kHasDirection) {
+      const Vec3 own = dot(at.squeeze, ahead) < 0 ? -1 * at.squeeze : at.squeeze;
+      if (dot(own, ahead) > kTurned * norm(own)) d = own;
+    }
+    d = normalized(d);
+    if (d == Vec3{}) return std::nullopt;
+    double length = at.request * aspect_of(at);
+    MeshNode next;
+    for (int i = 0; i < 2; ++i) {
+      if (!step_on_surface(w_, at, d, length, next)) return std::nullopt;
+      w_.ask_sizes(next);
+      if (i == 0) length = 0.5 * (length + std::min(next.request * aspect_of(next), 2 * length));
+    }
+    if (!to_least(next, normalized(cross(next.normal, d)), length)) return std::nullopt;
+    if (dot(normalized(next.x - at.x), ahead) < kTurned) return std::nullopt;
+    return next;
+  }
+
+  /// Moves it across to where the length is least; false: that is not beside it.
+  bool to_least(MeshNode& node, Vec3 across, double step) {
+    const MeshNode from = node;
+    const double reach = std::max(kWindow * from.request, kWindowOfStep * step), between = reach / kProbes;
+    const auto at = [&](double way) {
+      MeshNode p = from;
+      if (const auto move = tangent_step(from.du, from.dv, way * across)) p.p = from.p + *move;
+      w_.evaluate(p);
+      w_.ask_sizes(p);
+      return p;
+    };
+    int best = 0;
+    double least = from.request;
+    for (int k = -kProbes; k <= kProbes; ++k)
+      if (const double own = at(k * between).request; own < least) least = own, best = k;
+    if (std::abs(best) == kProbes) return false;
+    constexpr double kGolden = 0.6180339887498949;
+    double low = (best - 1) * between, high = (best + 1) * between;
+    for (int i = 0; i < kRefined; ++i) {
+      const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+      (at(a).request < at(b).request ? high : low) = at(a).request < at(b).request ? b : a;
+    }
+    const MeshNode found = at(0.5 * (low + high));
+    if (found.request < kClearlyShorter * from.request) node = found;
+    return true;
+  }
+
+  /// In pieces, where it comes near to others.
+  std::vector<std::vector<std::int32_t>> insert(const std::vector<MeshNode>& places, std::int32_t seed) {
+    std::vector<std::vector<std::int32_t>> lines(1);
+    triangle_ = kNone;
+    for (const MeshNode& place : places) {
+      const std::int32_t last = lines.back().empty() ? kNone : lines.back().back();
+      const std::int32_t n = insert(place, last, seed);
+      const bool is_joined = n != kNone && last != kNone && m_.force_side(last, n);
+      if (!is_joined && !lines.back().empty()) lines.emplace_back();
+      if (n != kNone) lines.back().push_back(n);
+    }
+    std::erase_if(lines, [](const auto& line) { return line.size() < kLeastNodes; });
+    return lines;
+  }
+
+  std::int32_t insert(const MeshNode& p, std::int32_t last, std::int32_t seed) {
+    if (m_.nodes.size() >= w_.max_nodes) return kNone;
+    if (!goes_to(p.p, seed)) return kNone;
+    if (!m_.find_cavity(p.p, metric_of(p), triangle_) || is_crowded(p, last)) return kNone;
+    m_.nodes.push_back(p);
+    m_.nodes.back().is_laid = m_.nodes.back().is_kept = true;
+    m_.added_node();
+    const auto added = static_cast<std::int32_t>(m_.nodes.size()) - 1;
+    m_.fill_cavity(added);
+    triangle_ = m_.triangle_at(added);
+    return added;
+  }
+
+  bool is_crowded(const MeshNode& p, std::int32_t last) const {
+    const double clear = kClear * p.request;
+    return std::any_of(m_.ring().begin(), m_.ring().end(), [&](const Triangulation::RingEdge& e) {
+      const Vec3 a = m_.nodes[e.a].x, b = m_.nodes[e.b].x;
+      return (e.a != last && distance(p.x, a) < clear) ||
+             (e.constrained && e.a != last && e.b != last && segment_distance(p.x, a, b) < clear);
+    });
+  }
+
+  FaceWork& w_;
+  Triangulation& m_;
+  std::int32_t triangle_ = kNone;  // where the last place is
+};
+
+}  // namespace
+
+std::vector<std::vector<std::int32_t>> lay_ridges(FaceWork& work) { return RidgeLayer(work).run(); }
+
+}  // namespace st

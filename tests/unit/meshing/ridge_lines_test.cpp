@@ -1,0 +1,104 @@
+#include "meshing/face/ridge_lines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "meshing/face/row_blocks.h"
+#include "unit/meshing/row_case.h"
+
+namespace st::test {
+namespace {
+
+/// Counter-clockwise about a ridge along the x axis: 30 wide, 2 x 5 high.
+std::vector<Vec2> loop_about_ridge() {
+  std::vector<double> up = growing(0.1, 0.2, 5);
+  std::vector<Vec2> loop;
+  for (int i = 0; i < 30; ++i) loop.push_back({static_cast<double>(i), -5});
+  const auto add_side = [&](double x, double sign) {
+    for (auto y = up.rbegin(); y != up.rend(); ++y) loop.push_back({x, -sign * *y});
+    loop.push_back({x, 0});
+    for (const double y : up) loop.push_back({x, sign * y});
+  };
+  add_side(30, 1);
+  for (int i = 29; i > 0; --i) loop.push_back({static_cast<double>(i), 5});
+  add_side(0, -1);
+  loop.erase(loop.begin());
+  return loop;
+}
+
+/// The ridge is a parabola.
+class BentRidgeField : public WallField {
+ public:
+  BentRidgeField() : WallField(0.1, 0.2, 1) {}
+  using WallField::size;
+  double size(Vec3 x, int& hint) const override { return WallField::size({x.x, x.y - ridge_at(x.x), 0}, hint); }
+  LocalSize local(Vec3 x, int& hint) const override {
+    LocalSize own = WallField::local(x, hint);
+    if (own.direction != Vec3{}) own.direction = normalized({1, (30 - 2 * x.x) * kBend, 0});
+    return own;
+  }
+  static double ridge_at(double x) { return kBend * x * (30 - x); }
+
+ private:
+  static constexpr double kBend = 0.001;
+};
+
+TEST(RidgeLines, follow_the_least_length) {
+  const WallField field(0.1, 0.2, 1);
+  RowCase face({loop_about_ridge()}, field);
+  const auto lines = lay_ridges(face.work);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_GE(lines[0].size(), 27u);
+  for (std::size_t i = 0; i < lines[0].size(); ++i) {
+    const MeshNode& n = face.work.mesh.nodes[lines[0][i]];
+    EXPECT_NEAR(n.x.y, 0, 0.01);
+    if (i == 0) continue;
+    EXPECT_NEAR(std::abs(n.x.x - face.work.mesh.nodes[lines[0][i - 1]].x.x), 1, 0.05);
+    EXPECT_TRUE(face.work.mesh.is_fixed(lines[0][i - 1], lines[0][i]));
+  }
+}
+
+TEST(RidgeLines, follow_a_bent_one) {
+  const BentRidgeField field;
+  RowCase face({loop_about_ridge()}, field);
+  const auto lines = lay_ridges(face.work);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_GE(lines[0].size(), 27u);
+  for (const std::int32_t n : lines[0]) {
+    const Vec3 x = face.work.mesh.nodes[n].x;
+    EXPECT_NEAR(x.y, BentRidgeField::ridge_at(x.x), 0.02);
+  }
+}
+
+TEST(RidgeLines, are_none_where_lengths_are_alike_in_all_directions) {
+  const WallField field(0.1, 0.2, 0.12);
+  RowCase face({loop_about_ridge()}, field);
+  EXPECT_TRUE(lay_ridges(face.work).empty());
+}
+
+TEST(RidgeLines, are_none_along_a_loop) {
+  const WallField field(0.1, 0.2, 1);
+  RowCase face({band(30, 30, growing(0.1, 0.2, 5), growing(0.1, 0.2, 5))}, field);
+  EXPECT_TRUE(lay_ridges(face.work).empty());
+}
+
+TEST(RidgeLines, have_rows_on_both_sides) {
+  const WallField field(0.1, 0.2, 1);
+  RowCase face({loop_about_ridge()}, field);
+  lay_row_blocks(face.work);
+  double low = 0, high = 0;
+  for (const PlaneTriangle& t : face.work.mesh.triangles) {
+    if (t.state != kLaid) continue;
+    for (const std::int32_t v : t.v) {
+      low = std::min(low, face.work.mesh.nodes[v].x.y);
+      high = std::max(high, face.work.mesh.nodes[v].x.y);
+    }
+  }
+  EXPECT_LT(low, -1.5);
+  EXPECT_GT(high, 1.5);
+  EXPECT_NEAR(low, -high, 0.2);
+}
+
+}  // namespace
+}  // namespace st::test
