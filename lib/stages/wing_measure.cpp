@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
 constexpr double kAround = 3;        // lengths around a place whose segments count
+constexpr double kAroundRows = 1.5;  // likewise of stretched triangles: the row there and some of the next
 constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
 constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
 constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
@@ -57,26 +58,27 @@ class WingMesh {
 
   LengthsAt lengths_at(Vec3 place, Vec3 along_span) const {
     const TriangleId at_place = nearest(place, along_span);
-    const double side = mean_side(at_place), reach = kAround * side;
-    const double height = norm(height_of(at_place)), flatness = kStretched * height < side ? height / side : 1;
-    const Vec3 middle = flatness < 1 ? ball_of(at_place).center : place;
+    const double side = mean_side(at_place), height = norm(height_of(at_place));
+    const bool is_flat = kStretched * height < side;
+    const double reach = (is_flat ? kAroundRows : kAround) * side, flatness = is_flat ? height / side : 1;
+    const Vec3 middle = is_flat ? ball_of(at_place).center : place;
     const auto is_around = [&](Vec3 x) {
-      const double along2 = flatness < 1 ? dot(x, along_span) * dot(x, along_span) : 0;
+      const double along2 = is_flat ? dot(x, along_span) * dot(x, along_span) : 0;
       return along2 + (norm2(x) - along2) / (flatness * flatness) <= reach * reach;
     };
-    std::array<double, 2> sum = {0, 0};
-    std::array<std::int64_t, 2> n = {0, 0};
+    Mean across, along;
     for (const auto& [t, center, radius, at] : skin_within(middle, reach)) {
       if (!is_around(center - middle)) continue;
+      if (is_flat) across.add(width_of(t, along_span));
       for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 way = corner(t, (k + 1) % 3) - corner(t, k);
-        const std::size_t is_along = std::abs(dot(normalized(way), along_span)) >= kAlong ? 1 : 0;
-        sum[is_along] += norm(way);
-        ++n[is_along];
+        if (std::abs(dot(normalized(way), along_span)) >= kAlong)
+          along.add(norm(way));
+        else if (!is_flat)
+          across.add(norm(way));
       }
     }
-    const auto mean = [&](std::size_t i) { return n[i] ? sum[i] / static_cast<double>(n[i]) : 0; };
-    return {mean(0), mean(1)};
+    return {across.value(), along.value()};
   }
 
   /// Lengths along the profile at a station: of each triangle that its plane cuts, the part of its own extent that the
@@ -126,6 +128,12 @@ class WingMesh {
   }
 
  private:
+  struct Mean {
+    double sum = 0;
+    std::int64_t n = 0;
+    void add(double x) { sum += x, ++n; }
+    double value() const { return n ? sum / static_cast<double>(n) : 0; }
+  };
   Vec3 corner(TriangleId t, std::size_t k) const { return mesh_.node_xyz[mesh_.triangles[t].n[k]]; }
   Ball ball_of(TriangleId t) const {
     const Vec3 center = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
@@ -175,6 +183,11 @@ class WingMesh {
     for (std::size_t k = 0; k < 3; ++k)
       if (const Vec3 way = corner(t, (k + 1) % 3) - corner(t, k); norm2(way) > norm2(longest)) longest = way;
     return cross(normal_of(t), longest) / std::max(norm2(longest), std::numeric_limits<double>::min());
+  }
+  /// Across a direction: that of a row of right-angled triangles along it, whichever way its diagonals run.
+  double width_of(TriangleId t, Vec3 direction) const {
+    const double a = dot(corner(t, 0), direction), b = dot(corner(t, 1), direction), c = dot(corner(t, 2), direction);
+    return norm(normal_of(t)) / std::max(std::max({a, b, c}) - std::min({a, b, c}), std::numeric_limits<double>::min());
   }
   Vec3 normal_of(TriangleId t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
 

@@ -22,6 +22,7 @@ constexpr double kWindow = 3;              // lengths across to each side, in wh
 constexpr double kWindowOfStep = 0.05;     // likewise, of a step: the direction may be off by three degrees
 constexpr int kProbes = 4;                 // on each side
 constexpr int kRefined = 9;                // golden sections between probes
+constexpr double kLonger = 1.1;            // there over the least one: less is no ridge
 constexpr double kClearlyShorter = 0.995;  // of the length where the line goes straight
 constexpr double kTurned = 0.7;            // cosine between steps: a line that turns more ends
 constexpr double kClear = 1.5;             // lengths across, to other nodes and edges that must stay
@@ -132,10 +133,13 @@ class RidgeLayer {
       return p;
     };
     int best = 0;
-    double least = from.request;
-    for (int k = -kProbes; k <= kProbes; ++k)
-      if (const double own = at(k * between).request; own < least) least = own, best = k;
-    if (std::abs(best) == kProbes) return false;
+    double least = from.request, end = 0;
+    for (int k = -kProbes; k <= kProbes; ++k) {
+      const double own = at(k * between).request;
+      if (own < least) least = own, best = k;
+      if (std::abs(k) == kProbes) end = end > 0 ? std::min(end, own) : own;
+    }
+    if (end < kLonger * least) return false;
     constexpr double kGolden = 0.6180339887498949;
     double low = (best - 1) * between, high = (best + 1) * between;
     for (int i = 0; i < kRefined; ++i) {

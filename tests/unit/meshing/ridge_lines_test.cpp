@@ -77,6 +77,12 @@ TEST(RidgeLines, are_none_where_lengths_are_alike_in_all_directions) {
   EXPECT_TRUE(lay_ridges(face.work).empty());
 }
 
+TEST(RidgeLines, are_none_where_lengths_across_are_about_the_same) {
+  const WallField field(0.1, 0.0001, 1);
+  RowCase face({loop_about_ridge()}, field);
+  EXPECT_TRUE(lay_ridges(face.work).empty());
+}
+
 TEST(RidgeLines, are_none_along_a_loop) {
   const WallField field(0.1, 0.2, 1);
   RowCase face({band(30, 30, growing(0.1, 0.2, 5), growing(0.1, 0.2, 5))}, field);

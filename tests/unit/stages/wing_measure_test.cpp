@@ -58,6 +58,23 @@ TEST(WingMeasure, of_stretched_rows_has_their_heights) {
   EXPECT_TRUE(find_misses(all).empty());
 }
 
+/// A row's stations may run askew, and its diagonals either way.
+TEST(WingMeasure, of_sheared_rows_has_their_heights) {
+  std::vector<double> x{0};
+  for (double height = 0.001; x.back() + height < 0.5; height *= 1.2) x.push_back(x.back() + height);
+  for (int i = static_cast<int>(x.size()) - 1; i >= 0; --i) x.push_back(1 - x[i]);
+  SurfaceMesh mesh = test::plank_of(x, 16, 0.1);
+  for (Vec3& n : mesh.node_xyz) n.y += 3 * std::min({n.x, 1 - n.x, 0.02});
+  const WingRecord wing = record(0.001);
+  const std::vector<WingMeasure> all = measure_wings(mesh, {&wing, 1});
+  EXPECT_EQ(all[0].held, 1);
+  for (const WingStationMeasure& s : all[0].stations) {
+    EXPECT_GE(s.nose.normal, 0.001);
+    EXPECT_LT(s.nose.normal, 0.00125) << "that row and a part of the next";
+    EXPECT_LT(s.trailing.normal, 0.00125);
+  }
+}
+
 TEST(WingMeasure, holds_on_the_share_of_the_span_where_no_place_is_too_coarse) {
   WingRecord wing = record(0.05);
   for (WingRecord::Station& s : wing.stations)
