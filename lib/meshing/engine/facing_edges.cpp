@@ -164,9 +164,9 @@ bool are_alike(const EdgeMesh& a, const EdgeMesh& b) {
 std::vector<FacingEdges> find_facing_edges(const MeshTopology& topology, bool has_rows) {
   Roles roles(topology);
   std::vector<StripSides> strips = find_strip_sides(topology.tables());
-  if (!has_rows)  // the narrowest need it most
-    std::stable_sort(strips.begin(), strips.end(),
-                     [](const StripSides& a, const StripSides& b) { return a.width < b.width; });
+  // the narrowest need it most
+  std::stable_sort(strips.begin(), strips.end(),
+                   [](const StripSides& a, const StripSides& b) { return a.width < b.width; });
   for (const StripSides& strip : strips) roles.add(strip, has_rows);
   return roles.take();
 }

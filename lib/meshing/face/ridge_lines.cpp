@@ -1,6 +1,7 @@
 #include "meshing/face/ridge_lines.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -21,9 +22,9 @@ constexpr int kMostSteps = 20000;          // of a line
 constexpr double kWindow = 3;              // lengths across to each side, in which the least one is looked for
 constexpr double kWindowOfStep = 0.05;     // likewise, of a step: the direction may be off by three degrees
 constexpr int kProbes = 4;                 // on each side
-constexpr int kRefined = 9;                // golden sections between probes
+constexpr int kWidenings = 3;              // to twice that, where it is as short all over
+constexpr int kHalvings = 10;              // between probes
 constexpr double kLonger = 1.1;            // there over the least one: less is no ridge
-constexpr double kClearlyShorter = 0.995;  // of the length where the line goes straight
 constexpr double kTurned = 0.7;            // cosine between steps: a line that turns more ends
 constexpr double kClear = 1.5;             // lengths across, to other nodes and edges that must stay
 constexpr std::size_t kLeastNodes = 4;
@@ -121,10 +122,9 @@ class RidgeLayer {
     return next;
   }
 
-  /// Moves it across to where the length is least; false: that is not beside it.
+  /// Moves it across to where the length is least, or to the middle of where it is about that; false: there is none.
   bool to_least(MeshNode& node, Vec3 across, double step) {
     const MeshNode from = node;
-    const double reach = std::max(kWindow * from.request, kWindowOfStep * step), between = reach / kProbes;
     const auto at = [&](double way) {
       MeshNode p = from;
       if (const auto move = tangent_step(from.du, from.dv, way * across)) p.p = from.p + *move;
@@ -132,23 +132,23 @@ class RidgeLayer {
       w_.ask_sizes(p);
       return p;
     };
-    int best = 0;
-    double least = from.request, end = 0;
-    for (int k = -kProbes; k <= kProbes; ++k) {
-      const double own = at(k * between).request;
-      if (own < least) least = own, best = k;
-      if (std::abs(k) == kProbes) end = end > 0 ? std::min(end, own) : own;
+    double reach = std::max(kWindow * from.request, kWindowOfStep * step);
+    for (int i = 0; i <= kWidenings; ++i, reach *= 2) {
+      std::array<double, 2 * kProbes + 1> request;
+      for (int k = -kProbes; k <= kProbes; ++k) request[k + kProbes] = at(k * reach / kProbes).request;
+      const auto least = std::min_element(request.begin(), request.end());
+      if (std::min(request.front(), request.back()) < kLonger * *least) continue;
+      const double middle = (static_cast<double>(least - request.begin()) - kProbes) * reach / kProbes;
+      const double level = kLonger * *least;
+      const auto end = [&](double outside) {  // of where lengths are below the level
+        double low = middle, high = outside;
+        for (int n = 0; n < kHalvings; ++n) (at(0.5 * (low + high)).request < level ? low : high) = 0.5 * (low + high);
+        return low;
+      };
+      node = at(0.5 * (end(-reach) + end(reach)));
+      return true;
     }
-    if (end < kLonger * least) return false;
-    constexpr double kGolden = 0.6180339887498949;
-    double low = (best - 1) * between, high = (best + 1) * between;
-    for (int i = 0; i < kRefined; ++i) {
-      const double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-      (at(a).request < at(b).request ? high : low) = at(a).request < at(b).request ? b : a;
-    }
-    const MeshNode found = at(0.5 * (low + high));
-    if (found.request < kClearlyShorter * from.request) node = found;
-    return true;
+    return false;
   }
 
   /// In pieces, where it comes near to others.

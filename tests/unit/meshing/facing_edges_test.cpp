@@ -86,6 +86,13 @@ TEST(FacingEdges, keep_rows_in_step_on_a_base_that_is_narrower_than_its_segments
   EXPECT_EQ(n_bases, 1u);
 }
 
+TEST(FacingEdges, are_found_on_the_narrowest_faces_first) {
+  const Model model = test::make_model("blunt_wing");
+  const MeshTopology topology(model.tables());
+  for (const bool has_rows : {false, true})
+    EXPECT_TRUE(std::ranges::is_sorted(find_facing_edges(topology, has_rows), {}, &FacingEdges::width)) << has_rows;
+}
+
 TEST(FacingEdges, leave_no_folds_on_a_band_between_one_edge_and_two) {
   const test::Meshed band("banded_pie", 1.3, {.merge_below = 0});
   EXPECT_TRUE(band.result.failures.empty());

@@ -71,6 +71,25 @@ TEST(RidgeLines, follow_a_bent_one) {
   }
 }
 
+/// As at a round tail: lengths are alike within 1 of the middle.
+class FlatRidgeField : public WallField {
+ public:
+  FlatRidgeField() : WallField(0.1, 0.2, 1) {}
+  using WallField::size;
+  double size(Vec3 x, int& hint) const override {
+    return WallField::size({x.x, std::max(0.0, std::abs(x.y) - 1), 0}, hint);
+  }
+};
+
+TEST(RidgeLines, lie_in_the_middle_of_equal_lengths) {
+  const FlatRidgeField field;
+  RowCase face({loop_about_ridge()}, field);
+  const auto lines = lay_ridges(face.work);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_GE(lines[0].size(), 27u);
+  for (const std::int32_t n : lines[0]) EXPECT_NEAR(face.work.mesh.nodes[n].x.y, 0, 0.02);
+}
+
 TEST(RidgeLines, are_none_where_lengths_are_alike_in_all_directions) {
   const WallField field(0.1, 0.2, 0.12);
   RowCase face({loop_about_ridge()}, field);
