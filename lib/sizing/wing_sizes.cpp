@@ -1,6 +1,7 @@
 #include "sizing/wing_sizes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -21,6 +22,7 @@ constexpr double kBentTail = 0.5;       // of the length asked for: curvature of
 constexpr double kDefaultTail = 0.003;  // of the chord: likewise of this length at most
 constexpr double kFlat = 1;             // of the chord: asks for nothing
 constexpr double kTrailing = 0.95;      // likewise, along edges, where lengths along are exact
+constexpr double kEndAspect = 3;        // of lengths at tip and root: neighbours are 1.9 times as large
 
 /// Lengths at a place of a wing, by its local chord.
 class LocalLengths {
@@ -81,7 +83,7 @@ class WingRaster {
   void add_edge(const ChordEdge& trailing) {
     const auto curve = model_.curve(trailing.edge);
     const ArcTable arc(*curve);
-    walk(arc.length(), pack_cause(CauseKind::kEdge, trailing.edge), [&](double share) {
+    walk(arc.length(), pack_cause(CauseKind::kEdge, trailing.edge), ends_of(trailing), [&](double share) {
       return reduced(sizes_.stretch.max_aspect > 1 ? kNose : kTrailing, curve->point(arc.parameter_at(share)),
                      trailing.chord_at(share));
     });
@@ -98,7 +100,7 @@ class WingRaster {
     const bool is_turned = strip.is_opposed && strip.edges[1] == trailing.edge;
     const std::vector<VertexId>& vertices = model_.tables().edge_vertices;
     const bool is_ring = vertices[2 * strip.edges[0]] == vertices[2 * strip.edges[0] + 1];
-    walk(way, pack_cause(CauseKind::kFace, strip.face), [&](double share) {
+    walk(way, pack_cause(CauseKind::kFace, strip.face), ends_of(trailing), [&](double share) {
       const Strip::Station station = strip.at(is_turned ? 1 - share : share);
       const double chord = is_ring ? chord_beside(trailing, station.middle()) : trailing.chord_at(share);
       const double edge = length_of(chord);
@@ -113,7 +115,7 @@ class WingRaster {
     const ArcTable arc(*curve);
     const double length =
         std::max(LocalLengths(wing_, sizes_).resolved(size, "--end-size", rim.chord), floor_of(rim.chord));
-    walk(arc.length(), pack_cause(CauseKind::kEdge, rim.edge), [&](double share) {
+    walk(arc.length(), pack_cause(CauseKind::kEdge, rim.edge), {}, [&](double share) {
       return Place{curve->point(arc.parameter_at(share)), length};
     });
   }
@@ -146,9 +148,33 @@ class WingRaster {
     return chord;
   }
 
+  /// Of the two ends of a way.
+  using Ends = std::array<bool, 2>;
+
+  /// Where no other trailing edge of the wing goes on: at tip or root.
+  Ends ends_of(const ChordEdge& trailing) const {
+    const std::vector<VertexId>& vertices = model_.tables().edge_vertices;
+    const auto is_end = [&](VertexId v) {
+      std::ptrdiff_t n = 0;
+      for (const ChordEdge& other : wing_.trailing)
+        if (other.edge != kNone) n += (vertices[2 * other.edge] == v) + (vertices[2 * other.edge + 1] == v);
+      return n == 1;
+    };
+    if (trailing.edge == kNone) return {};
+    return {is_end(vertices[2 * trailing.edge]), is_end(vertices[2 * trailing.edge + 1])};
+  }
+
+  /// At tip and root lengths along are near those across: triangles beyond are as short.
+  StretchLimits stretch_at(double share, Ends is_end) const {
+    StretchLimits limits = sizes_.stretch;
+    if ((share <= 0 && is_end[0]) || (share >= 1 && is_end[1]))
+      limits.max_aspect = std::min(limits.max_aspect, kEndAspect);
+    return limits;
+  }
+
   /// Boxes one length apart; `place_at` takes a share of the way.
   template <class PlaceAt>
-  void walk(double way, std::int32_t cause, const PlaceAt& place_at) {
+  void walk(double way, std::int32_t cause, Ends is_end, const PlaceAt& place_at) {
     const double least = sizes_.given.of(cause);
     double share = 0;
     for (int n = 0; n < kMaxBoxes; ++n) {
@@ -164,7 +190,7 @@ class WingRaster {
                         cause,
                         {},
                         stretch_along([&](double at) { return place_at(at).x; }, std::min(share, 1.0), way,
-                                      place.length, sizes_.stretch),
+                                      place.length, stretch_at(share, is_end)),
                         reach_of(0.5 * (place_at(std::min(share + 0.5 * step, 1.0)).x -
                                         place_at(std::clamp(share - 0.5 * step, 0.0, 1.0)).x),
                                  place.across)});
@@ -202,7 +228,7 @@ class WingRaster {
       const ChordStation &a = *run[i], &b = *run[i + 1];
       const double bent_a = is_tail ? bent_at_tail(a) : kFlat, bent_b = is_tail ? bent_at_tail(b) : kFlat;
       const SmoothPiece piece(x, i);
-      walk(distance(x[i], x[i + 1]), pack_cause(CauseKind::kFace, a.*face), [&](double share) {
+      walk(distance(x[i], x[i + 1]), pack_cause(CauseKind::kFace, a.*face), {}, [&](double share) {
         const double chord = a.chord + share * (b.chord - a.chord), bent = bent_a + share * (bent_b - bent_a);
         Place own = reduced(kNose, piece.at(share), chord);
         own.length = std::min(own.length, std::max(bent * chord, floor_of(chord)));

@@ -34,6 +34,8 @@ struct RefinementPolicy {
   // triangles
   static constexpr double kMostRepeated = 30;      ///< in all rounds, by those of the first one
   static constexpr double kFewTriangles = 200000;  ///< that may be meshed again in any case
+  static constexpr double kMostEasedAgain = 2;     ///< meshed again to ease stretched ones, by those before
+  static constexpr double kMostEasedGrowth = 2;    ///< times those before: more is not worth it
   static constexpr double kAround = 4;             ///< that a place of a wall makes shorter, about
   static constexpr double kMostForWalls = 1.5e6;   ///< that may part walls
   static constexpr double kPerWall = 2;  ///< times what parting walls should take: its rounds may mesh so many
@@ -68,6 +70,17 @@ struct RefinementPolicy {
     return n_rounds < (is_promising ? max_promising_rounds : max_crossing_rounds);
   }
   static int most_uneased(std::size_t n_obtuse) { return n_obtuse > 0 ? kMostUneased : kMostUneasedSteps; }
+  /// Whether lengths along become shorter once more, after `n_rounds`, `n_without` success lately. `n_again`: triangles
+  /// meshed for that so far.
+  static bool goes_on_easing(int n_rounds, int n_without, std::size_t n_obtuse, std::int64_t n_first,
+                             std::int64_t n_again) {
+    const double most = kMostEasedAgain * static_cast<double>(n_first) + kFewTriangles;
+    return n_rounds < kMostEased && n_without < most_uneased(n_obtuse) && static_cast<double>(n_again) < most;
+  }
+  /// Whether a mesh of `n` triangles is worth that it has fewer flaws.
+  static bool is_worth_easing(std::int64_t n_first, std::int64_t n) {
+    return static_cast<double>(n) < kMostEasedGrowth * static_cast<double>(n_first);
+  }
   /// Whether more was meshed than rounds can be worth, as on damaged surfaces. `n_for_walls`: of these, to part walls.
   static bool runs_away(std::uint64_t n_meshed, std::uint64_t n_first, double n_for_walls) {
     return static_cast<double>(n_meshed) >

@@ -15,6 +15,7 @@ void StretchEasing::run() {
   if (!field_.is_stretched()) return;
   n_bad_ = faces_.n_bad();
   share(executor_, n_bad_);
+  n_first_ = n_triangles(all_faces());
   flaws_ = find_flaws(0);
   if (flaws_are_none()) return;
   best_ = {count_flaws(), faces_.state(), refinements_.all()};
@@ -33,21 +34,34 @@ bool StretchEasing::flaws_are_none() const {
 
 void StretchEasing::run_rounds(Places StretchFlaws::*places) {
   const std::size_t first = refinements_.all().size();
-  for (int i = 0, n_without = 0; i < Policy::kMostEased && n_without < Policy::most_uneased(n_obtuse()); ++i) {
+  for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_obtuse(), n_first_, n_again_); ++i) {
     const std::vector<Refinement> shorter = shorten(flaws_.*places);
     if (shorter.empty()) break;
-    mesh_again_(shorter, "where stretched triangles are obtuse or too large");
+    n_again_ += n_triangles(mesh_again_(shorter, "where stretched triangles are obtuse or too large"));
     take_back_spoiling(first);
     flaws_ = find_flaws(i + 1);
     n_without = keep_if_better() ? 0 : n_without + 1;
   }
 }
 
-/// On rank 0.
-StretchFlaws StretchEasing::find_flaws(int n_tries) const {
+std::vector<FaceId> StretchEasing::all_faces() const {
   std::vector<FaceId> all(tables_.n_faces());
   std::iota(all.begin(), all.end(), 0);
-  const MeshedFaces::Patches patches = faces_.bring(all);
+  return all;
+}
+
+/// The same on all ranks.
+std::int64_t StretchEasing::n_triangles(const std::vector<FaceId>& of) const {
+  std::int64_t n = 0;
+  for (const FaceId f : of)
+    for (const PatchPlace& section : faces_.places()[f].sections) n += section.n_triangles;
+  share(executor_, n);
+  return n;
+}
+
+/// On rank 0.
+StretchFlaws StretchEasing::find_flaws(int n_tries) const {
+  const MeshedFaces::Patches patches = faces_.bring(all_faces());
   if (!executor_.is_root()) return {};
   std::vector<const FacePatch*> of_faces;
   for (const auto& [f, patch] : patches) of_faces.push_back(&patch);
@@ -65,7 +79,7 @@ StretchEasing::Count StretchEasing::count_flaws() const {
 /// Sets is_best_.
 bool StretchEasing::keep_if_better() {
   const Count n_flaws = count_flaws();
-  is_best_ = n_flaws < best_.n_flaws;
+  is_best_ = n_flaws < best_.n_flaws && Policy::is_worth_easing(n_first_, n_triangles(all_faces()));
   if (is_best_) best_ = {n_flaws, faces_.state(), refinements_.all()};
   std::vector<PlacedFace> others;
   for (FaceId f = 0; executor_.is_root() && f < tables_.n_faces(); ++f) others.push_back({f, best_.state.places[f]});
@@ -101,14 +115,12 @@ void StretchEasing::take_back_spoiling(std::size_t first) {
   if (dropped.empty()) return;
   spoiling_.insert(spoiling_.end(), dropped.begin(), dropped.end());
   refinements_.assign(std::move(kept));
-  mesh_again_(dropped, "spoils triangles");
+  n_again_ += n_triangles(mesh_again_(dropped, "spoils triangles"));
 }
 
 void StretchEasing::go_back() {
   refinements_.assign(best_.refinements);
-  std::vector<FaceId> all(tables_.n_faces());
-  std::iota(all.begin(), all.end(), 0);
-  faces_.go_back(best_.state, all);
+  faces_.go_back(best_.state, all_faces());
   is_best_ = true;
 }
 

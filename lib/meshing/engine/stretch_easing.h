@@ -42,6 +42,8 @@ class StretchEasing {
     std::vector<Refinement> refinements;
   };
 
+  std::vector<FaceId> all_faces() const;
+  std::int64_t n_triangles(const std::vector<FaceId>& of) const;
   StretchFlaws find_flaws(int n_tries) const;
   bool flaws_are_none() const;
   Count count_flaws() const;
@@ -59,6 +61,8 @@ class StretchEasing {
   Refinements& refinements_;
   RefinementTrials::MeshAgain mesh_again_;
   std::int64_t n_bad_ = 0;            // at the beginning
+  std::int64_t n_first_ = 0;          // triangles, likewise
+  std::int64_t n_again_ = 0;          // that were meshed since then
   std::vector<Refinement> spoiling_;  // lengths are not shortened within their reach
   StretchFlaws flaws_;                // of the present mesh, on rank 0
   Best best_;

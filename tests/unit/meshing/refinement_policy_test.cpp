@@ -48,6 +48,14 @@ TEST(RefinementPolicy, shortens_lengths_along_for_longer_where_triangles_are_obt
   EXPECT_EQ(Policy::most_uneased(0), 2);
 }
 
+TEST(RefinementPolicy, bounds_what_easing_may_cost) {
+  expect({{"twice and 200,000", [] { return Policy::goes_on_easing(0, 0, 1, 100'000, 399'999); }, true},
+          {"one more", [] { return Policy::goes_on_easing(0, 0, 1, 100'000, 400'000); }, false},
+          {"ten rounds", [] { return Policy::goes_on_easing(10, 0, 1, 100'000, 0); }, false},
+          {"less than twice as many", [] { return Policy::is_worth_easing(1000, 1999); }, true},
+          {"twice as many", [] { return Policy::is_worth_easing(1000, 2000); }, false}});
+}
+
 TEST(RefinementPolicy, ends_what_costs_more_than_it_can_be_worth) {
   expect({{"30 times and 200,000", [] { return Policy::runs_away(500'000, 10'000, 0); }, false},
           {"one more", [] { return Policy::runs_away(500'001, 10'000, 0); }, true},

@@ -69,6 +69,19 @@ TEST(WingSizes, are_those_of_noses_along_edges_with_rows) {
     EXPECT_NEAR(b.length, 0.9 * 0.05, 1e-4) << "heights of rows are all that there is";
 }
 
+TEST(WingSizes, are_hardly_longer_along_trailing_edges_at_tip_and_root) {
+  WingSizes sizes = share_of_chord("0.5%chord");
+  sizes.stretch.max_aspect = 16;
+  int n_ends = 0, n_between = 0;
+  for (const RasterBox& b : sample("sharp_wing", sizes).with(CauseKind::kEdge)) {
+    const bool is_end = b.center.z < 1e-6 || b.center.z > 30 - 1e-6;
+    ++(is_end ? n_ends : n_between);
+    EXPECT_NEAR(b.stretch.along / b.length, is_end ? 3 : 16, 0.01) << b.center.z;
+  }
+  EXPECT_EQ(n_ends, 2);
+  EXPECT_GT(n_between, 500);
+}
+
 TEST(WingSizes, run_along_a_trailing_edge_inside_a_face) {
   const Sampled s = sample("closed_wing", share_of_chord("0.5%chord"));
   for (const double x : {-5.0, 5.0}) expect_run_along(s, x);
