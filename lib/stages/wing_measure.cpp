@@ -184,10 +184,12 @@ class WingMesh {
       if (const Vec3 way = corner(t, (k + 1) % 3) - corner(t, k); norm2(way) > norm2(longest)) longest = way;
     return cross(normal_of(t), longest) / std::max(norm2(longest), std::numeric_limits<double>::min());
   }
-  /// Across a direction: that of a row of right-angled triangles along it, whichever way its diagonals run.
+  /// Across a direction: that of a row of right-angled triangles along it, whichever way its diagonals run;
+  /// at most the longest side.
   double width_of(TriangleId t, Vec3 direction) const {
     const double a = dot(corner(t, 0), direction), b = dot(corner(t, 1), direction), c = dot(corner(t, 2), direction);
-    return norm(normal_of(t)) / std::max(std::max({a, b, c}) - std::min({a, b, c}), std::numeric_limits<double>::min());
+    const double extent = std::max(std::max({a, b, c}) - std::min({a, b, c}), norm(height_of(t)));
+    return extent > 0 ? norm(normal_of(t)) / extent : 0;
   }
   Vec3 normal_of(TriangleId t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
 

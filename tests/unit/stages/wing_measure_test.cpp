@@ -75,6 +75,20 @@ TEST(WingMeasure, of_sheared_rows_has_their_heights) {
   }
 }
 
+/// As on the end of a wing.
+TEST(WingMeasure, of_a_flat_triangle_square_to_the_span_is_no_longer_than_its_sides) {
+  SurfaceMesh mesh = test::plank();
+  const auto n = static_cast<NodeId>(mesh.node_xyz.size());
+  for (const Vec3 x : {Vec3{0, 3.95, 0}, {0.01, 3.95, 0}, {0, 3.95, 0.001}}) mesh.node_xyz.push_back(x);
+  mesh.triangles.push_back({{n, n + 1, n + 2}});
+  mesh.triangle_face.push_back(0);
+  const WingRecord wing = record(0.05);
+  const std::vector<WingMeasure> all = measure_wings(mesh, {&wing, 1});
+  ASSERT_TRUE(all[0].worst);
+  EXPECT_LT(all[0].worst->has, 0.06);
+  EXPECT_EQ(all[0].held, 1);
+}
+
 TEST(WingMeasure, holds_on_the_share_of_the_span_where_no_place_is_too_coarse) {
   WingRecord wing = record(0.05);
   for (WingRecord::Station& s : wing.stations)
