@@ -7,7 +7,7 @@ install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/st COMPONENT 
 install(DIRECTORY docs DESTINATION share/doc/st COMPONENT runtime FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 # Examples lie beside the scripts and the workflow that they use, as in the sources; their place in Debian is a link.
 install(DIRECTORY examples DESTINATION share/st COMPONENT runtime USE_SOURCE_PERMISSIONS
-        PATTERN "CMakeLists.txt" EXCLUDE PATTERN "aircraft" EXCLUDE)
+        PATTERN "CMakeLists.txt" EXCLUDE PATTERN "aircraft" EXCLUDE PATTERN "models" EXCLUDE)
 install(FILES examples/volume_mesher/CMakeLists.txt DESTINATION share/st/examples/volume_mesher COMPONENT runtime)
 install(FILES scripts/render_common.py DESTINATION share/st/scripts COMPONENT runtime)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/installed_links)
@@ -19,7 +19,7 @@ file(GLOB workflow_scripts scripts/workflow_*.sh scripts/run_stage.sh scripts/re
      scripts/nearest_word.sh scripts/make_example.sh)
 install(PROGRAMS ${workflow_scripts} DESTINATION share/st/scripts COMPONENT runtime)
 install(PROGRAMS packaging/st-workflow DESTINATION bin COMPONENT runtime)
-install(TARGETS make_aircraft RUNTIME DESTINATION bin COMPONENT runtime)
+install(TARGETS make_aircraft make_model RUNTIME DESTINATION bin COMPONENT runtime)
 
 # Man pages and completions say what --help says; they are made where there is a Python.
 find_program(ST_PYTHON python3)

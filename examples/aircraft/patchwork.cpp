@@ -65,6 +65,13 @@ TopoDS_Solid Patchwork::solid(const std::string& what) const {
   return solid;
 }
 
+TopoDS_Shape Patchwork::open_shell() const {
+  BRepBuilderAPI_Sewing sewing(kSewingTolerance);
+  for (const TopoDS_Face& face : faces_) sewing.Add(face);
+  sewing.Perform();
+  return sewing.SewedShape();
+}
+
 Handle(Geom_Curve) line(const gp_Pnt& a, const gp_Pnt& b) { return Handle(Geom_Curve)(GC_MakeSegment(a, b).Value()); }
 
 }  // namespace aircraft

@@ -37,6 +37,9 @@ class Patchwork {
   /// The closed solid. @throws std::runtime_error naming `what` when the patches leave a gap.
   TopoDS_Solid solid(const std::string& what) const;
 
+  /// The patches joined at their common edges, with the edges that are free.
+  TopoDS_Shape open_shell() const;
+
  private:
   NameTable& names_;
   std::vector<TopoDS_Face> faces_;

@@ -41,8 +41,8 @@ TopTools_IndexedMapOfShape faces_of(const TopoDS_Shape& shape) {
   return faces;
 }
 
-void set_metres(const char* parameter) {
-  if (!Interface_Static::SetCVal(parameter, "M")) throw std::runtime_error(std::string("cannot set ") + parameter);
+void set_unit(const char* parameter, const char* unit) {
+  if (!Interface_Static::SetCVal(parameter, unit)) throw std::runtime_error(std::string("cannot set ") + parameter);
 }
 
 /// Everything in the header that would differ from run to run or from machine to machine.
@@ -59,11 +59,11 @@ void fix_header(const Handle(StepData_StepModel) & model, const std::string& pro
 
 }  // namespace
 
-void write_step(const std::string& path, const std::string& product, const TopoDS_Shape& shape,
-                const NameTable& names) {
+void write_step(const std::string& path, const std::string& product, const TopoDS_Shape& shape, const NameTable& names,
+                const char* unit) {
   STEPCAFControl_Controller::Init();
-  set_metres("xstep.cascade.unit");
-  set_metres("write.step.unit");
+  set_unit("xstep.cascade.unit", unit);
+  set_unit("write.step.unit", unit);
   Interface_Static::SetCVal("write.step.schema", "AP214IS");
   Interface_Static::SetCVal("write.step.product.name", product.c_str());
 

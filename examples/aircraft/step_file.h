@@ -9,10 +9,12 @@
 
 namespace aircraft {
 
-/// Writes a shape (metres) as AP214 with the group name of each ADVANCED_FACE; the header carries no time and no
+/// Writes a shape as AP214 with the group name of each ADVANCED_FACE; the header carries no time and no
 /// machine.
+/// @param unit of the shape and of the file: M or MM.
 /// @throws std::runtime_error when the file cannot be written.
-void write_step(const std::string& path, const std::string& product, const TopoDS_Shape& shape, const NameTable& names);
+void write_step(const std::string& path, const std::string& product, const TopoDS_Shape& shape, const NameTable& names,
+                const char* unit = "M");
 
 /// Number of faces per name as an importer finds them. @throws std::runtime_error when the file cannot be read.
 std::map<std::string, int> read_face_names(const std::string& path);
