@@ -108,7 +108,7 @@ std::string number(double x) {
   erase_progress_of_child();
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGPROF)
     throw Error(ExitCode::kInput, subject + ": not read within " + number(limits.cpu_seconds) +
-                                      " s of processor time; the file is damaged, or give it more with --time-limit");
+                                      " s of processor time; it may be damaged, or give it more with --time-limit");
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
     throw Error(ExitCode::kInput, subject + ": not done within " + number(limits.wall_seconds) + " s");
   if (WIFSIGNALED(status))

@@ -153,7 +153,7 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
 std::string repairs_in_words(const ImportResult& r) {
   std::vector<std::pair<std::string, int>> kinds;
   for (const ImportFinding& f : r.findings) {
-    if (!f.is_repair) continue;
+    if (!f.is_repair || f.kind == FindingKind::kCapped) continue;  // asked for, and said by say_openings()
     const std::string kind = f.kind == FindingKind::kOther ? f.what() : name_of(f.kind);
     const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
     known == kinds.end() ? kinds.emplace_back(kind, 1), void() : void(++known->second);
@@ -251,16 +251,17 @@ void say_open_vertices(const ImportStageOptions& o, const ImportResult& r) {
   }
   if (worst)
     log_warning(fmt::format(
-        "{}: edges end away from {}, by up to {:.3g} at {} ({:.6g}, {:.6g}, {:.6g}); st-check fails meshes whose "
+        "{}: edges end away from {}, by up to {:.3g}{} at {} ({:.6g}, {:.6g}, {:.6g}); st-check fails meshes whose "
         "lengths there are about as small: repair the CAD there, or ask for longer ones",
-        o.model, n == 1 ? "their vertex" : fmt::format("{} vertices", n), worst->size, worst->entity, worst->xyz.x,
-        worst->xyz.y, worst->xyz.z));
+        o.model, n == 1 ? "their vertex" : fmt::format("{} vertices", n), worst->size, in_unit(r), worst->entity,
+        worst->xyz.x, worst->xyz.y, worst->xyz.z));
 }
 
 /// What --cap closed, and what it could not.
 void say_openings(const ImportStageOptions& o, const ImportResult& r) {
   for (const ImportFinding& f : r.findings) {
-    if (f.kind == FindingKind::kCapped) log_report(fmt::format("  {}: {}", f.entity, f.what()));
+    if (f.kind == FindingKind::kCapped)
+      log_report(fmt::format("  {}: {}{}", f.entity, f.what(), r.tables.unit.empty() ? "" : in_unit(r) + "^2"));
     if (f.kind == FindingKind::kOpeningLeft)
       log_warning(fmt::format("{}: {}, at ({:.6g}, {:.6g}, {:.6g})", o.model, f.what(), f.xyz.x, f.xyz.y, f.xyz.z));
   }
@@ -325,10 +326,12 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
     log_warning(fmt::format("{}: the model encloses no volume, because its faces form no shell", model));
   else if (!r.is_closed)
     log_warning(fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there{}", model,
-                            r.n_free_edges, r.facets.empty() ? " (--sew joins edges further apart)" : ""));
-  if (r.n_repairs > 0)
-    log_warning(
-        fmt::format("{}: repaired: {}{}", model, repairs_in_words(r), o.check ? "" : "; -v lists places and sizes"));
+                            r.n_free_edges,
+                            !r.facets.empty() ? ""
+                            : o.cap           ? " (--sew joins edges further apart)"
+                                              : " (--sew joins edges further apart, --cap closes openings in planes)"));
+  if (const std::string repairs = repairs_in_words(r); !repairs.empty())
+    log_warning(fmt::format("{}: repaired: {}{}", model, repairs, o.check ? "" : "; -v lists places and sizes"));
   say_unit(o, r);
   say_air(o, r);
   say_bodies(o, r);

@@ -18,6 +18,7 @@ constexpr double kNearCut = 0.02;        // of the piece's diagonal: a rim so ne
 constexpr double kNearRim = 4;           // what a length of such rim costs, in lengths of the cut
 constexpr double kAcross = 10;           // what a cut costs that misses the rims of a tube: it leaves two tubes
 constexpr double kOnPlane = 0.02;        // of a side's height: a node so near to the plane counts as on it
+constexpr double kRounding = 1e-7;       // of the piece's diagonal: single precision; a node so near is on the plane
 constexpr double kFlatBox = 0.2;         // of the diagonal: a piece is not cut across a shorter extent
 constexpr std::size_t kSampled = 10000;  // triangles that tell where a cut may be
 constexpr std::size_t kLarge = 20000;    // triangles: a piece to be cut again and again is halved
@@ -77,8 +78,9 @@ std::vector<double> candidate_places(const Spread& s, Vec3 axis) {
   return places;
 }
 
-/// Of own nodes above a plane; 0 where the plane passes so near that it would leave a sliver.
-std::vector<double> heights(const FacetPatch& patch, Vec3 axis, double place) {
+/// Of own nodes above a plane; 0 where the plane passes so near that it would leave a sliver. `least`: what is nearer
+/// than this is rounding, also where a side runs along the plane.
+std::vector<double> heights(const FacetPatch& patch, Vec3 axis, double place, double least) {
   std::vector<double> height, reach(patch.x.size(), kInfinite);
   for (const Vec3 x : patch.x) height.push_back(dot(x, axis) - place);
   for (const Corners& c : patch.corners)
@@ -88,7 +90,7 @@ std::vector<double> heights(const FacetPatch& patch, Vec3 axis, double place) {
       if (step > 0) reach[a] = std::min(reach[a], step), reach[b] = std::min(reach[b], step);
     }
   for (std::size_t i = 0; i < height.size(); ++i)
-    if (std::abs(height[i]) < kOnPlane * reach[i] && reach[i] < kInfinite) height[i] = 0;
+    if (reach[i] < kInfinite && std::abs(height[i]) < std::max(kOnPlane * reach[i], least)) height[i] = 0;
   return height;
 }
 
@@ -159,7 +161,7 @@ std::vector<double> best_cut(const FacetPatch& patch, const PatchTopology& topol
     for (const Vec3 x : patch.x) low = std::min(low, dot(x, axis)), high = std::max(high, dot(x, axis));
     if (high - low < kFlatBox * box.diagonal()) continue;
     for (const double place : candidate_places(spread, axis)) {
-      std::vector<double> height = heights(patch, axis, place);
+      std::vector<double> height = heights(patch, axis, place, kRounding * box.diagonal());
       if (const double cost = cost_of(height); cost < least) least = cost, best = std::move(height);
     }
   }

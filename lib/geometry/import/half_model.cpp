@@ -370,8 +370,8 @@ void require_free_edges_in_plane(const Faces& faces, const std::optional<Cut>& c
   if (!open.empty())
     throw Error(ExitCode::kGeometry, path + ": the model is open" + (cut ? " away from the symmetry plane" : "") +
                                          ": " + std::to_string(open.size()) + " free edges at " + places(open) +
-                                         (cut ? "; close it in the CAD system"
-                                              : "; close it in the CAD system, or give --symmetry where it ends"));
+                                         "; --cap closes openings in planes, the CAD system others" +
+                                         (cut ? "" : ", --symmetry what ends at its plane"));
   if (cut && all.empty())
     throw Error(ExitCode::kGeometry,
                 path + ": the model does not touch the symmetry plane; check the axis and the value of --symmetry");
