@@ -28,10 +28,10 @@ if(ST_PYTHON)
   add_custom_command(OUTPUT ${pages}/made COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
                      COMMAND ${ST_PYTHON} -B ${CMAKE_SOURCE_DIR}/scripts/command_pages.py ${CMAKE_BINARY_DIR}/bin ${pages}
                              ${CMAKE_SOURCE_DIR}/packaging/st-workflow.1
-                             ${CMAKE_SOURCE_DIR}/packaging/make_aircraft.1
+                             ${CMAKE_SOURCE_DIR}/packaging/make_aircraft.1 ${CMAKE_SOURCE_DIR}/packaging/make_model.1
                      COMMAND ${CMAKE_COMMAND} -E touch ${pages}/made
                      DEPENDS ${tools} scripts/command_pages.py packaging/st-workflow.1
-                             packaging/make_aircraft.1 VERBATIM)
+                             packaging/make_aircraft.1 packaging/make_model.1 VERBATIM)
   add_custom_target(st_command_pages ALL DEPENDS ${pages}/made)
   install(DIRECTORY ${pages}/man1 DESTINATION share/man COMPONENT runtime)
   install(DIRECTORY ${pages}/bash/ DESTINATION share/bash-completion/completions COMPONENT runtime)

@@ -52,8 +52,10 @@ fi
 
 # Examples run from where Debian has them, in an empty folder.
 examples=$prefix/share/doc/st/examples
-make_aircraft > "$work/said" 2>&1 || true
-grep -q "usage: make_aircraft" "$work/said" || failed "make_aircraft is not installed"
+for program in make_aircraft make_model; do
+  $program > "$work/said" 2>&1 || true
+  grep -q "usage: $program" "$work/said" || failed "$program is not installed"
+done
 for script in openfoam/volume.sh openfoam/flow.sh openfoam/pressure.sh; do
   code=0
   "$examples/$script" 2> "$work/said" || code=$?
