@@ -28,6 +28,7 @@ class Files(ToolTest):
         yield ["st-prolong", self.raster, "-o", "k.hdf", "--sample", "points.csv"], "sizes.csv"
         yield ["st-export", self.mesh, "-o", "k.ugrid"], "k.mapbc"
         yield ["st-export", self.mesh, "-o", "k.lb8.ugrid"], "k.mapbc"
+        yield ["st-export", self.mesh, "-o", "k.geo"], "k.msh"
         yield ["st-export", self.mesh, "-o", "k.vtm"], "k/k_default.vtu"
         yield ["st-export", self.mesh, "-o", "k.stl", "--split-groups"], "k_default.stl"
         yield ["st-export", self.mesh, "-o", "k.cgns", "--split-groups"], "k_default.cgns"

@@ -24,6 +24,7 @@ enum Room : unsigned {
   kMidNodes = 32,       ///< elements of second order
   kParameters = 64,     ///< t on edges, (u,v) on faces
   kMapbc = 128,         ///< a list of boundaries is written next to the mesh: NAME.mapbc for NAME.ugrid
+  kMsh = 512,           ///< the mesh itself is written next to it: NAME.msh for NAME.geo
   kFeaturesOnly = 256,  ///< no mesh at all: its feature lines
   kNamed = kNumbers | kNames,
 };
@@ -52,6 +53,7 @@ constexpr Format kFormats[] = {
     {".msh", export_msh, kNamed | kDivisions | kEntityGroups | kQuads | kMidNodes | kParameters, kText, ".binary.msh"},
     {".binary.msh2", export_binary_msh2, kNamed | kEntityGroups | kQuads | kMidNodes, kBinary, ".msh2"},
     {".msh2", export_msh2, kNamed | kEntityGroups | kQuads | kMidNodes, kText, ".binary.msh2"},
+    {".geo", export_geo, kNamed | kDivisions | kEntityGroups | kMsh, kText},
     {".cgns", export_cgns, kNamed | kQuads | kMidNodes, kBinary},
     {".fro", export_fro, 0, kText},
     {".lb8.ugrid", export_lb8_ugrid, kNamed | kQuads | kMapbc, kBinary, ".ugrid"},
@@ -82,6 +84,8 @@ bool has_suffix(const std::string& path, const std::string& suffix) {
          });
 }
 
+std::string name_of_file(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
 const Format* find_format(const std::string& path) {
   for (const Format& f : kFormats)
     if (has_suffix(path, f.suffix)) return &f;
@@ -90,7 +94,7 @@ const Format* find_format(const std::string& path) {
 
 /// By --format, else by the suffix.
 const Format& chosen_format(const std::string& path, const ExportOptions& options) {
-  const std::string name = path.substr(path.rfind('/') + 1);
+  const std::string name = name_of_file(path);
   const Format* found = find_format(options.format.empty() ? name : "x." + options.format);
   if (found) return *found;
   if (!options.format.empty())
@@ -146,7 +150,7 @@ std::vector<std::string> losses(const SurfaceMesh& mesh, const Format& format) {
 
 /// The path without the suffix that its format was chosen by.
 std::string stem_of(const std::string& path) {
-  const Format* by_suffix = find_format(path.substr(path.rfind('/') + 1));
+  const Format* by_suffix = find_format(name_of_file(path));
   if (by_suffix) return path.substr(0, path.size() - std::strlen(by_suffix->suffix));
   const std::size_t dot = path.rfind('.'), slash = path.rfind('/');
   return dot == std::string::npos || (slash != std::string::npos && dot < slash) ? path : path.substr(0, dot);
@@ -212,7 +216,9 @@ void require_export_format(const std::string& path, const ExportOptions& options
 }
 
 std::vector<std::string> files_beside(const std::string& path, const ExportOptions& options) {
-  if (format_of(path, options).room & kMapbc) return {stem_of(path) + ".mapbc"};
+  const unsigned room = format_of(path, options).room;
+  if (room & kMapbc) return {stem_of(path) + ".mapbc"};
+  if (room & kMsh) return {stem_of(path) + ".msh"};
   return {};
 }
 
@@ -222,13 +228,13 @@ std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& 
   wanted.has_mid_nodes |= !mesh.mid_nodes.empty();
   require_export_format(path, wanted);
   const Format& format = format_of(path, wanted);
-  const ExportTask task{mesh.mesh, mesh.elements, mesh.mid_nodes, options, mesh.values};
+  const ExportTask task{mesh.mesh, mesh.elements, mesh.mid_nodes, options, mesh.values, name_of_file(stem_of(path))};
   Output out(path);
   format.write(out, task);
   for (const std::string& beside : files_beside(path, wanted)) {
-    Output boundaries(beside);
-    export_mapbc(boundaries, task);
-    boundaries.commit();
+    Output other(beside);
+    format.room& kMsh ? export_msh(other, task) : export_mapbc(other, task);
+    other.commit();
   }
   out.commit();
   return losses(mesh.mesh, format);

@@ -98,6 +98,7 @@ struct ExportTask {
   const MidNodes& mid_nodes;
   const ExportOptions& options;
   std::span<const TriangleValues> values;
+  std::string stem;  ///< name of the file without folder and suffix
 
   std::int64_t n_nodes() const { return mesh.n_nodes() + mid_nodes.size(); }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(elements.triangles.size()); }
@@ -131,6 +132,7 @@ void export_smesh(Output& out, const ExportTask& task);
 void export_poly(Output& out, const ExportTask& task);
 void export_vtu(Output& out, const ExportTask& task);
 void export_msh(Output& out, const ExportTask& task);
+void export_geo(Output& out, const ExportTask& task);
 void export_binary_msh(Output& out, const ExportTask& task);
 void export_msh2(Output& out, const ExportTask& task);
 void export_binary_msh2(Output& out, const ExportTask& task);

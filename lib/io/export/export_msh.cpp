@@ -372,6 +372,12 @@ void write_msh2(Output& out, const ExportTask& task, bool is_binary) {
 
 }  // namespace
 
+/// Gmsh's script that fills the mesh beside it: Gmsh fills no volume of a .msh alone, not even one that it names.
+void export_geo(Output& out, const ExportTask& task) {
+  out.text("// Fills " + task.stem + ".msh with tetrahedra: gmsh -3 " + task.stem + ".geo\nMerge \"" + task.stem +
+           ".msh\";\nSurface Loop(1) = Surface{:};\nVolume(1) = {1};\nPhysical Volume(\"volume\") = {1};\n");
+}
+
 void export_msh(Output& out, const ExportTask& task) { write_msh4(out, task, false); }
 void export_binary_msh(Output& out, const ExportTask& task) { write_msh4(out, task, true); }
 void export_msh2(Output& out, const ExportTask& task) { write_msh2(out, task, false); }

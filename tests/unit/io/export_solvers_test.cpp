@@ -33,6 +33,14 @@ TEST(ExportSolvers, mapbc_has_a_condition_by_role_and_names_that_are_different_w
   EXPECT_EQ(read_bytes(dir / "m.mapbc"), "3\n1 4000 a_b\n2 5000 a_b_2\n3 6662 mirror\n");
 }
 
+TEST(ExportSolvers, geo_fills_the_msh_beside_it) {
+  TemporaryDirectory dir;
+  export_mesh(dir / "m.geo", three_triangles());
+  export_mesh(dir / "alone.msh", three_triangles());
+  EXPECT_EQ(read_bytes(dir / "m.msh"), read_bytes(dir / "alone.msh"));
+  EXPECT_NE(read_bytes(dir / "m.geo").find("Merge \"m.msh\";\n"), std::string::npos);
+}
+
 TEST(ExportSolvers, binary_ugrid_has_both_byte_orders) {
   TemporaryDirectory dir;
   export_mesh(dir / "m.b8.ugrid", three_triangles());
