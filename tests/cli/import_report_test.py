@@ -57,6 +57,8 @@ class Report(ToolTest):
         model = MODELS / "plate_with_hole.brep"
         run = must("st-import", model, "-o", self.folder / "g.hdf", "--cap")
         self.assertEqual(run.err.count("  cap_1: opening closed: area "), 1)
+        self.assertNotIn("repaired", run.err)  # it was asked for
+        self.assertIn("--cap closes openings in planes", must("st-import", model, "-o", self.folder / "h.hdf").err)
         report = self.import_json(model, "--cap")
         self.assertEqual((report["faces"], report["free_edges"]), (2, 4))
         self.assertIn("its rim of 4 edges is the outline of a flat face, at (30, 20, 0)", run.err)
