@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/progress.h"
 #include "features/smooth_edges.h"
 #include "geometry/model/joined_tables.h"
 #include "io/foreign/triangulation_reader.h"
@@ -193,6 +194,8 @@ JoinRequest join_request(const Model& cad, bool is_harm_only) {
 std::string compose(GeometryArtifact& geometry, bool is_harm_only) {
   FoundComposites found;
   {
+    Progress progress("joining faces", 1);
+    progress.step("charts", 0);
     const Model cad(geometry.tables, geometry.brep);
     found = find_composites(cad, join_request(cad, is_harm_only));
   }
