@@ -57,6 +57,30 @@ class MergedRows {
               for (std::size_t i = 0; i < patches_.size(); ++i) take_corner_uv(i, take);
             }};
   }
+  /// Of the place on the CAD at the middle of each triangle.
+  Column<FaceId> cad_faces(const CadPlaces& cad) const {
+    return {n_triangles(), [this, &cad](const auto& take) {
+              for (std::size_t i = 0; i < patches_.size(); ++i)
+                take_corner_uv(i, [&](const std::vector<Vec2>& uv) {
+                  std::vector<FaceId> faces;
+                  for (const CadPlace& p : cad.on(patches_[i].face(), middles(uv))) faces.push_back(p.face);
+                  take(faces);
+                });
+            }};
+  }
+  /// `value_of` the place on the CAD of each node inside a face; `none` on boundaries.
+  template <class T, class ValueOf>
+  Column<T> of_cad(const CadPlaces& cad, T none, const ValueOf& value_of) const {
+    return {n_nodes(), [this, &cad, none, value_of](const auto& take) {
+              repeat(none, order_.inner_begin.front(), take);
+              for (std::size_t i = 0; i < patches_.size(); ++i)
+                take_inner<Vec2>(i, &PatchRows::inner_uv, [&](const std::vector<Vec2>& uv) {
+                  std::vector<T> values;
+                  for (const CadPlace& p : cad.on(patches_[i].face(), uv)) values.push_back(value_of(p));
+                  take(values);
+                });
+            }};
+  }
   Column<Triangle> triangles() const {
     return {n_triangles(), [this](const auto& take) {
               for (std::size_t i = 0; i < patches_.size(); ++i) take_triangles(i, take);
@@ -180,7 +204,8 @@ PatchSource source_of(const std::vector<PatchInFile>& patches) {
   return source;
 }
 
-MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeInput& input, const MergeOrder& order) {
+MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeInput& input, const MergeOrder& order,
+                           const CadPlaces* cad) {
   const auto rows = std::make_shared<const MergedRows>(patches, input, order);
   const SurfaceMesh& head = order.boundary;
   const auto group_of = [groups = input.face_group](FaceId f) {
@@ -202,10 +227,44 @@ MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeI
   c.triangle_face = keep(rows->of_faces<FaceId>([](FaceId f) { return f; }));
   c.triangle_group = keep(rows->of_faces<std::int32_t>(group_of));
   c.corner_uv = keep(rows->corner_uv());
+  if (cad) {
+    c.triangle_cad_face = keep(rows->cad_faces(*cad));
+    c.node_cad_face = keep(rows->of_cad<FaceId>(*cad, kNone, [](const CadPlace& p) { return p.face; }));
+    c.node_cad_uv = keep(rows->of_cad<Vec2>(*cad, Vec2{}, [](const CadPlace& p) { return p.uv; }));
+  }
   if (input.edges.node_previous.empty()) return c;
   c.node_previous = keep(rows->of_nodes(head.node_previous, &PatchRows::inner_previous));
   c.triangle_previous = keep(rows->of_triangles<TriangleId>(&PatchRows::triangle_previous));
   return c;
+}
+
+void add_cad_places(const CadPlaces& cad, MeshArtifact& artifact) {
+  const SurfaceMesh& m = artifact.mesh;
+  artifact.node_cad_face.assign(m.node_xyz.size(), kNone);
+  artifact.node_cad_uv.assign(m.node_xyz.size(), Vec2{});
+  std::vector<std::vector<NodeId>> nodes(m.labels.face_name.size());
+  std::vector<std::vector<Vec2>> uv(nodes.size());
+  for (std::size_t first = 0, end; first < m.triangles.size(); first = end) {
+    const FaceId face = m.triangle_face[first];
+    for (end = first + 1; end < m.triangles.size() && m.triangle_face[end] == face;) ++end;
+    const auto corners = std::span(m.corner_uv).subspan(3 * first, 3 * (end - first));
+    for (const CadPlace& p : cad.on(face, middles(corners))) artifact.triangle_cad_face.push_back(p.face);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      const NodeId n = m.triangles[first + c / 3].n[c % 3];
+      if (m.node_entity_dim[n] != static_cast<std::uint8_t>(EntityDim::kFace) || artifact.node_cad_face[n] != kNone)
+        continue;
+      artifact.node_cad_face[n] = face;  // once; of the CAD below
+      nodes[static_cast<std::size_t>(face)].push_back(n);
+      uv[static_cast<std::size_t>(face)].push_back(corners[c]);
+    }
+  }
+  for (std::size_t f = 0; f < nodes.size(); ++f) {
+    const std::vector<CadPlace> places = cad.on(static_cast<FaceId>(f), uv[f]);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      artifact.node_cad_face[nodes[f][i]] = places[i].face;
+      artifact.node_cad_uv[nodes[f][i]] = places[i].uv;
+    }
+  }
 }
 
 }  // namespace st

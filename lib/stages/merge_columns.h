@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/model/cad_places.h"
 #include "io/hdf5/patches_file.h"
 #include "mesh/merge_order.h"
 
@@ -24,6 +25,11 @@ std::vector<PatchInFile> patches_of(const std::vector<std::unique_ptr<PatchesFil
 PatchSource source_of(const std::vector<PatchInFile>& patches);
 
 /// `patches`, `order` and `input` outlive the columns. Columns throw Error(kInput) for contents that no mesh can have.
-MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeInput& input, const MergeOrder& order);
+/// `cad`: where faces are several of the CAD, else null; outlives them, too.
+MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeInput& input, const MergeOrder& order,
+                           const CadPlaces* cad = nullptr);
+
+/// Fills what a mesh in memory says of the CAD's faces, likewise.
+void add_cad_places(const CadPlaces& cad, MeshArtifact& artifact);
 
 }  // namespace st

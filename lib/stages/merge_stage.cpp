@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -181,7 +182,10 @@ StageSummary run_merge(const MergeStageOptions& options) {
 
   progress.step("writing", 0.5);
   const MeshArtifact artifact = make_artifact(parts, options, order);
-  const MeshColumns columns = merged_columns(parts.patches, input, order);
+  std::optional<CadPlaces> cad;
+  if (!parts.rest.composites.empty())
+    cad.emplace(parts.rest.composites, static_cast<FaceId>(parts.rest.labels.face_name.size()));
+  const MeshColumns columns = merged_columns(parts.patches, input, order, cad ? &*cad : nullptr);
   const std::string hash = write_mesh(options.output, artifact, columns);
   if (!options.exports.empty()) {
     const SurfaceMesh mesh = read_mesh(options.output).mesh;

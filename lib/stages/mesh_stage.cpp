@@ -149,6 +149,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   require_fitting({{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.edges, "patches"}});
   GeometryArtifact geometry = read_geometry(o.geometry);
   std::vector<FaceId> faces = select_faces(o, geometry.tables);
+  const Composites composites = geometry.composites;
   std::optional<MappedSizing> mapped;
   std::optional<Model> stored;
   run_jobs(
@@ -179,7 +180,9 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   progress.step("writing", 0.9);
   StageSummary summary =
       write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
-                           {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed()}, trace);
+                           {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed(),
+                            nlohmann::json::object(), composites},
+                           trace);
   if (comm.is_root()) resumption.remove();
   trace.write();
   return summary;

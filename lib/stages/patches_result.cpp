@@ -243,6 +243,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   const bool is_everywhere = !result.places.empty();
   header = complete(std::move(header), geometry);
   PatchesArtifact out = take_rest(t, header, topology, result);
+  out.composites = facts.composites;
   const std::vector<PatchCounts> counts = counts_of(result);
   const std::vector<FaceId> closed = closed_faces(out.merged, out.edges, out.edge_vertices);
   out.is_complete = static_cast<std::int32_t>(counts.size() + closed.size()) == t.n_faces();

@@ -20,6 +20,7 @@ struct RunFacts {
   int n_ranks;
   std::int64_t n_parts = 0, n_resumed = 0;         ///< faces and tiles, once per round; and those of an earlier run
   nlohmann::json more = nlohmann::json::object();  ///< for the summary
+  Composites composites = {};                      ///< of the geometry
 };
 
 /// What write_patches_result() is to write: throws Error(kOutput, kUsage) now where it may not. Local.

@@ -32,6 +32,7 @@
 #include "stages/expected_triangles.h"
 #include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
+#include "stages/merge_columns.h"
 #include "stages/orientation_warnings.h"
 #include "stages/patches_result.h"
 #include "stages/resumption.h"
@@ -120,6 +121,7 @@ struct RemeshInput {
   std::vector<TriangleId> spoilt = {};                ///< by the move
   std::optional<ForeignMesh> foreign = std::nullopt;  ///< what `old` was made of
   MeshShare share = {};                               ///< of this rank, in `old`
+  Composites composites = {};                         ///< of the geometry
 };
 
 /// Puts the mesh onto the moved geometry.
@@ -213,8 +215,10 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   if (!o.moved) require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   ArtifactHeader header = geometry.header;
+  Composites composites = geometry.composites;
   RemeshInput in{std::move(old), std::move(header), stored_model(geometry, o.geometry), std::move(sizing)};
   in.share = share;
+  in.composites = std::move(composites);
   if (o.moved) move(in);
   return in;
 }
@@ -268,6 +272,7 @@ MeshArtifact merged_artifact(const RemeshStageOptions& o, const RemeshInput& in,
   mesh.merged = in.old.mesh.merged;
   if (o.moved) warn_of_changes(orient_outward(mesh));  // as st-merge does: a mirrored mesh is inside out
   if (!mesh.labels.edge_groups.empty()) add_segments(mesh, r.edges, holes.mesh().tables.edge_vertices);
+  if (!in.composites.empty()) add_cad_places({in.composites, in.model.tables().n_faces()}, artifact);
   return artifact;
 }
 
@@ -305,7 +310,8 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, co
 
 /// Local, on rank 0. Writes patches for st-merge.
 StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult r,
-                              const RunFacts& facts) {
+                              RunFacts facts) {
+  facts.composites = in.composites;
   std::vector<TriangleId> none;
   number_as_in_file(in, r.edges.node_previous, none);
   for (FacePatch& p : r.patches) number_as_in_file(in, p.inner_previous, p.triangle_previous);
@@ -317,8 +323,8 @@ StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in
 StageSummary write_result(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult r,
                           RunFacts facts) {
   facts.more.update(counts(holes, r));
-  StageSummary summary =
-      o.merged.empty() ? write_patches_of(o, in, holes, std::move(r), facts) : write_merged(o, in, holes, r, facts);
+  StageSummary summary = o.merged.empty() ? write_patches_of(o, in, holes, std::move(r), std::move(facts))
+                                          : write_merged(o, in, holes, r, facts);
   summary.line += fmt::format("; {} of {} triangles remeshed", holes.n_marked_triangles, in.old.mesh.n_triangles());
   return summary;
 }

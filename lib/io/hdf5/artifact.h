@@ -66,6 +66,7 @@ struct PatchesArtifact {
   FaceLabels labels;
   std::vector<std::int32_t> face_shell;
   std::vector<double> face_area;  ///< CAD area, for the check of the merged mesh
+  Composites composites;          ///< of the geometry: its faces that are several of the CAD
   bool is_complete = true;        ///< every face meshed
 };
 
@@ -74,6 +75,10 @@ struct MeshArtifact {
   ArtifactHeader header;
   SurfaceMesh mesh;
   bool is_complete = true;
+  // where faces are several of the CAD, else empty
+  std::vector<FaceId> triangle_cad_face;  ///< [n_triangles] at its middle
+  std::vector<FaceId> node_cad_face;      ///< [n_nodes] kNone: on an edge or a vertex
+  std::vector<Vec2> node_cad_uv;          ///< [n_nodes] on that face, 0 on edges and vertices
 };
 
 /// The rows of one array, given in pieces, in order.
@@ -95,8 +100,10 @@ struct MeshColumns {
   Column<FaceId> triangle_face;
   Column<std::int32_t> triangle_group;
   Column<Vec2> corner_uv;
-  std::optional<Column<NodeId>> node_previous;          ///< of what st-remesh made
-  std::optional<Column<TriangleId>> triangle_previous;  ///< likewise
+  std::optional<Column<NodeId>> node_previous;                     ///< of what st-remesh made
+  std::optional<Column<TriangleId>> triangle_previous;             ///< likewise
+  std::optional<Column<FaceId>> triangle_cad_face, node_cad_face;  ///< as in MeshArtifact
+  std::optional<Column<Vec2>> node_cad_uv;                         ///< likewise
 };
 
 /// Header of any artifact. Throws Error(kInput) for a missing file, a directory, an empty file, a file that is no

@@ -7,6 +7,7 @@
 
 #include "geometry/model/joined_tables.h"
 #include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/composites_io.h"
 #include "io/hdf5/face_labels_io.h"
 
 namespace st {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr int kFacetsVersion = 1;         // of the group /st/facets
 constexpr int kPlainGeometryVersion = 1;  // without composites, which older tools would take for faces of the CAD
-constexpr int kCompositesVersion = 1;     // of the group /st/composites
 
 void write_vertices_and_edges(Hdf5Writer& w, const ModelTables& t) {
   w.write("/st/vertex/xyz", t.vertex_xyz);
@@ -213,37 +213,6 @@ FacetShape read_facets(const Hdf5Reader& r) {
   return f;
 }
 
-/// Name and column of each.
-template <class C, class Visit>
-void for_each_column(C& c, const Visit& visit) {
-  visit("/st/composites/member", c.member);
-  visit("/st/composites/member_offsets", c.member_offsets);
-  visit("/st/composites/joined_edges", c.joined_edges);
-  visit("/st/composites/joined_vertices", c.joined_vertices);
-  visit("/st/composites/node_xyz", c.node_xyz);
-  visit("/st/composites/node_uv", c.node_uv);
-  visit("/st/composites/node_offsets", c.node_offsets);
-  visit("/st/composites/triangle_nodes", c.triangle_nodes);
-  visit("/st/composites/triangle_face", c.triangle_face);
-  visit("/st/composites/triangle_offsets", c.triangle_offsets);
-  visit("/st/composites/uv_bounds", c.uv_bounds);
-  visit("/st/composites/rim_coedge", c.rim_coedge);
-  visit("/st/composites/rim_offsets", c.rim_offsets);
-  visit("/st/composites/rim_t", c.rim_t);
-  visit("/st/composites/rim_node", c.rim_node);
-  visit("/st/composites/rim_triangle", c.rim_triangle);
-}
-
-constexpr const char* kTriangleUv = "/st/composites/triangle_uv";
-
-void write_composites(Hdf5Writer& w, const Composites& c) {
-  for_each_column(c, [&](const char* name, const auto& column) { w.write(name, column); });
-  std::vector<Vec2> uv;
-  for (const auto& corners : c.triangle_uv) uv.insert(uv.end(), corners.begin(), corners.end());
-  w.write(kTriangleUv, uv);
-  w.set_attribute("/st/composites", "version", std::int64_t{kCompositesVersion});
-}
-
 /// The import names faces and edges by their numbers in the CAD: stages look for those of the tables.
 void name_as_joined(const JoinedTables& joined, std::vector<ImportFinding>& findings) {
   std::map<EdgeId, EdgeId> edge_of;
@@ -267,18 +236,8 @@ void name_as_joined(const JoinedTables& joined, std::vector<ImportFinding>& find
 }
 
 /// Tables become those in which the composites are faces.
-void read_composites(const Hdf5Reader& r, GeometryArtifact& geometry) {
-  if (const std::int64_t version = r.int_attribute("/st/composites", "version"); version > kCompositesVersion)
-    r.fail("/st/composites@version", std::to_string(version) + " is newer than this version of ST reads");
-  Composites& c = geometry.composites;
-  for_each_column(c, [&](const char* name, auto& column) {
-    column = r.read<typename std::decay_t<decltype(column)>::value_type>(name);
-  });
-  const std::vector<Vec2> uv = r.read_rows<Vec2>(kTriangleUv, 3 * c.triangle_nodes.size());
-  for (std::size_t t = 0; t < c.triangle_nodes.size(); ++t)
-    c.triangle_uv.push_back({uv[3 * t], uv[3 * t + 1], uv[3 * t + 2]});
-  require_finite(r, "/st/composites/node_uv", c.node_uv);
-  require_finite(r, kTriangleUv, uv);
+void join_faces(const Hdf5Reader& r, GeometryArtifact& geometry) {
+  const Composites& c = geometry.composites = read_composites(r);
   if (const std::string what = c.contradiction(geometry.tables); !what.empty())
     r.fail("/st/composites", "the " + what + " contradict the tables");
   JoinedTables joined = join_tables(geometry.tables, c);
@@ -311,7 +270,7 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
     w.write(kPreviousEdges, geometry.previous_edges, 2);
     w.write(kPreviousVertices, geometry.previous_vertices, 2);
   }
-  if (!geometry.composites.empty()) write_composites(w, geometry.composites);
+  write_composites(w, geometry.composites);
   if (geometry.facets.empty())
     w.write("/st/brep", geometry.brep);
   else
@@ -345,7 +304,7 @@ GeometryArtifact read_geometry(const std::string& path) {
   else
     geometry.brep = r.read<std::byte>("/st/brep");
   geometry.is_closed = r.int_attribute("/st", "is_closed") != 0;
-  if (r.has("/st/composites/member")) read_composites(r, geometry);
+  if (has_composites(r)) join_faces(r, geometry);
   return geometry;
 }
 

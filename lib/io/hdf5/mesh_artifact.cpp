@@ -122,6 +122,11 @@ void write_vtk(Hdf5Writer& w, ColumnWriter& c, const SurfaceMesh& head, const Me
     c.add("/VTKHDF/CellData/previous_id", *m.triangle_previous);
     c.add("/VTKHDF/PointData/previous_id", *m.node_previous);
   }
+  if (m.triangle_cad_face) {
+    c.add<std::int32_t>("/VTKHDF/CellData/cad_face", *m.triangle_cad_face, add_one_based);
+    c.add<std::int32_t>("/VTKHDF/PointData/cad_face", *m.node_cad_face, add_one_based);
+    c.add("/st/node/cad_uv", *m.node_cad_uv);
+  }
   const std::vector<FaceNumbers> numbers = face_numbers(head);
   write_numbers(w, c, head, m, numbers);
   if (!head.labels.face_name.empty())
@@ -175,7 +180,15 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
                 column_of(m.triangle_group),
                 column_of(m.corner_uv),
                 {},
+                {},
+                {},
+                {},
                 {}};
+  if (!artifact.triangle_cad_face.empty()) {
+    c.triangle_cad_face = column_of(artifact.triangle_cad_face);
+    c.node_cad_face = column_of(artifact.node_cad_face);
+    c.node_cad_uv = column_of(artifact.node_cad_uv);
+  }
   if (!m.node_previous.empty()) {
     c.node_previous = column_of(m.node_previous);
     c.triangle_previous = column_of(m.triangle_previous);
@@ -246,6 +259,11 @@ MeshArtifact read_mesh(const std::string& path) {
   if (r.has("/VTKHDF/PointData/previous_id")) {
     m.node_previous = r.read_rows<std::int32_t>("/VTKHDF/PointData/previous_id", n_nodes);
     m.triangle_previous = r.read_rows<std::int32_t>("/VTKHDF/CellData/previous_id", m.triangles.size());
+  }
+  if (r.has("/VTKHDF/CellData/cad_face")) {
+    artifact.triangle_cad_face = read_ids(r, "/VTKHDF/CellData/cad_face", m.triangles.size());
+    artifact.node_cad_face = read_ids(r, "/VTKHDF/PointData/cad_face", n_nodes);
+    artifact.node_cad_uv = r.read_rows<Vec2>("/st/node/cad_uv", n_nodes);
   }
   return artifact;
 }

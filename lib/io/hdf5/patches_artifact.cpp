@@ -1,6 +1,8 @@
 // patches.hdf: docs/artifacts.md
 #include "base/threads.h"
+#include "geometry/model/cad_places.h"
 #include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/composites_io.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/merged_features.h"
 #include "io/hdf5/patches_file.h"
@@ -156,6 +158,10 @@ void read_faces(const Hdf5Reader& r, PatchesArtifact& a) {
   a.face_shell = r.read<std::int32_t>("/st/face/shell");
   a.face_area = r.read_rows<double>("/st/face/area", a.face_shell.size());
   a.labels = read_labels(r, a.face_shell.size());
+  if (!has_composites(r)) return;
+  a.composites = read_composites(r);
+  if (!has_sound_charts(a.composites, static_cast<FaceId>(a.face_shell.size())))
+    r.fail("/st/composites", "these faces contradict the patches");
 }
 
 void read_rest(const Hdf5Reader& r, PatchesArtifact& a) {

@@ -6,6 +6,7 @@
 
 #include "base/assert.h"
 #include "base/threads.h"
+#include "io/hdf5/composites_io.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/hdf5/merged_features.h"
@@ -28,6 +29,7 @@ void write_rest(Hdf5Writer& w, const PatchesArtifact& a) {
   w.write_strings("/st/group/name", a.labels.group_name);
   if (!a.labels.group_role.empty()) w.write_strings("/st/group/role", a.labels.group_role);
   write_labels(w, a.labels);
+  write_composites(w, a.composites);
 }
 
 /// One value of each failure.
