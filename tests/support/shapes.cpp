@@ -574,6 +574,12 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"two_balls", [] { return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
+      {"cone_on_cylinder",
+       [] {
+         const gp_Ax2 on(gp_Pnt(0, 0, 10), gp_Dir(0, 0, 1));
+         return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeCylinder(5, 10).Shape(), BRepPrimAPI_MakeCone(on, 5, 4.9, 10).Shape())
+             .Shape();
+       }},
       {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
       {"thin_cylinder", [] { return BRepPrimAPI_MakeCylinder(0.05, 30).Shape(); }},
       {"stepped_box", [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},

@@ -27,7 +27,7 @@ struct Rim {
 class FacetReader {
  public:
   FacetReader(const Model& model, UvFacets& facets)
-      : t_(model.tables()), brep_(ModelEditor::brep(model)), facets_(facets) {
+      : model_(model), t_(model.tables()), brep_(ModelEditor::brep(model)), facets_(facets) {
     facets_.rim_t.resize(t_.coedge_edge.size());
     facets_.rim_side.resize(t_.coedge_edge.size());
   }
@@ -39,7 +39,7 @@ class FacetReader {
     std::vector<std::pair<CoedgeId, Rim>> rims;
     for (const CoedgeId c : t_.coedges(f)) {
       if (t_.edge_is_degenerate[t_.coedge_edge[c]]) return;  // a pole: its nodes are one in space alone
-      std::optional<Rim> rim = rim_of(c, mesh, location, copy);
+      std::optional<Rim> rim = rim_of(f, c, mesh, location, copy);
       if (!rim) return;
       rims.emplace_back(c, std::move(*rim));
     }
@@ -48,12 +48,28 @@ class FacetReader {
   }
 
  private:
-  std::optional<Rim> rim_of(CoedgeId c, const Handle(Poly_Triangulation) & mesh, const TopLoc_Location& location,
-                            BRepBuilderAPI_Copy& copy) const {
+  /// The nodes of an edge. A seam has two rows of them, and which of its coedges has which depends on where the face
+  /// comes from: that whose (u,v) lie on the trimming curve.
+  Handle(Poly_PolygonOnTriangulation)
+      polygon_of(FaceId f, CoedgeId c, const TopoDS_Shape& edge, const Handle(Poly_Triangulation) & mesh,
+                 const TopLoc_Location& location) const {
+    const auto polygon = [&](TopAbs_Orientation orientation) {
+      return BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edge.Oriented(orientation)), mesh, location);
+    };
+    const Handle(Poly_PolygonOnTriangulation) one = polygon(TopAbs_FORWARD), two = polygon(TopAbs_REVERSED);
+    if (one == two || one.IsNull() || two.IsNull() || !one->HasParameters() || !two->HasParameters()) return one;
+    const auto pcurve = model_.pcurve(f, c);
+    const auto off = [&](const Handle(Poly_PolygonOnTriangulation) & p) {
+      const gp_Pnt2d uv = mesh->UVNode(p->Node(1));
+      return norm(pcurve->point(p->Parameter(1)) - Vec2{uv.X(), uv.Y()});
+    };
+    return off(two) < off(one) ? two : one;
+  }
+
+  std::optional<Rim> rim_of(FaceId f, CoedgeId c, const Handle(Poly_Triangulation) & mesh,
+                            const TopLoc_Location& location, BRepBuilderAPI_Copy& copy) const {
     const TopoDS_Shape edge = copy.ModifiedShape(brep_.edges(t_.coedge_edge[c] + 1));
-    const auto orientation = t_.coedge_is_reversed[c] ? TopAbs_REVERSED : TopAbs_FORWARD;
-    const Handle(Poly_PolygonOnTriangulation) polygon =
-        BRep_Tool::PolygonOnTriangulation(TopoDS::Edge(edge.Oriented(orientation)), mesh, location);
+    const Handle(Poly_PolygonOnTriangulation) polygon = polygon_of(f, c, edge, mesh, location);
     if (polygon.IsNull() || !polygon->HasParameters() || polygon->NbNodes() < 2) return std::nullopt;
     Rim rim;
     for (int i = 1; i <= polygon->NbNodes(); ++i) {
@@ -135,6 +151,7 @@ class FacetReader {
     }
   }
 
+  const Model& model_;
   const ModelTables& t_;
   const Model::Impl& brep_;
   UvFacets& facets_;

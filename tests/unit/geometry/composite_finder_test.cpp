@@ -24,6 +24,12 @@ TEST(FindComposites, keeps_one_cut_of_a_tube) {
   EXPECT_EQ(joined.model.tables().n_faces(), 3);
 }
 
+TEST(FindComposites, joins_faces_with_seams) {
+  const test::Joined joined("cone_on_cylinder");
+  EXPECT_EQ(joined.composites.member.size(), 2u);
+  EXPECT_EQ(joined.model.tables().n_faces(), 3);
+}
+
 TEST(FindComposites, lays_ruled_skins_out_without_stretch) {
   const test::Joined joined("wing_of_200");
   ASSERT_EQ(joined.composites.size(), 1);

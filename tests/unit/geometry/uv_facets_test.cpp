@@ -56,6 +56,26 @@ TEST(UvFacets, know_their_neighbours_and_the_sides_along_edges) {
   }
 }
 
+TEST(UvFacets, have_their_rims_on_the_trimming_curves_at_seams_too) {
+  for (const char* shape : {"cone_on_cylinder", "drilled_cylinder", "mirrored_cylinder", "torus", "thin_pipe"}) {
+    SCOPED_TRACE(shape);
+    const Model model = test::make_model(shape);
+    const ModelTables& t = model.tables();
+    const UvFacets facets = uv_facets_of(model);
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      for (const CoedgeId c : t.coedges(f)) {
+        const auto pcurve = model.pcurve(f, c);
+        for (std::size_t i = 0; i < facets.rim_side[c].size(); ++i) {
+          const std::int32_t s = facets.rim_side[c][i];
+          const auto& uv = facets.uv[static_cast<std::size_t>(s / 3)];
+          const Vec2 a = uv[s % 3], b = uv[(s + 1) % 3], p = pcurve->point(facets.rim_t[c][i]),
+                     q = pcurve->point(facets.rim_t[c][i + 1]);
+          EXPECT_LE(std::min(norm(a - p) + norm(b - q), norm(a - q) + norm(b - p)), 1e-6) << f + 1 << " " << c;
+        }
+      }
+  }
+}
+
 TEST(UvFacets, are_not_made_of_faces_with_poles) {
   EXPECT_TRUE(uv_facets_of(test::make_model("sphere")).corners.empty());
 }
