@@ -10,6 +10,7 @@
 #include "base/boxes.h"
 #include "base/disjoint_sets.h"
 #include "base/sort_once.h"
+#include "geometry/model/chart_alignment.h"
 #include "geometry/model/passed_vertices.h"
 #include "geometry/model/uv_facets.h"
 #include "geometry/shape/chain_curve.h"
@@ -254,7 +255,8 @@ class CompositeFinder {
 
   bool accept(const std::vector<FaceId>& faces) {
     const Union u = unite(faces);
-    const auto uv = flatten(u.x, u.corners, u.topology);
+    auto uv = flatten(u.x, u.corners, u.topology);
+    if (uv) align_chart(cad_, facets_, u.triangles, u.x, u.corners, *uv);
     if (!uv) return refuse(faces, "they cannot be laid into a plane");
     Chart chart{u.x, std::vector<Vec3>(u.x.size(), Vec3{0, 0, 1}), *uv, u.corners};
     Rims rims = rims_of(faces, u);
