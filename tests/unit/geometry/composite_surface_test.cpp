@@ -95,6 +95,30 @@ TEST(CompositeSurface, copies_are_the_same_and_go_on_beside_the_chart) {
   EXPECT_EQ(copy->u_max(), 2);
 }
 
+/// x = (u, v, u v + u^2).
+class Saddle final : public Surface {
+ public:
+  Vec3 point(Vec2 p) const override { return {p.x, p.y, p.x * p.y + p.x * p.x}; }
+  SurfacePoint evaluate(Vec2 p) const override { return {point(p), {1, 0, p.y + 2 * p.x}, {0, 1, p.x}}; }
+  SurfacePoint2 evaluate2(Vec2 p) const override {
+    return {point(p), {1, 0, p.y + 2 * p.x}, {0, 1, p.x}, {0, 0, 2}, {0, 0, 1}, {}};
+  }
+};
+
+TEST(CompositeSurface, mixes_second_derivatives_as_its_map_does) {
+  const std::array<Vec2, 3> own{{{0, 0}, {1, 0.25}, {-0.5, 1}}};  // (u,v) -> (u - v / 2, u / 4 + v)
+  const std::vector<Vec3> x(3), normal(3, Vec3{0, 0, 1});
+  std::vector<std::unique_ptr<Surface>> members;
+  members.push_back(std::make_unique<Saddle>());
+  const CompositeSurface surface({x, normal, {{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}}, {{0}, {own}}, std::move(members),
+                                 {0, 1, 0, 1});
+  const SurfacePoint2 p = surface.evaluate2(Vec2{0.3, 0.3});
+  // z = (u - v / 2) (u / 4 + v) + (u - v / 2)^2
+  EXPECT_NEAR(p.duu.z, 2.5, 1e-14);
+  EXPECT_NEAR(p.duv.z, -0.125, 1e-14);
+  EXPECT_NEAR(p.dvv.z, -0.5, 1e-14);
+}
+
 TEST(AffineMap, takes_three_places_to_three) {
   const std::array<Vec2, 3> from{{{1, 2}, {4, 2.5}, {0, 7}}}, to{{{-1, 0}, {3, 3}, {2, -8}}};
   const AffineMap map(from, to);
