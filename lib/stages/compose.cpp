@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "features/ridge_edges.h"
 #include "features/smooth_edges.h"
 #include "geometry/model/joined_tables.h"
 #include "io/foreign/triangulation_reader.h"
@@ -177,6 +178,9 @@ JoinRequest join_request(const Model& cad, bool is_harm_only) {
     if (request.may_join[e] &&
         (is_kept[e] || offsets[e + 1] - offsets[e] != 2 || !are_alike(t, faces[offsets[e]], faces[offsets[e] + 1])))
       request.may_join[e] = 0;
+  const std::vector<std::uint8_t> is_ridge = find_ridge_edges(cad, request.may_join);
+  for (std::size_t e = 0; e < is_ridge.size(); ++e)
+    if (is_ridge[e]) request.may_join[e] = 0;
   if (is_harm_only)
     request.urgency = HarmFinder(cad, request.may_join).take();
   else
