@@ -171,7 +171,7 @@ void find_folds(const SurfaceMesh& mesh, const EdgeTable& edges, Defects& folds)
                                                                                                        // its own, no
                                                                                                        // fold
       const double cosine = is_misoriented ? -dot(ns, nt) : dot(ns, nt);
-      if (cosine < kFoldCosine * norm(ns) * norm(nt))
+      if (cosine < 0 && cosine < kFoldCosine * norm(ns) * norm(nt))
         folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone});
     }
   });

@@ -56,8 +56,10 @@ std::size_t angle_bin(double cosine) {
     for (std::size_t k = 0; k < cosines.size(); ++k) cosines[k] = cosine_deg(10.0 * static_cast<double>(k + 1));
     return cosines;
   }();
-  std::size_t bin = 0;
-  for (const double end : ends) bin += cosine <= end;
+  constexpr std::size_t kHalf = std::tuple_size_v<decltype(ends)> / 2;  // 90 degrees
+  const bool is_obtuse = cosine <= ends[kHalf];
+  std::size_t bin = is_obtuse ? kHalf + 1 : 0;
+  for (std::size_t k = 0; k < kHalf; ++k) bin += cosine <= ends[k + (is_obtuse ? kHalf + 1 : 0)];
   return bin;
 }
 
@@ -156,9 +158,12 @@ void add_shapes(const SurfaceMesh& mesh, const TriangleCorners& corners, std::sp
   std::vector<Parts> pieces((quality.size() + kPerPiece - 1) / kPerPiece);
   parallel_for(quality.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
     Parts& parts = pieces[begin / kPerPiece];
+    std::pair<FaceId, std::int32_t> last{kNone, kNone};
+    ShapeSum* part = nullptr;  // triangles come face by face
     for (std::size_t t = begin; t < end; ++t) {
-      const TriangleShape shape = add_triangle(mesh, corners, static_cast<TriangleId>(t),
-                                               parts[{mesh.triangle_face[t], mesh.triangle_group[t]}]);
+      const std::pair key(mesh.triangle_face[t], mesh.triangle_group[t]);
+      if (!part || key != last) part = &parts[last = key];
+      const TriangleShape shape = add_triangle(mesh, corners, static_cast<TriangleId>(t), *part);
       quality[t] = shape.quality;
       area[t] = shape.area;
     }
