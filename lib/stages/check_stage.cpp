@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -66,6 +67,7 @@ struct CadSide {
 std::vector<Vec3> face_places(const SurfaceMesh& mesh, std::size_t n_faces) {
   std::vector<Vec3> place(n_faces);
   for (TriangleId t = static_cast<TriangleId>(mesh.n_triangles()) - 1; t >= 0; --t) {
+    if (t > 0 && mesh.triangle_face[t - 1] == mesh.triangle_face[t]) continue;
     const auto& n = mesh.triangles[t].n;
     if (static_cast<std::size_t>(mesh.triangle_face[t]) < n_faces)
       place[mesh.triangle_face[t]] = (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3;
@@ -145,6 +147,8 @@ constexpr double kMostOff = 0.03;
 /// Chords of one length take 0.5 (length / width)^2 of the area of a disc, whose width is that of face_extents(), and
 /// twice as much of a hemisphere: with 20 % more for chords that are not all alike.
 constexpr double kRound = 1.2;
+/// Of the area of the whole CAD: of a small face no more is missing.
+constexpr double kLittle = 2e-3;
 
 /// Faces that differ in area from the CAD's.
 struct AreaChecks {
@@ -153,15 +157,16 @@ struct AreaChecks {
 };
 
 /// Wrong are faces off by more than the tolerance, what chords explain, and the slack of the CAD. Of a face wider than
-/// two requested lengths only chords of the requested length explain anything: no more than kMostOff of its area, or of
-/// a face less than six lengths wide what a hemisphere lacks. Others beyond kMostOff are below the sizes: they look as
-/// the sizes make them.
+/// two requested lengths only chords of the requested length explain anything: no more than kMostOff of its area, or
+/// what a hemisphere lacks of a face that is less than six lengths wide and a small part of the whole. Others beyond
+/// kMostOff are below the sizes: they look as the sizes make them.
 AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
                        const ChordError& chords, double tolerance) {
   constexpr double kWide = 2;  // requested lengths
   AreaChecks c;
   const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
   const std::vector<double> extent = face_extents(mesh, place);
+  const double whole = std::accumulate(tables.face_area.begin(), tables.face_area.end(), 0.0);
   double largest = 0;
   FaceId worst = kNone;
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
@@ -172,8 +177,8 @@ AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, cons
     const bool is_wide = width > kWide * size;
     const double explained = is_wide ? chords.area[f] : chords.found_area[f];
     double allowed = tolerance * cad + explained + slack_area(tables, f);
-    if (is_wide)
-      allowed = std::min(allowed, std::max({kMostOff, tolerance, kRound * (size / width) * (size / width)}) * cad);
+    const double round = difference < kLittle * whole ? kRound * (size / width) * (size / width) : 0;
+    if (is_wide) allowed = std::min(allowed, std::max({kMostOff, tolerance, round}) * cad);
     if (difference > allowed && measure.face_area[f] > 0)
       c.areas.defects.add({place[f], f, kNone});
     else if (difference > kMostOff * cad && measure.face_area[f] > 0)

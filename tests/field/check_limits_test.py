@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """st-check allows what the sizes imply, not what the mesh has."""
+import os
 import struct
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -9,6 +11,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "support"))
 from chain import INCOMPLETE, MODELS, OK, Run, ToolTest, artifacts_of, make_chain, must  # noqa: E402
 
 HERE = Path(__file__).resolve().parent
+VARIED_MODELS = Path(os.environ["ST_BIN"]).parent / "tests/support/varied_models"
 
 
 def turn_triangle(stl, index):
@@ -41,6 +44,15 @@ class CheckLimits(ToolTest):
         run = Run("st-check", self.sphere("15") / "mesh.hdf", "--geometry", self.folder / "15" / "geometry.hdf")
         self.assertEqual(run.code, OK, run)
         self.assertRegex(run.out, r"passes, area 1\.\d % below the CAD's, volume 2\.\d % below the CAD's")
+
+    def test_a_boss_of_a_few_smallest_lengths_is_said_where_the_rest_is_large(self):
+        """Its cap is four lengths wide, and lacks 6 % of its area."""
+        subprocess.run([VARIED_MODELS, self.folder, "7031", "7031"], check=True, capture_output=True, timeout=100)
+        (model,) = self.folder.glob("v7031*")
+        at = make_chain(model, self.folder / "boss", raster_options=["--preset", "preview"])
+        run, found = self.check(at)
+        self.assertEqual(run.code, OK, run)
+        self.assertEqual(found["checks"]["below-sizes"]["count"], 1)
 
     def test_turned_triangles_of_another_program_fail_with_and_without_geometry(self):
         at = artifacts_of("torus")
