@@ -3,10 +3,13 @@
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
 #include <ShapeFix_Face.hxx>
+#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
@@ -74,6 +77,35 @@ TopoDS_Face other_side(const TopoDS_Face& face) {
   return TopoDS::Face(fix.Face().Oriented(TopAbs::Reverse(face.Orientation())));
 }
 
+/// Out of the face, at the middle of an edge; null where it has none.
+gp_Vec normal_at(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  double t0, t1;
+  const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  if (pcurve.IsNull()) return {};
+  const gp_Pnt2d uv = pcurve->Value(0.5 * (t0 + t1));
+  gp_Pnt p;
+  gp_Vec du, dv;
+  BRep_Tool::Surface(face)->D1(uv.X(), uv.Y(), p, du, dv);
+  const gp_Vec normal = du.Crossed(dv);
+  return face.Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal;
+}
+
+/// Whether a face goes on smoothly into another of its shell: its other side would be folded back onto that.
+bool is_smooth_beside(const TopoDS_Face& face, const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
+  constexpr double kSmooth = 0.5;  // radians: far below the angle of a stem and far above that of a fillet
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    const int k = faces_of.FindIndex(edge);
+    if (k == 0) continue;
+    for (const TopoDS_Shape& other : faces_of(k)) {
+      if (other.IsSame(face)) continue;
+      const gp_Vec a = normal_at(edge, face), b = normal_at(edge, TopoDS::Face(other));
+      if (a.Magnitude() > 0 && b.Magnitude() > 0 && a.Angle(b) < kSmooth) return true;
+    }
+  }
+  return false;
+}
+
 /// What is known of the faces of a part, by their place among its faces.
 struct PartFaces {
   const CadPart& part;
@@ -105,10 +137,12 @@ std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFac
     else
       (agrees ? agreeing : other).push_back(face);
   }
-  if (n_agree != n_other) {  // the reader may have turned the whole shell
-    const std::vector<TopoDS_Face>& wrong = n_agree > n_other ? other : agreeing;
-    with_seam.insert(with_seam.end(), wrong.begin(), wrong.end());
-  }
+  const std::vector<TopoDS_Face>& wrong = n_agree > n_other ? other : agreeing;
+  if (n_agree == n_other || wrong.empty()) return with_seam;  // the reader may have turned the whole shell
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+  TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, faces_of);
+  for (const TopoDS_Face& face : wrong)  // files may err in what they say of a fillet's corner
+    if (!is_smooth_beside(face, faces_of)) with_seam.push_back(face);
   return with_seam;
 }
 
