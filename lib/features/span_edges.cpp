@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/boxes.h"
 #include "base/eigen.h"
 #include "features/smooth_edges.h"
 
@@ -21,6 +22,8 @@ constexpr std::size_t kLeastSamples = 8;  // in the slab
 constexpr double kThick = 0.45;           // of the chord: samples lie in a flatter rectangle
 constexpr double kLooksAcross = 0.5;      // cosine between normals and the direction across the chord
 constexpr int kGrid = 24;                 // samples of a face along u and v
+constexpr std::size_t kPiece = 8;         // samples of a face beside each other, with a box of their own
+constexpr double kRounding = 1e-6;        // of the edge's length, about: of distances from boxes
 constexpr std::size_t kMostFaces = 12;    // around an edge
 
 class SpanEdgeFinder {
@@ -30,6 +33,7 @@ class SpanEdgeFinder {
     t_.edge_faces(offsets_, edge_faces_);
     is_turned_ = is_material_ahead(t_, roles);
     is_taken_.assign(static_cast<std::size_t>(t_.n_faces()), 0);
+    is_smooth_.resize(static_cast<std::size_t>(t_.n_edges()));
     for (const LiftingSurface& wing : wings)
       for (const FaceId f : wing.faces) is_taken_[f] = 1;
   }
@@ -55,24 +59,29 @@ class SpanEdgeFinder {
     return roles_.role[f] == FaceRole::kWall && !is_taken_[f] && std::ranges::count(kAnalytic, t_.face_type[f]) == 0;
   }
 
-  bool is_candidate(EdgeId e) const {
+  bool is_candidate(EdgeId e) {
     if (t_.edge_is_degenerate[e] || t_.edge_length[e] < kLeastLength * roles_.reference_diagonal) return false;
     const auto at = faces_at(e);
     if (at.size() != 2 || !is_free_form(at[0]) || !is_free_form(at[1])) return false;
     const VertexId a = t_.edge_vertices[2 * e], b = t_.edge_vertices[2 * e + 1];
     if (a != b && distance(t_.vertex_xyz[a], t_.vertex_xyz[b]) < kStraight * t_.edge_length[e]) return false;
-    return at[0] == at[1] || is_smooth_half_way(model_, e, at, kSmooth);
+    return at[0] == at[1] || is_smooth(e);
+  }
+
+  bool is_smooth(EdgeId e) {
+    std::optional<bool>& known = is_smooth_[e];
+    if (!known) known = is_smooth_half_way(model_, e, faces_at(e), kSmooth);
+    return *known;
   }
 
   /// Its faces, and those beyond their edges, without walls that turn away there.
-  std::vector<FaceId> faces_around(EdgeId e) const {
+  std::vector<FaceId> faces_around(EdgeId e) {
     std::vector<FaceId> faces(faces_at(e).begin(), faces_at(e).end());
     if (faces[0] == faces[1]) faces.pop_back();
     for (std::size_t k = 0, n = faces.size(); k < n; ++k)
       for (const EdgeId next : t_.edges_of(faces[k]))
         for (const FaceId f : faces_at(next))
-          if (faces.size() < kMostFaces && std::ranges::count(faces, f) == 0 && is_free_form(f) &&
-              is_smooth_half_way(model_, next, faces_at(next), kSmooth))
+          if (faces.size() < kMostFaces && std::ranges::count(faces, f) == 0 && is_free_form(f) && is_smooth(next))
             faces.push_back(f);
     return faces;
   }
@@ -82,38 +91,72 @@ class SpanEdgeFinder {
     Vec3 x, normal;
   };
 
-  const std::vector<Sample>& samples_of(FaceId f) {
-    std::vector<Sample>& samples = samples_[f];
-    if (!samples.empty()) return samples;
+  struct FaceSamples {
+    std::vector<Sample> all;
+    std::vector<Box3> box;  // of each piece
+  };
+
+  const FaceSamples& samples_of(FaceId f) {
+    FaceSamples& samples = samples_[f];
+    if (!samples.all.empty()) return samples;
     const auto surface = model_.surface(f);
-    std::vector<Vec2> uv;
     const Vec2 low{surface->u_min(), surface->v_min()}, way = Vec2{surface->u_max(), surface->v_max()} - low;
+    uv_.clear();
     for (int i = 0; i < kGrid; ++i)
       for (int k = 0; k < kGrid; ++k)
-        uv.push_back({low.x + way.x * (i + 0.5) / kGrid, low.y + way.y * (k + 0.5) / kGrid});
-    std::vector<SurfacePoint> points(uv.size());
-    surface->evaluate_batch(uv, points);
+        uv_.push_back({low.x + way.x * (i + 0.5) / kGrid, low.y + way.y * (k + 0.5) / kGrid});
+    points_.resize(uv_.size());
+    surface->evaluate_batch(uv_, points_);
     const double sign = (t_.face_is_reversed[f] != 0) != is_turned_ ? -1 : 1;
-    for (const SurfacePoint& p : points) samples.push_back({p.x, sign * normalized(cross(p.du, p.dv))});
+    samples.all.reserve(points_.size());
+    samples.box.resize((points_.size() + kPiece - 1) / kPiece);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const SurfacePoint& p = points_[i];
+      samples.all.push_back({p.x, sign * normalized(cross(p.du, p.dv))});
+      samples.box[i / kPiece].add(p.x);
+    }
     return samples;
   }
+
+  /// A slab about the plane square to an edge half way.
+  struct Slab {
+    Vec3 x, normal;    // a point of the plane; unit
+    double half = 0;   // thickness, model unit
+    double reach = 0;  // from the point, model unit
+
+    /// False: nothing in the box is in the slab, nor within reach.
+    bool may_meet(const Box3& box) const {
+      const double margin = kRounding * reach;
+      const Vec3 size = 0.5 * (box.hi - box.lo);
+      const double off = std::abs(dot(box.center() - x, normal)),
+                   across = std::abs(normal.x) * size.x + std::abs(normal.y) * size.y + std::abs(normal.z) * size.z;
+      return off - across <= half + margin && distance2(x, box) <= (reach + margin) * (reach + margin);
+    }
+  };
 
   /// In the plane square to an edge half way, as seen from there; of a ring on this side of its middle.
   std::vector<Sample> samples_near(EdgeId e) {
     const auto curve = model_.curve(e);
     const CurvePoint p = curve->evaluate(0.5 * (curve->t_min() + curve->t_max()));
     const bool is_ring = t_.edge_vertices[2 * e] == t_.edge_vertices[2 * e + 1];
-    const Vec3 normal = normalized(p.d1), inward = 0.5 * (curve->point(curve->t_min()) - p.x);
-    const double length = t_.edge_length[e], slab = (is_ring ? kSlabOfRing : kSlab) * length;
+    const Vec3 inward = 0.5 * (curve->point(curve->t_min()) - p.x);
+    const double length = t_.edge_length[e];
+    const Slab slab{p.x, normalized(p.d1), (is_ring ? kSlabOfRing : kSlab) * length, kChordMost * length};
     std::vector<Sample> near;
-    for (const FaceId f : faces_around(e))
-      for (const Sample& s : samples_of(f)) {
-        const Vec3 way = s.x - p.x;
-        const double height = dot(way, normal);
-        if (std::abs(height) <= slab && norm(way) <= kChordMost * length &&
-            (!is_ring || dot(way, inward) < norm2(inward)))
-          near.push_back({way - height * normal, s.normal});
+    const auto add = [&](const Sample& s) {
+      const Vec3 way = s.x - slab.x;
+      const double height = dot(way, slab.normal);
+      if (std::abs(height) <= slab.half && norm(way) <= slab.reach && (!is_ring || dot(way, inward) < norm2(inward)))
+        near.push_back({way - height * slab.normal, s.normal});
+    };
+    for (const FaceId f : faces_around(e)) {
+      const FaceSamples& samples = samples_of(f);
+      for (std::size_t k = 0; k < samples.box.size(); ++k) {
+        if (!slab.may_meet(samples.box[k])) continue;
+        const std::span rest = std::span(samples.all).subspan(k * kPiece);
+        for (const Sample& s : rest.first(std::min(rest.size(), kPiece))) add(s);
       }
+    }
     return near;
   }
 
@@ -149,8 +192,11 @@ class SpanEdgeFinder {
   bool is_turned_ = false;             // normals point into the material
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
-  std::vector<std::uint8_t> is_taken_;             // [n_faces] of a lifting surface that is known
-  std::map<FaceId, std::vector<Sample>> samples_;  // over the face's (u,v) box
+  std::vector<std::uint8_t> is_taken_;          // [n_faces] of a lifting surface that is known
+  std::vector<std::optional<bool>> is_smooth_;  // [n_edges] between the faces there; nothing: not asked yet
+  std::map<FaceId, FaceSamples> samples_;       // over the face's (u,v) box
+  std::vector<Vec2> uv_;                        // of the last face
+  std::vector<SurfacePoint> points_;            // likewise
 };
 
 }  // namespace

@@ -76,19 +76,26 @@ SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Bounds& 
   return {uv, p.x, std::sqrt(distance2)};
 }
 
+void sample(const Surface& surface, const Bounds& b, SurfaceGrid& grid) {
+  grid.u = sample_parameters(b.lo.x, b.hi.x, surface.u_knots());
+  grid.v = sample_parameters(b.lo.y, b.hi.y, surface.v_knots());
+  grid.x.reserve(grid.u.size() * grid.v.size());
+  for (const double u : grid.u)
+    for (const double v : grid.v) grid.x.push_back(surface.point({u, v}));
+}
+
 /// Grid samples no further from the target than their eight neighbours.
-std::vector<Start> surface_starts(const Surface& surface, Vec3 target, const std::vector<double>& u,
-                                  const std::vector<double>& v) {
-  const int n_u = static_cast<int>(u.size()), n_v = static_cast<int>(v.size());
+std::vector<Start> surface_starts(const SurfaceGrid& grid, Vec3 target) {
+  const int n_u = static_cast<int>(grid.u.size()), n_v = static_cast<int>(grid.v.size());
   std::vector<double> distance2;
-  distance2.reserve(u.size() * v.size());
-  for (const double x : u)
-    for (const double y : v) distance2.push_back(norm2(surface.point({x, y}) - target));
+  distance2.reserve(grid.x.size());
+  for (const Vec3& x : grid.x) distance2.push_back(norm2(x - target));
   std::vector<Start> starts;
   for (int i = 0; i < n_u; ++i)
     for (int j = 0; j < n_v; ++j) {
       const double own = distance2[i * n_v + j];
-      bool is_least = true;
+      bool is_least = (j == 0 || own <= distance2[i * n_v + j - 1]) &&
+                      (j + 1 == n_v || own <= distance2[i * n_v + j + 1]);  // most end here
       for (int k = std::max(i - 1, 0); k <= std::min(i + 1, n_u - 1) && is_least; ++k)
         for (int l = std::max(j - 1, 0); l <= std::min(j + 1, n_v - 1); ++l) is_least &= own <= distance2[k * n_v + l];
       if (is_least) starts.push_back({own, static_cast<std::size_t>(i) * n_v + j});
@@ -133,16 +140,21 @@ std::optional<PointAbove> point_above(const Surface& surface, Vec3 p, Vec2 guess
 }
 
 SurfaceFoot closest_point(const Surface& surface, Vec3 target) {
+  SurfaceGrid grid;
+  return closest_point(surface, target, grid);
+}
+
+SurfaceFoot closest_point(const Surface& surface, Vec3 target, SurfaceGrid& grid) {
   const Bounds b = bounds_of(surface);
   if (const auto exact = surface.exact_foot(target); exact && b.clamp(*exact) == *exact) {
     const Vec3 x = surface.point(*exact);
     return {*exact, x, distance(x, target)};
   }
-  const std::vector<double> u = sample_parameters(b.lo.x, b.hi.x, surface.u_knots());
-  const std::vector<double> v = sample_parameters(b.lo.y, b.hi.y, surface.v_knots());
+  if (grid.x.empty()) sample(surface, b, grid);
   std::optional<SurfaceFoot> best;
-  for (const Start& start : surface_starts(surface, target, u, v)) {
-    const SurfaceFoot foot = descend(surface, target, {u[start.index / v.size()], v[start.index % v.size()]}, b);
+  for (const Start& start : surface_starts(grid, target)) {
+    const Vec2 uv{grid.u[start.index / grid.v.size()], grid.v[start.index % grid.v.size()]};
+    const SurfaceFoot foot = descend(surface, target, uv, b);
     if (!best || foot.distance < best->distance) best = foot;
   }
   return *best;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "geometry/shape/curve.h"
 #include "geometry/shape/surface.h"
@@ -20,6 +21,15 @@ struct SurfaceFoot {
 /// grid that has two intervals per polynomial piece, sides and corners included. Of equally close points the one found
 /// first. Cost: the grid, tens of microseconds to milliseconds.
 SurfaceFoot closest_point(const Surface& surface, Vec3 p);
+
+/// Where a surface is sampled: a grid of parameters, and the points there, rows in v. Empty until it is used.
+struct SurfaceGrid {
+  std::vector<double> u, v;
+  std::vector<Vec3> x;
+};
+
+/// The same point of a surface that is asked for many: `grid`, of this surface alone, is made for the first and kept.
+SurfaceFoot closest_point(const Surface& surface, Vec3 p, SurfaceGrid& grid);
 
 /// Likewise by constrained Newton from a guess alone, which is first moved into the bounds: a local minimum.
 SurfaceFoot descend_from(const Surface& surface, Vec3 p, Vec2 guess);
