@@ -402,7 +402,7 @@ class SurfaceMeasurer {
     station.nose = profile.nose;
     station.nose_face = profile.nose_face;
     const auto is_near = [&](const CutPlace& place, double most) {
-      return closest_point(*model_.surface(place.face), place.x).distance <= most;
+      return closest_point(*model_.surface(place.face), place.x, grid_[place.face]).distance <= most;
     };
     const double most = kOffSurface * reach_, most_beside = std::max(most, kOffBeside * profile.chord);
     station.is_measured =
@@ -419,7 +419,7 @@ class SurfaceMeasurer {
     faces.insert(faces.end(), profile.faces.begin(), profile.faces.end());
     for (const FaceId f : faces) {
       const auto nose = exact_nose(*model_.surface(f), station.trailing, profile,
-                                   std::max(reach_, kNearNose * profile.chord), guess_[f]);
+                                   std::max(reach_, kNearNose * profile.chord), guess_[f], &grid_[f]);
       if (!nose) continue;
       station.nose = *nose;
       station.nose_face = f;
@@ -518,6 +518,7 @@ class SurfaceMeasurer {
   const ChainLine& line_;
   mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
   mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
+  mutable std::map<FaceId, SurfaceGrid> grid_;           // of each face on which noses are looked for
 };
 
 /// What may be the trailing edge was found from both sides where the nose is sharp, or a narrow face, or a smooth edge:
@@ -841,12 +842,14 @@ class SurfaceFinder {
 
   double reach() const { return 2 * kDeflection * roles_.reference_diagonal; }
 
-  ProfileCutter cutter_for(const std::vector<WingEdge>& chain) {
+  const ProfileCutter& cutter_for(const std::vector<WingEdge>& chain) {
     const FaceId mirror = mirror_of(chain);
-    if (mirror == kNone) return ProfileCutter(facets_, &ends_);
-    if (!whole_.contains(mirror))
-      whole_.emplace(mirror, with_image(model_, facets_, mirror, kOnPlane * roles_.reference_diagonal));
-    return ProfileCutter(whole_.at(mirror), &ends_);
+    const auto known = cutter_.find(mirror);
+    if (known != cutter_.end()) return known->second;
+    if (mirror == kNone) return cutter_.try_emplace(mirror, facets_, &ends_).first->second;
+    const Facets& whole =
+        whole_.emplace(mirror, with_image(model_, facets_, mirror, kOnPlane * roles_.reference_diagonal)).first->second;
+    return cutter_.try_emplace(mirror, whole, &ends_).first->second;
   }
 
   void find_with_noses(const std::vector<WingEdge>& chain) {
@@ -1009,7 +1012,7 @@ class SurfaceFinder {
     for (const WingEdge& w : rest.edges) (w.is_declared ? declared : others).push_back(w);
     const auto take = [&](std::vector<WingEdge>& own) {
       if (own.empty()) return;
-      const ProfileCutter cutter = cutter_for(own);
+      const ProfileCutter& cutter = cutter_for(own);
       std::optional<LiftingSurface> surface = find_thin_surface(model_, {roles_.own.axis, cutter, reach()}, own);
       if (!surface) return;
       surfaces_.push_back(std::move(*surface));
@@ -1030,7 +1033,7 @@ class SurfaceFinder {
           chords_along(model_, w, [&](const EdgePlace& place) { return known->nearest_chord(place.x).chord; }));
       return;
     }
-    const ProfileCutter cutter = cutter_for(own);
+    const ProfileCutter& cutter = cutter_for(own);
     if (std::optional<LiftingSurface> surface = find_thin_surface(model_, {roles_.own.axis, cutter, reach()}, own))
       surfaces_.push_back(std::move(*surface));
     else
@@ -1043,8 +1046,9 @@ class SurfaceFinder {
   const Facets& facets_;
   std::vector<CutEnd>& ends_;  // of cuts through these
   TriedChains& tried_;
-  std::map<FaceId, Facets> whole_;     // by symmetry plane
-  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
+  std::map<FaceId, Facets> whole_;          // by symmetry plane
+  std::map<FaceId, ProfileCutter> cutter_;  // of these; kNone: of the facets themselves
+  std::vector<std::int32_t> offsets_;       // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
   std::vector<std::vector<FaceId>> planes_at_;      // by vertex; empty: not known yet
   std::vector<std::uint8_t> is_concave_, is_wall_;  // by edge; by face

@@ -22,7 +22,8 @@ constexpr double kSharpNose = 0.03, kFlatNose = 0.85;  // thickness at the first
 constexpr double kThickEnd = 0.6;                      // thickness at the last place, at most
 constexpr double kFirstThickest = 0.1, kLastThickest = 0.8;
 constexpr double kStraightSides = 0.01;  // of a wedge: its thickness over the way from its edge differs by less
-constexpr std::size_t kFacetsPerBlock = 8;
+constexpr std::size_t kFacetsPerBlock = 8, kBlocksPerBlock = 8;
+constexpr double kRounding = 1e-9;  // of the distance of a box and its diagonal: of heights above a plane
 constexpr double kThinFor = 5;      // largest over smallest distance from the edge at which a thin part is thin
 constexpr double kThinStep = 1.05;  // between two distances that are tried
 constexpr double kBehind = 0.02;    // of the chord: nothing lies further behind the edge
@@ -66,22 +67,31 @@ std::optional<double> width_at(const Segments& segments, Vec3 from, double way) 
 
 /// Rounding counts as near.
 bool is_near(const Box3& box, Vec3 x, double reach) {
-  constexpr double kRounding = 1e-9, kClearly2 = 1.21, kAboveRounding2 = 1e-14;
+  constexpr double kClearly2 = 1.21, kAboveRounding2 = 1e-14;
   const double own2 = distance2(x, box);
   if (own2 > kClearly2 * reach * reach && own2 > kAboveRounding2 * norm2(box.hi - box.lo)) return false;  // most are
   const double most = reach + kRounding * (box.diagonal() + distance(box.center(), x));
   return own2 <= most * most;
 }
 
+/// Whether the plane may cross what is in a box.
+bool may_cross(const Box3& box, Vec3 origin, Vec3 normal) {
+  const Vec3 half = 0.5 * (box.hi - box.lo), way = box.center() - origin;
+  const double across = std::abs(normal.x) * half.x + std::abs(normal.y) * half.y + std::abs(normal.z) * half.z;
+  const double height = std::abs(dot(way, normal));
+  return height <= across || height <= across + kRounding * (norm(way) + 2 * norm(half));
+}
+
 }  // namespace
 
 std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const Profile& profile, double reach,
-                               std::optional<Vec2>& guess) {
+                               std::optional<Vec2>& guess, SurfaceGrid* grid) {
   constexpr int kSteps = 12;
   constexpr double kLongest = 0.01, kDone = 1e-6;  // of the chord
   SurfaceFoot foot{{}, {}, std::numeric_limits<double>::infinity()};
   if (guess) foot = descend_from(surface, profile.nose, *guess);
-  if (!(foot.distance <= reach)) foot = closest_point(surface, profile.nose);
+  if (!(foot.distance <= reach))
+    foot = grid ? closest_point(surface, profile.nose, *grid) : closest_point(surface, profile.nose);
   Vec2 uv = foot.uv;
   for (int i = 0; i < kSteps; ++i) {
     const SurfacePoint2 p = surface.evaluate2(uv);
@@ -108,13 +118,22 @@ std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const
 }
 
 ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutEnd>* ends) : facets_(facets), ends_(ends) {
-  block_.resize((facets.triangle.size() + kFacetsPerBlock - 1) / kFacetsPerBlock);
+  std::vector<Box3> block((facets.triangle.size() + kFacetsPerBlock - 1) / kFacetsPerBlock);
   node_begin_.resize(facets.xyz.size() + 1, 0);
   for (std::size_t i = 0; i < facets.triangle.size(); ++i)
     for (const std::int32_t n : facets.triangle[i]) {
-      block_[i / kFacetsPerBlock].add(facets.xyz[n]);
+      block[i / kFacetsPerBlock].add(facets.xyz[n]);
       ++node_begin_[n + 1];
     }
+  while (block.size() > 1) {
+    std::vector<Box3> next((block.size() + kBlocksPerBlock - 1) / kBlocksPerBlock);
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      next[i / kBlocksPerBlock].add(block[i].lo);
+      next[i / kBlocksPerBlock].add(block[i].hi);
+    }
+    blocks_.push_back(std::exchange(block, std::move(next)));
+  }
+  blocks_.push_back(std::move(block));
   std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
   facet_.resize(3 * facets.triangle.size());
   std::vector<std::int32_t> next = node_begin_;
@@ -143,26 +162,34 @@ std::optional<ProfileCutter::Segment> ProfileCutter::segment_of(std::int32_t fac
 
 /// The first one of those that are equally near.
 std::optional<ProfileCutter::Segment> ProfileCutter::nearest_segment(Vec3 origin, Vec3 normal, double reach) const {
-  std::optional<Segment> first;
-  double nearest = reach;
-  for (std::size_t block = 0; block < block_.size(); ++block) {
-    if (!is_near(block_[block], origin, reach)) continue;
-    const std::size_t end = std::min(facets_.triangle.size(), (block + 1) * kFacetsPerBlock);
-    for (std::size_t i = block * kFacetsPerBlock; i < end; ++i) {
-      const std::optional<Segment> s = segment_of(static_cast<std::int32_t>(i), origin, normal);
-      if (!s) continue;
-      const double d = segment_distance(origin, s->end[0], s->end[1]);
-      if (d > nearest || (first && d == nearest)) continue;
-      nearest = d;
-      first = s;
-    }
+  NearestCrossing nearest{origin, normal, reach, std::nullopt};
+  if (!facets_.triangle.empty()) search(blocks_.size() - 1, 0, nearest);
+  return nearest.segment;
+}
+
+void ProfileCutter::search(std::size_t level, std::size_t block, NearestCrossing& nearest) const {
+  const Box3& box = blocks_[level][block];
+  if (!is_near(box, nearest.origin, nearest.distance) || !may_cross(box, nearest.origin, nearest.normal)) return;
+  if (level > 0) {
+    const std::size_t end = std::min(blocks_[level - 1].size(), (block + 1) * kBlocksPerBlock);
+    for (std::size_t i = block * kBlocksPerBlock; i < end; ++i) search(level - 1, i, nearest);
+    return;
   }
-  return first;
+  const std::size_t end = std::min(facets_.triangle.size(), (block + 1) * kFacetsPerBlock);
+  for (std::size_t i = block * kFacetsPerBlock; i < end; ++i) {
+    const std::optional<Segment> s = segment_of(static_cast<std::int32_t>(i), nearest.origin, nearest.normal);
+    if (!s) continue;
+    const double d = segment_distance(nearest.origin, s->end[0], s->end[1]);
+    if (d > nearest.distance || (nearest.segment && d == nearest.distance)) continue;
+    nearest.distance = d;
+    nearest.segment = s;
+  }
 }
 
 std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 normal, double reach) const {
   std::vector<Segment> part, todo;
   std::vector<bool> is_taken(facets_.triangle.size());
+  const auto n_facets_at = [&](std::int32_t n) { return node_begin_[n + 1] - node_begin_[n]; };
   if (const std::optional<Segment> first = nearest_segment(origin, normal, reach)) {
     is_taken[first->facet] = true;
     todo.push_back(*first);
@@ -172,7 +199,8 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
     todo.pop_back();
     part.push_back(s);
     for (std::size_t k = 0; k < 2; ++k) {
-      const auto [a, b] = s.side[k];
+      auto [a, b] = s.side[k];
+      if (n_facets_at(b) < n_facets_at(a)) std::swap(a, b);  // those of both are the same, in the same order
       int n_facets = 0;
       for (std::int32_t i = node_begin_[a]; i < node_begin_[a + 1]; ++i) {
         if (std::ranges::count(facets_.triangle[facet_[i]], b) == 0) continue;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/model/facets.h"
+#include "geometry/shape/projection.h"
 #include "geometry/shape/surface.h"
 
 namespace st {
@@ -32,9 +33,9 @@ struct Profile {
 /// The point of a surface on the plane through `trailing_edge` that is furthest from it, near a profile's nose, which
 /// lies on facets. nullopt: it is further from there than `reach`, or outside of the surface. `guess`: (u,v) of a nose
 /// nearby, or nothing; becomes that of this one. Local; some dozen evaluations, without a guess a search of the
-/// surface.
+/// surface. `grid`: of the surface, where it is asked for many noses; null: none is kept.
 std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const Profile& profile, double reach,
-                               std::optional<Vec2>& guess);
+                               std::optional<Vec2>& guess, SurfaceGrid* grid = nullptr);
 
 /// A profile whose trailing edge is not given: it is the thinner end.
 struct RoundProfile {
@@ -114,11 +115,19 @@ class ProfileCutter {
   /// Nothing where the plane does not cross it.
   std::optional<Segment> segment_of(std::int32_t facet, Vec3 origin, Vec3 normal) const;
   std::optional<Segment> nearest_segment(Vec3 origin, Vec3 normal, double reach) const;
+  /// The nearest crossing of a plane so far.
+  struct NearestCrossing {
+    Vec3 origin, normal;
+    double distance;
+    std::optional<Segment> segment;
+  };
+  /// In the facets of a block.
+  void search(std::size_t level, std::size_t block, NearestCrossing& nearest) const;
   std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach) const;
 
   const Facets& facets_;
   std::vector<CutEnd>* const ends_;
-  std::vector<Box3> block_;                       ///< boxes of kFacetsPerBlock facets each
+  std::vector<std::vector<Box3>> blocks_;         ///< of so many facets each; then of so many of these, up to one
   std::vector<std::int32_t> node_begin_, facet_;  ///< facets of each node, ascending
 };
 

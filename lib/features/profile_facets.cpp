@@ -5,10 +5,22 @@
 #include <utility>
 
 #include "base/boxes.h"
+#include "base/disjoint_sets.h"
 #include "base/share.h"
 #include "features/edge_places.h"
 
 namespace st {
+namespace {
+
+/// Faces with 1, ascending.
+std::vector<FaceId> listed(std::span<const std::uint8_t> is_wanted) {
+  std::vector<FaceId> faces;
+  for (std::size_t f = 0; f < is_wanted.size(); ++f)
+    if (is_wanted[f]) faces.push_back(static_cast<FaceId>(f));
+  return faces;
+}
+
+}  // namespace
 
 MirrorPlane::MirrorPlane(const Model& model, FaceId face) {
   const auto surface = model.surface(face);
@@ -25,20 +37,97 @@ ProfileFacets::ProfileFacets(const Model& model, const FaceRoles& roles, const P
 }
 
 void ProfileFacets::add_along(std::span<const WingEdge> edges, const Executor& executor) {
-  std::vector<std::uint8_t> next(is_known_.size(), 0);
-  for (const WingEdge& w : edges) take_walls_at(w.edge, nullptr, next);
+  add(walls_along(edges), executor);
+  if (executor.size() > 1) make_ahead(edges, executor);
   const std::vector<Cut> cuts = executor.is_root() ? cuts_at(edges) : std::vector<Cut>();
   std::size_t n_done = 0;
-  for (bool is_first = true; add(std::move(next), executor) || is_first; is_first = false) {  // all may be known
-    std::vector<CutEnd> ends;
-    const ProfileCutter cutter(facets_, &ends);
-    next.assign(is_known_.size(), 0);
-    for (; n_done < cuts.size() && std::ranges::count(next, 1) == 0; ++n_done) {
-      ends.clear();
-      cutter.note_ends(cuts[n_done].x, cuts[n_done].normal, limits_.reach);
-      next = walls_beyond(ends);
+  for (bool is_more = true; is_more;) {
+    std::vector<std::uint8_t> next = walls_of_next(cuts, n_done);
+    const auto known = made_.find(listed(next));
+    if (known != made_.end())
+      join_facets(model_, std::move(made_.extract(known).mapped()), facets_);
+    else
+      is_more = add(std::move(next), executor);
+  }
+  made_.clear();
+}
+
+std::vector<std::uint8_t> ProfileFacets::walls_along(std::span<const WingEdge> edges) {
+  std::vector<std::uint8_t> walls(is_known_.size(), 0);
+  for (const WingEdge& w : edges) take_walls_at(w.edge, nullptr, walls);
+  return walls;
+}
+
+/// Those that the first cut meets from `n_done` on that meets any; that one is to be made again, through more facets.
+std::vector<std::uint8_t> ProfileFacets::walls_of_next(std::span<const Cut> cuts, std::size_t& n_done) {
+  std::vector<CutEnd> ends;
+  const ProfileCutter cutter(facets_, &ends);
+  for (; n_done < cuts.size(); ++n_done) {
+    ends.clear();
+    cutter.note_ends(cuts[n_done].x, cuts[n_done].normal, limits_.reach);
+    if (ends.empty()) continue;
+    std::vector<std::uint8_t> walls = walls_beyond(ends);
+    if (std::ranges::count(walls, 1) > 0) return walls;
+  }
+  return std::vector<std::uint8_t>(is_known_.size(), 0);
+}
+
+/// Facets depend on which faces are meshed together, and that on all cuts before. Those of bodies that hang together
+/// nowhere hardly depend on each other: what each would ask for by itself is made by all ranks, and is taken where rank
+/// 0 asks for just that.
+void ProfileFacets::make_ahead(std::span<const WingEdge> edges, const Executor& executor) {
+  std::vector<WingEdge> all(edges.begin(), edges.end());
+  share(executor, all);
+  const std::vector<std::vector<WingEdge>> bodies = by_body(all);
+  if (bodies.size() < 2) return;
+  std::vector<double> work;
+  for (const auto& body : bodies) work.push_back(static_cast<double>(body.size()));
+  executor.run_tasks(
+      static_cast<std::int32_t>(bodies.size()), heaviest_first(work),
+      [&](std::int32_t task) {
+        return packed(ProfileFacets(model_, roles_, limits_).walk(bodies[static_cast<std::size_t>(task)]));
+      },
+      [&](std::int32_t, Bytes&& bytes) {
+        std::vector<MadeFacets> made;
+        unpack(bytes, made);
+        for (MadeFacets& m : made) made_.try_emplace(std::move(m.faces), std::move(m.facets));
+      });
+}
+
+/// Edges of walls that hang together.
+std::vector<std::vector<WingEdge>> ProfileFacets::by_body(std::span<const WingEdge> edges) const {
+  DisjointSets bodies(static_cast<std::int64_t>(is_known_.size()));
+  const auto is_wall = [&](FaceId f) { return roles_.role[f] == FaceRole::kWall; };
+  for (std::size_t e = 0; e + 1 < offsets_.size(); ++e)
+    for (std::int32_t k = offsets_[e], wall = kNone; k < offsets_[e + 1]; ++k) {
+      if (!is_wall(edge_faces_[k])) continue;
+      if (wall != kNone) bodies.join(wall, edge_faces_[k]);
+      wall = edge_faces_[k];
     }
-    if (std::ranges::count(next, 1) > 0) --n_done;  // again, through more facets
+  std::map<FaceId, std::vector<WingEdge>> by_first;
+  for (const WingEdge& w : edges)
+    for (std::int32_t k = offsets_[w.edge]; k < offsets_[w.edge + 1]; ++k) {
+      if (!is_wall(edge_faces_[k])) continue;
+      by_first[bodies.find(edge_faces_[k])].push_back(w);
+      break;
+    }
+  std::vector<std::vector<WingEdge>> all;
+  for (auto& [first, own] : by_first) all.push_back(std::move(own));
+  return all;
+}
+
+/// What add_along() asks for one after the other, but for the first.
+std::vector<ProfileFacets::MadeFacets> ProfileFacets::walk(std::span<const WingEdge> edges) {
+  add(walls_along(edges), SerialExecutor());
+  const std::vector<Cut> cuts = cuts_at(edges);
+  std::vector<MadeFacets> made;
+  for (std::size_t n_done = 0;;) {
+    const std::vector<std::uint8_t> next = walls_of_next(cuts, n_done);
+    std::vector<FaceId> faces = listed(next);
+    if (faces.empty()) return made;
+    Facets facets = make_unjoined_facets(model_, next, limits_.facets, SerialExecutor());
+    made.push_back({std::move(faces), facets});
+    join_facets(model_, std::move(facets), facets_);
   }
 }
 

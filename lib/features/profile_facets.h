@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -37,7 +38,8 @@ class ProfileFacets {
   ProfileFacets(const Model& model, const FaceRoles& roles, const ProfileLimits& limits);
 
   /// Facets of the walls that cuts cross which begin on `edges` (of rank 0): at
-  /// each of their places, square to the edge and to the model's axes. Cost: the facets, as tasks, and the cuts.
+  /// each of their places, square to the edge and to the model's axes. Cost: the facets, as tasks, and the cuts. On
+  /// several ranks each body is walked by one of them first, so that rank 0 finds most facets made.
   void add_along(std::span<const WingEdge> edges, const Executor& executor);
 
   /// Those of the walls beyond the borders at which cuts end (of rank 0); false: there are none.
@@ -59,7 +61,20 @@ class ProfileFacets {
     Vec3 x, normal;
   };
 
+  /// Facets of some faces that are made together.
+  struct MadeFacets {
+    std::vector<FaceId> faces;  // ascending
+    Facets facets;              // not joined
+
+    static auto fields(auto& m) { return std::tie(m.faces, m.facets); }
+  };
+
   std::vector<Cut> cuts_at(std::span<const WingEdge> edges);
+  std::vector<std::uint8_t> walls_along(std::span<const WingEdge> edges);
+  std::vector<std::uint8_t> walls_of_next(std::span<const Cut> cuts, std::size_t& n_done);
+  void make_ahead(std::span<const WingEdge> edges, const Executor& executor);
+  std::vector<std::vector<WingEdge>> by_body(std::span<const WingEdge> edges) const;
+  std::vector<MadeFacets> walk(std::span<const WingEdge> edges);
   bool is_at(FaceId f, Vec3 x) const;
   std::vector<std::uint8_t> walls_beyond(std::span<const CutEnd> ends);
   void take_walls_at(EdgeId e, const Vec3* x, std::vector<std::uint8_t>& taken);
@@ -70,8 +85,9 @@ class ProfileFacets {
   const ProfileLimits limits_;
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
-  std::vector<std::uint8_t> is_known_;  // [n_faces] their facets are there, or will be next
-  std::vector<MirrorPlane> mirrors_;    // on which edges lie: a cut goes on in the image
+  std::vector<std::uint8_t> is_known_;          // [n_faces] their facets are there, or will be next
+  std::vector<MirrorPlane> mirrors_;            // on which edges lie: a cut goes on in the image
+  std::map<std::vector<FaceId>, Facets> made_;  // not joined, by their faces: what may be wanted next
   Facets facets_;
 };
 

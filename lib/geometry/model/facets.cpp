@@ -41,15 +41,25 @@ void add_face(const TopoDS_Face& face, FaceId id, Facets& facets) {
   }
 }
 
+/// Sorts the nodes that are not yet in along_x into it.
+void extend_along_x(Facets& facets) {
+  std::vector<std::int32_t>& order = facets.along_x;
+  const auto n_known = static_cast<std::ptrdiff_t>(order.size());
+  order.resize(facets.xyz.size());
+  std::iota(order.begin() + n_known, order.end(), static_cast<std::int32_t>(n_known));
+  const auto is_before = [&](std::int32_t a, std::int32_t b) { return facets.xyz[a].x < facets.xyz[b].x; };
+  std::stable_sort(order.begin() + n_known, order.end(), is_before);
+  std::inplace_merge(order.begin(), order.begin() + n_known, order.end(), is_before);
+}
+
 /// Nodes that nearly coincide, along any axis of space by sorting, become the first of them.
 void weld(Facets& facets) {
   Box3 box;
   for (const Vec3& x : facets.xyz) box.add(x);
   const double tolerance = kSame * box.diagonal();
-  std::vector<std::int32_t> order(facets.xyz.size()), one(facets.xyz.size(), kNone);
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::int32_t a, std::int32_t b) { return facets.xyz[a].x < facets.xyz[b].x; });
+  extend_along_x(facets);
+  const std::vector<std::int32_t>& order = facets.along_x;
+  std::vector<std::int32_t> one(facets.xyz.size(), kNone);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (one[order[i]] != kNone) continue;
     one[order[i]] = order[i];
@@ -99,15 +109,22 @@ void append(Facets&& part, Facets& all) {
 
 /// Those of one face stay in order.
 void sort_by_face(Facets& facets) {
-  if (std::is_sorted(facets.face.begin(), facets.face.end())) return;
+  const auto begin = facets.face.begin(), end = facets.face.end(), middle = std::is_sorted_until(begin, end);
+  if (middle == end) return;
   std::vector<std::size_t> order(facets.face.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return facets.face[a] < facets.face[b]; });
-  const Facets old = facets;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    facets.triangle[i] = old.triangle[order[i]];
-    facets.face[i] = old.face[order[i]];
+  const auto is_before = [&](std::size_t a, std::size_t b) { return facets.face[a] < facets.face[b]; };
+  if (std::is_sorted(middle, end))  // some were added
+    std::inplace_merge(order.begin(), order.begin() + (middle - begin), order.end(), is_before);
+  else
+    std::stable_sort(order.begin(), order.end(), is_before);
+  const std::vector<std::array<std::int32_t, 3>> triangle = std::move(facets.triangle);
+  const std::vector<FaceId> face = std::move(facets.face);
+  facets.triangle.clear();
+  facets.face.clear();
+  for (const std::size_t i : order) {
+    facets.triangle.push_back(triangle[i]);
+    facets.face.push_back(face[i]);
   }
 }
 
@@ -124,16 +141,14 @@ void weld_equal(Facets& facets) {
 }
 
 /// Those of the CAD's own faces, for the faces that they are part of.
-void add_facets_of_cad(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
-                       const Executor& executor, Facets& facets) {
+Facets facets_of_cad(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
+                     const Executor& executor) {
   const std::vector<FaceId>& face_of = ModelEditor::brep(model).joined.face_of;
   std::vector<std::uint8_t> in_cad;
   for (const FaceId f : face_of) in_cad.push_back(is_wanted[static_cast<std::size_t>(f)]);
   Facets own = make_facets(model.cad(), in_cad, limits, executor);
   for (FaceId& f : own.face) f = face_of[static_cast<std::size_t>(f)];
-  append(std::move(own), facets);
-  weld(facets);
-  sort_by_face(facets);
+  return own;
 }
 
 }  // namespace
@@ -147,17 +162,18 @@ Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wante
 
 void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                 const Executor& executor, Facets& facets) {
-  if (&model.cad() != &model) return add_facets_of_cad(model, is_wanted, limits, executor, facets);
+  join_facets(model, make_unjoined_facets(model, is_wanted, limits, executor), facets);
+}
+
+Facets make_unjoined_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
+                            const Executor& executor) {
+  if (&model.cad() != &model) return facets_of_cad(model, is_wanted, limits, executor);
   ST_ASSERT(limits.deflection > 0 && is_wanted.size() == static_cast<std::size_t>(model.tables().n_faces()));
   const Model::Impl& brep = ModelEditor::brep(model);
   std::vector<FaceId> ids;
   for (std::size_t f = 0; f < is_wanted.size(); ++f)
     if (is_wanted[f]) ids.push_back(static_cast<FaceId>(f));
-  if (!model.facets().empty()) {
-    append(own_facets(model.facets(), ids), facets);
-    weld_equal(facets);
-    return sort_by_face(facets);
-  }
+  if (!model.facets().empty()) return own_facets(model.facets(), ids);
   const auto n_tasks = static_cast<std::int32_t>((ids.size() + kFacesPerTask - 1) / kFacesPerTask);
   std::vector<Facets> parts(static_cast<std::size_t>(n_tasks));
   executor.run_tasks(
@@ -167,8 +183,14 @@ void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, 
         return packed(facets_of(brep, rest.first(std::min(rest.size(), kFacesPerTask)), limits));
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
+  Facets facets;
   for (Facets& part : parts) append(std::move(part), facets);
-  weld(facets);
+  return facets;
+}
+
+void join_facets(const Model& model, Facets&& unjoined, Facets& facets) {
+  append(std::move(unjoined), facets);
+  model.facets().empty() ? weld(facets) : weld_equal(facets);
   sort_by_face(facets);
 }
 

@@ -23,6 +23,7 @@ struct Facets {
   std::vector<Vec3> xyz;                              ///< [n_nodes] model unit
   std::vector<std::array<std::int32_t, 3>> triangle;  ///< [n_triangles] nodes, in no certain orientation
   std::vector<FaceId> face;                           ///< [n_triangles] ascending
+  std::vector<std::int32_t> along_x = {};             ///< nodes by x, then by number, for add_facets(): not packed
 
   static auto fields(auto& f) { return std::tie(f.xyz, f.triangle, f.face); }
 };
@@ -35,5 +36,10 @@ Facets make_facets(const Model& model, const std::vector<std::uint8_t>& is_wante
 /// Makes them in the same way, and adds them to those of other faces.
 void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                 const Executor& executor, Facets& facets);
+/// Collective. Makes them in the same way, but for nodes: those of faces that share an edge may be there twice.
+Facets make_unjoined_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
+                            const Executor& executor);
+/// Local. Adds facets of `model` that may have nodes twice to those of other faces.
+void join_facets(const Model& model, Facets&& unjoined, Facets& facets);
 
 }  // namespace st
