@@ -36,7 +36,7 @@ struct NamedTasks {
   std::function<TaskLabel(std::int32_t task)> label;
   std::string made_from;  ///< digest of all that the results depend on, but for the inputs and options of the run; the
                           ///< same on every rank. Empty: not worth keeping
-  std::vector<std::int32_t> home = {};  ///< [n_tasks] the rank that runs each; empty: any rank
+  std::vector<std::int32_t> home = {};  ///< [n_tasks] the rank that runs each; kNone, or empty: any rank
   /// Where compute() leaves a part of the result on its rank. Local, on the thread of the task: all of it, for a later
   /// run.
   std::function<Bytes(std::int32_t task, const Bytes& result)> record = {};

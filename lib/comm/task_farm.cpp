@@ -18,6 +18,7 @@
 
 #include "base/current_work.h"
 #include "base/error.h"
+#include "base/ids.h"
 #include "base/threads.h"
 #include "comm/mpirun_report.h"
 
@@ -365,7 +366,8 @@ class Distributor {
         own_(n_ranks),
         local_(compute),
         courier_(local_, answer) {
-    for (const std::int32_t task : order) (home.empty() ? shared_ : own_.at(home[task])).push_back(task);
+    for (const std::int32_t task : order)
+      (home.empty() || home[task] == kNone ? shared_ : own_.at(home[task])).push_back(task);
   }
 
   void run() {

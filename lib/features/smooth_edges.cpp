@@ -1,8 +1,8 @@
 #include "features/smooth_edges.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <memory>
 
 namespace st {
 namespace {
@@ -10,43 +10,51 @@ namespace {
 constexpr int kPlaces = 9;
 constexpr double kSmooth = radians(3);  // between the normals on both sides
 
-/// Outer normals at places on one edge, for each of its coedges.
-struct EdgeNormals {
-  int n_uses = 0;
-  std::array<std::array<Vec3, kPlaces>, 2> normal;
-
-  bool is_smooth() const {
-    if (n_uses != 2) return false;
-    for (int i = 0; i < kPlaces; ++i)
-      if (!(norm2(normal[0][i]) > 0 && norm2(normal[1][i]) > 0 && angle_between(normal[0][i], normal[1][i]) <= kSmooth))
-        return false;
-    return true;
-  }
+struct EdgeUse {
+  FaceId face;
+  CoedgeId coedge;
 };
+
+/// One side of an edge.
+class EdgeSide {
+ public:
+  EdgeSide(const Model& model, const EdgeUse& use)
+      : surface_(model.surface(use.face)),
+        pcurve_(model.pcurve(use.face, use.coedge)),
+        is_reversed_(model.tables().face_is_reversed[use.face] != 0) {}
+
+  Vec3 outer_normal(double t) const {
+    const Vec3 n = surface_normal(*surface_, pcurve_->point(t));
+    return is_reversed_ ? -n : n;
+  }
+
+ private:
+  std::unique_ptr<Surface> surface_;
+  std::unique_ptr<Curve2d> pcurve_;
+  bool is_reversed_;
+};
+
+/// Whether the normals of both sides agree at all places along an edge.
+bool are_smooth(const EdgeSide& a, const EdgeSide& b, double t0, double t1) {
+  for (int i = 0; i < kPlaces; ++i) {
+    const double t = t0 + (t1 - t0) * (i + 0.5) / kPlaces;
+    const Vec3 na = a.outer_normal(t), nb = b.outer_normal(t);
+    if (!(norm2(na) > 0 && norm2(nb) > 0 && angle_between(na, nb) <= kSmooth)) return false;
+  }
+  return true;
+}
 
 }  // namespace
 
 std::vector<std::uint8_t> find_smooth_edges(const Model& model) {
   const ModelTables& t = model.tables();
-  std::vector<EdgeNormals> edges(static_cast<std::size_t>(t.n_edges()));
-  for (FaceId f = 0; f < t.n_faces(); ++f) {
-    const auto surface = model.surface(f);
-    for (const LoopId l : t.loops(f))
-      for (const CoedgeId c : t.loop_coedges(l)) {
-        const EdgeId e = t.coedge_edge[c];
-        EdgeNormals& own = edges[e];
-        const int use = own.n_uses++;
-        if (use > 1 || t.edge_is_degenerate[e]) continue;
-        const auto pcurve = model.pcurve(f, c);
-        const double t0 = t.edge_range[2 * e], t1 = t.edge_range[2 * e + 1];
-        for (int i = 0; i < kPlaces; ++i) {
-          const Vec3 n = surface_normal(*surface, pcurve->point(t0 + (t1 - t0) * (i + 0.5) / kPlaces));
-          own.normal[use][i] = t.face_is_reversed[f] ? -n : n;
-        }
-      }
-  }
-  std::vector<std::uint8_t> is_smooth;
-  for (EdgeId e = 0; e < t.n_edges(); ++e) is_smooth.push_back(!t.edge_is_degenerate[e] && edges[e].is_smooth());
+  std::vector<std::vector<EdgeUse>> uses(static_cast<std::size_t>(t.n_edges()));
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    for (const CoedgeId c : t.coedges(f)) uses[t.coedge_edge[c]].push_back({f, c});
+  std::vector<std::uint8_t> is_smooth(uses.size(), 0);
+  for (std::size_t e = 0; e < uses.size(); ++e)
+    if (uses[e].size() == 2 && !t.edge_is_degenerate[e])
+      is_smooth[e] = are_smooth({model, uses[e][0]}, {model, uses[e][1]}, t.edge_range[2 * e], t.edge_range[2 * e + 1]);
   return is_smooth;
 }
 

@@ -10,7 +10,8 @@
 namespace st {
 
 /// [n_edges] 1: two coedges use the edge, of two faces or along a seam, and at nine places on it the normals on both
-/// sides differ by 3 degrees at most. Degenerate edges are not smooth. Local. Cost: 18 evaluations per edge.
+/// sides differ by 3 degrees at most. Degenerate edges are not smooth. Local. Cost: up to 18
+/// evaluations per edge.
 std::vector<std::uint8_t> find_smooth_edges(const Model& model);
 
 /// Whether two uses of an edge by `faces` have normals within `most` of each other half way along it, radians. Local.

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <optional>
 
+#include "base/share.h"
 #include "base/threads.h"
 #include "features/arc_table.h"
 #include "geometry/shape/projection.h"
@@ -252,21 +253,44 @@ Strip measured_strip(const Model& model, FaceId face, EdgeId a, EdgeId b) {
   return strip;
 }
 
-std::vector<Strip> find_strips(const Model& model) {
-  const ModelTables& t = model.tables();
-  const std::vector<int> uses = count_uses(t);
+namespace {
+
+/// Of the faces from `first` to the one before `last`.
+std::vector<Strip> find_some_strips(const Model& model, const std::vector<int>& uses, std::size_t first,
+                                    std::size_t last) {
   constexpr std::size_t kPerPiece = 16;
-  std::vector<std::vector<Strip>> pieces(static_cast<std::size_t>(t.n_faces()) / kPerPiece + 1);
-  parallel_for(t.n_faces(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f) {
+  std::vector<std::vector<Strip>> pieces((last - first) / kPerPiece + 1);
+  parallel_for(last - first, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
       Strip strip;
-      if (!long_edges(t, static_cast<FaceId>(f), uses, strip)) continue;
+      if (!long_edges(model.tables(), static_cast<FaceId>(first + i), uses, strip)) continue;
       measure_strip(model, strip);
       pieces[begin / kPerPiece].push_back(std::move(strip));
     }
   });
   std::vector<Strip> strips;
   for (std::vector<Strip>& some : pieces) std::move(some.begin(), some.end(), std::back_inserter(strips));
+  return strips;
+}
+
+}  // namespace
+
+std::vector<Strip> find_strips(const Model& model, const Executor& executor) {
+  const std::vector<int> uses = count_uses(model.tables());
+  const auto n_faces = static_cast<std::size_t>(model.tables().n_faces());
+  if (executor.size() == 1) return find_some_strips(model, uses, 0, n_faces);
+  constexpr std::size_t kPerTask = 64;
+  std::vector<std::vector<Strip>> parts((n_faces + kPerTask - 1) / kPerTask);
+  executor.run_tasks(
+      static_cast<std::int32_t>(parts.size()), heaviest_first(std::vector<double>(parts.size(), 1)),
+      [&](std::int32_t task) {
+        const std::size_t first = kPerTask * static_cast<std::size_t>(task);
+        return packed(find_some_strips(model, uses, first, std::min(first + kPerTask, n_faces)));
+      },
+      [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
+  std::vector<Strip> strips;
+  for (std::vector<Strip>& some : parts) std::move(some.begin(), some.end(), std::back_inserter(strips));
+  share(executor, strips);
   return strips;
 }
 

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <optional>
+#include <tuple>
 #include <vector>
 
+#include "base/executor.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -29,6 +31,10 @@ struct Strip {
   };
   std::vector<Station> stations;  ///< from the start of the first edge to its end
 
+  static auto fields(auto& s) {
+    return std::tie(s.face, s.others, s.edges, s.is_opposed, s.length, s.cut_side, s.row, s.exact, s.stations);
+  }
+
   /// Between two stations; `share` of the way, 0 to 1.
   Station at(double share) const;
   /// Whether a width asks for sizes: not where edges that cross are no further apart than twice `exact`.
@@ -38,8 +44,8 @@ struct Strip {
 };
 
 /// Faces whose two long edges are open, belong to one other face each, are of about equal length and four times longer
-/// than the face is wide on average, ascending. Local.
-std::vector<Strip> find_strips(const Model& model);
+/// than the face is wide on average, ascending. Collective: some faces are a task; the same on every rank.
+std::vector<Strip> find_strips(const Model& model, const Executor& executor = SerialExecutor());
 
 /// Likewise faces between two closed edges, and no others but a seam: the base of a ring. Local.
 std::vector<Strip> find_rings(const Model& model);

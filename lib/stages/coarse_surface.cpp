@@ -19,17 +19,6 @@ namespace {
 constexpr double kSlope = 0.2;
 constexpr double kCoarser = 3;  // than the raster's lengths: a ninth of the triangles
 
-/// Lengths that grow through everything, across faces of cells and constant in each, on every rank: exact enough here.
-std::vector<CellLength> prolong_openly(const RasterArtifact& raster, const Executor& executor) {
-  std::vector<CellLength> cells;
-  if (executor.is_root())
-    cells = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length, raster.octree.stored_cause,
-                    {kSlope, raster.numbers.far_length, {}, false, true})
-                .cells;
-  share(executor, cells);
-  return cells;
-}
-
 void warn_of_holes(std::vector<FaceFailure> failures) {
   std::erase_if(failures, [](const FaceFailure& f) { return f.is_closed; });
   if (failures.empty()) return;
@@ -39,10 +28,18 @@ void warn_of_holes(std::vector<FaceFailure> failures) {
 
 }  // namespace
 
+bool has_coarse_surface(const ModelTables& tables) { return is_closed(tables, report_edge_uses(tables)); }
+
+std::vector<CellLength> prolong_openly(const RasterArtifact& raster) {
+  return prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length, raster.octree.stored_cause,
+                 {kSlope, raster.numbers.far_length, {}, false, true})
+      .cells;
+}
+
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
-                                 const std::vector<Strip>& strips, double seconds, const Executor& executor) {
-  if (!is_closed(model.tables(), report_edge_uses(model.tables()))) return {};
-  const std::vector<CellLength> cells = prolong_openly(raster, executor);
+                                 std::vector<CellLength> cells, const std::vector<Strip>& strips, double seconds,
+                                 const Executor& executor) {
+  share(executor, cells);
   OctreeFieldData data;
   data.octree = raster.octree.shape.view();
   data.cells = cells;

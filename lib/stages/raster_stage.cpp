@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <new>
@@ -597,34 +598,54 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
     header.inputs.push_back({"sizes", std::filesystem::path(o.sizes).filename().string(), sizes_hash});
 }
 
+/// Packed: the cells of a face, and why there are none.
+Bytes locate(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
+             double seconds, Vec3 origin, FaceId f) {
+  const ModelTables& t = model.tables();
+  const CurrentWork at_face("face", f + 1, {seconds, WhenLate::kThrow});
+  std::vector<CellArea> cells;
+  std::string failure;
+  try {
+    cells = locate_face(*model.surface(f), loops[f] ? *loops[f] : loop_polygons(model, f, limits), shape.view(),
+                        t.face_area[f], origin);
+  } catch (const LateWork& e) {
+    failure = fmt::format("{}: its cells were not found, {}", t.face_label(f), e.what());
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception&) {  // reported when it was sampled
+    cells.clear();
+  }
+  return packed(cells, failure);
+}
+
 /// Collective. Where in the octree each face lies, symmetry planes included; complete on rank 0.
 /// `seconds`: for each face; one that takes longer is in no cell, warned of and counted in `n_failures`.
+/// `meanwhile`: what rank 0 alone can do; it does that first, while the others take faces.
 FaceCells locate_faces(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
-                       double seconds, const Executor& comm, std::size_t& n_failures) {
+                       double seconds, const std::function<void()>& meanwhile, const Executor& comm,
+                       std::size_t& n_failures) {
   const ModelTables& t = model.tables();
-  const Vec3 origin = origin_of_places(t.box());
+  FaceCells faces;
+  faces.origin = origin_of_places(t.box());
   std::vector<std::vector<CellArea>> by_face(static_cast<std::size_t>(t.n_faces()));
   Progress progress("locating faces", t.n_faces());
   std::int32_t n_done = 0;
-  comm.run_tasks(
-      t.n_faces(), heaviest_first(t.face_area),
-      [&](std::int32_t f) {
-        const CurrentWork at_face("face", f + 1, {seconds, WhenLate::kThrow});
-        std::vector<CellArea> cells;
-        std::string failure;
-        try {
-          cells = locate_face(*model.surface(f), loops[f] ? *loops[f] : loop_polygons(model, f, limits), shape.view(),
-                              t.face_area[f], origin);
-        } catch (const LateWork& e) {
-          failure = fmt::format("{}: its cells were not found, {}", t.face_label(f), e.what());
-        } catch (const std::bad_alloc&) {
-          throw;
-        } catch (const std::exception&) {  // reported when it was sampled
-          cells.clear();
-        }
-        return packed(cells, failure);
+  const std::int32_t other = t.n_faces();  // task
+  std::vector<double> work = t.face_area;
+  work.push_back(std::numeric_limits<double>::infinity());
+  NamedTasks tasks{.order = heaviest_first(work), .label = {}, .made_from = "", .home = {}};
+  tasks.label = [](std::int32_t task) { return TaskLabel{"task", task}; };
+  tasks.home.assign(work.size(), kNone);
+  tasks.home[other] = 0;
+  comm.run_named_tasks(
+      tasks,
+      [&](std::int32_t task) {
+        if (task < other) return locate(model, shape, limits, loops, seconds, faces.origin, task);
+        meanwhile();
+        return Bytes();
       },
       [&](std::int32_t f, Bytes&& result) {
+        if (f == other) return;
         Unpacker unpacker(result);
         unpacker.get(by_face[f]);
         std::string failure;
@@ -633,8 +654,6 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
         n_failures += !failure.empty();
         progress.update(++n_done);
       });
-  FaceCells faces;
-  faces.origin = origin;
   for (const std::vector<CellArea>& cells : by_face) faces.append_face(cells);
   return faces;
 }
@@ -788,8 +807,8 @@ class RasterRun {
         model_(same_model(comm)),
         roles_(face_roles(model_, trace_)),
         wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
-        strips_(find_strips(model_)),
-        bases_(find_base_strips(model_, strips_)) {}
+        strips_(find_strips(model_, trace_)),
+        bases_(comm.is_root() ? find_base_strips(model_, strips_) : std::vector<Strip>()) {}
 
   StageSummary run() {
     if (comm_.is_root()) say_interfaces();
@@ -799,15 +818,21 @@ class RasterRun {
     trace_.begin_phase("samples");
     progress_.step("samples", 0.2);
     sample();
-    artifact_.faces =
-        locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, trace_, counts_.n_failures);
-    times_.end("faces");
-    trace_.begin_phase("surface");
     artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
+    const bool has_surface = !o_.no_surface && has_coarse_surface(model_.tables());
+    std::vector<CellLength> cells;  // on rank 0
+    const auto prolong_for_surface = [&] {
+      if (has_surface) cells = prolong_openly(artifact_);
+    };
+    artifact_.faces = locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, prolong_for_surface,
+                                   trace_, counts_.n_failures);
+    times_.end("faces");
+    trace_.begin_phase("surface");
     progress_.step("surface", 0.7);
-    if (!o_.no_surface)
-      artifact_.surface = make_coarse_surface(model_, roles_, artifact_, strips_, o_.time_limit, trace_);
+    if (has_surface)
+      artifact_.surface =
+          make_coarse_surface(model_, roles_, artifact_, std::move(cells), strips_, o_.time_limit, trace_);
     times_.end("surface");
     trace_.begin_phase("write");
     times_.gather(comm_);
@@ -909,8 +934,8 @@ class RasterRun {
   const Model model_;
   const FaceRoles roles_;
   const SamplingLimits wall_;
-  const std::vector<Strip> strips_, bases_;
-  Wings wings_;  // rank 0 only
+  const std::vector<Strip> strips_, bases_;  // the latter on rank 0 only
+  Wings wings_;                              // rank 0 only
   ModelLimits limits_;
   CellBudget budget_;
   FaceLoops loops_;
