@@ -22,6 +22,7 @@
 #include "base/required_unit.h"
 #include "base/share.h"
 #include "features/base_strips.h"
+#include "features/rotor_blades.h"
 #include "features/round_tails.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
@@ -871,8 +872,11 @@ class RasterRun {
     }
     std::vector<LiftingSurface>& wings = wings_.aircraft.wings;
     wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft, small);
-    if (comm_.is_root())
-      add_round_tails(model_, roles_, wings_.edges, edges_without_wing(model_.tables(), declared), wings);
+    if (comm_.is_root()) {
+      const std::vector<std::uint8_t> is_excluded = edges_without_wing(model_.tables(), declared);
+      add_round_tails(model_, roles_, wings_.edges, is_excluded, wings);
+      liken_blades(model_, is_excluded, wings, wings_.unused);
+    }
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
     require_places(o_, limits_);

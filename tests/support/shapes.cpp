@@ -471,6 +471,17 @@ TopoDS_Shape fan() {
   return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), axis, 0.5 * M_PI).Shape();
 }
 
+/// Sharp wings around the x axis, a third of a turn from each other.
+TopoDS_Shape three_blades() {
+  std::vector<TopoDS_Shape> blades;
+  for (int k = 0; k < 3; ++k) {
+    gp_Trsf turn;
+    turn.SetRotation(gp::OX(), 2 * M_PI / 3 * k);
+    blades.push_back(BRepBuilderAPI_Transform(moved(wing(0.1036), 0, 0, 5), turn, true).Shape());
+  }
+  return occt::compound_of(blades);
+}
+
 /// The skin of the sharp wing without its tips, turned inside out.
 TopoDS_Shape wing_skin() {
   BRepBuilderAPI_Sewing sewing(1e-6);
@@ -649,6 +660,11 @@ const std::map<std::string, Factory>& factories() {
       {"half_blunt_wing", [] { return half_wing(0.1015); }},
       {"wing_on_body", wing_on_body},
       {"fan", fan},
+      {"three_blades", three_blades},
+      {"two_tapering_wings",
+       [] {
+         return occt::compound_of({tapering_wing(), moved(tapering_wing(), 0, 0, 200)});
+       }},
       {"wing_skin", wing_skin},
       {"wing_of_2", [] { return cut_wing(2, 1); }},
       {"wing_of_8", [] { return cut_wing(4, 2); }},

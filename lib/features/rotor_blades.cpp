@@ -1,0 +1,399 @@
+#include "features/rotor_blades.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+
+#include "base/eigen.h"
+#include "base/similarity.h"
+#include "base/sort_once.h"
+#include "features/arc_table.h"
+
+namespace st {
+namespace {
+
+constexpr std::size_t kPlaces = 5;         // along an edge, its ends included
+constexpr double kSameLength = 1e-3;       // of an edge's length: to that of its image
+constexpr double kOff = 2e-3;              // of an edge's length: a place from that of its image
+constexpr double kLeastTurn = radians(1);  // between two blades: copies in one place are none
+constexpr double kSlip = 2e-3;             // of an edge's length: along the axis, of a turn
+constexpr double kUp = 1e-6;               // of unit vectors across an edge: too short for a direction
+
+using Places = std::array<Vec3, kPlaces>;
+
+/// A line about which blades turn.
+struct TurnAxis {
+  Vec3 center, axis;  // unit
+  std::array<Vec3, 2> across;
+
+  TurnAxis(Vec3 at, Vec3 along) : center(at), axis(along) {
+    const Vec3 other = std::abs(along.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+    across[0] = normalized(cross(along, other));
+    across[1] = cross(along, across[0]);
+  }
+  double azimuth(Vec3 x) const { return std::atan2(dot(x - center, across[1]), dot(x - center, across[0])); }
+  double height(Vec3 x) const { return dot(x - center, axis); }
+  double radius(Vec3 x) const { return norm(x - center - height(x) * axis); }
+  Similarity turn(double angle) const { return rotation_about(axis, angle).about(center); }
+};
+
+/// The axis of a motion, unless that moves along it by more than `slip`, or hardly turns.
+std::optional<TurnAxis> axis_of(const Similarity& motion, double slip) {
+  const auto& r = motion.rotation;
+  Eigen::Matrix3d turn;
+  for (int i = 0; i < 3; ++i) turn.row(i) = to_eigen(r[static_cast<std::size_t>(i)]);
+  const Vec3 axis = principal_axes(turn + turn.transpose()).axis[2];
+  const Vec3 twice_sine{r[2].y - r[1].z, r[0].z - r[2].x, r[1].x - r[0].y};
+  const double angle = std::atan2(0.5 * dot(axis, twice_sine), 0.5 * (r[0].x + r[1].y + r[2].z - 1));
+  const double along = dot(axis, motion.translation);
+  if (std::abs(angle) < kLeastTurn || std::abs(along) > slip) return std::nullopt;
+  const Vec3 way = motion.translation - along * axis;
+  return TurnAxis(0.5 * (way + cross(axis, way) / std::tan(0.5 * angle)), axis);
+}
+
+/// From end to end of its trailing edges, unit.
+Vec3 span_direction(const LiftingSurface& wing) {
+  const auto furthest_from = [&](Vec3 x) {
+    Vec3 best = x;
+    for (const ChordEdge& edge : wing.trailing)
+      for (const ChordStation& s : edge.stations)
+        if (distance(s.trailing, x) > distance(best, x)) best = s.trailing;
+    return best;
+  };
+  const Vec3 end = furthest_from(wing.trailing.front().stations.front().trailing);
+  return normalized(furthest_from(end) - end);
+}
+
+/// How far along its trailing edges a surface is measured, oblique chords by what they are square to the span; model
+/// unit. Of copies that are cut along different axes those count most that are cut along their own span.
+double straight_way(const LiftingSurface& wing) {
+  const Vec3 span = span_direction(wing);
+  double way = 0;
+  for (const ChordEdge& edge : wing.trailing)
+    for (std::size_t i = 1; i < edge.stations.size(); ++i)
+      for (const ChordStation* s : {&edge.stations[i - 1], &edge.stations[i]}) {
+        if (!s->is_measured) continue;
+        const double half = 0.5 * distance(edge.stations[i - 1].trailing, edge.stations[i].trailing);
+        way += half * norm(cross(span, normalized(s->nose - s->trailing)));
+      }
+  return way;
+}
+
+/// A blade turned about an axis onto another place of the model.
+struct BladeImage {
+  LiftingSurface wing;
+  double angle = 0;  // from the blade, radians
+};
+
+class BladeFinder {
+ public:
+  BladeFinder(const Model& model, std::span<const std::uint8_t> is_excluded, std::vector<LiftingSurface>& wings)
+      : model_(model), t_(model.tables()), is_excluded_(is_excluded), wings_(wings), is_done_(wings.size(), 0) {
+    for (EdgeId e = 0; e < t_.n_edges(); ++e)
+      if (!t_.edge_is_degenerate[e]) by_length_.push_back(e);
+    std::ranges::stable_sort(by_length_, {}, [&](EdgeId e) { return t_.edge_length[e]; });
+    t_.edge_faces(offsets_, edge_faces_);
+  }
+
+  /// Whether any surface changed.
+  bool run() {
+    bool has_changed = false;
+    for (std::size_t i = 0; i < wings_.size(); ++i)
+      if (!is_done_[i] && is_whole(wings_[i])) has_changed = liken_those_around(i) || has_changed;
+    return has_changed;
+  }
+
+ private:
+  /// Neither the user's, nor half of a blade.
+  static bool is_whole(const LiftingSurface& wing) {
+    return !wing.is_declared && wing.declared_leading.empty() && !wing.trailing.empty() &&
+           std::ranges::none_of(wing.trailing, &ChordEdge::is_half);
+  }
+
+  EdgeId longest_edge(const LiftingSurface& wing) const {
+    return std::ranges::max_element(wing.trailing, {}, [&](const ChordEdge& e) { return t_.edge_length[e.edge]; })
+        ->edge;
+  }
+
+  const Places& places_of(EdgeId e) {
+    const auto [known, is_new] = places_.try_emplace(e);
+    if (!is_new) return known->second;
+    const auto curve = model_.curve(e);
+    const ArcTable arc(*curve);
+    for (std::size_t i = 0; i < kPlaces; ++i)
+      known->second[i] = curve->point(arc.parameter_at(static_cast<double>(i) / (kPlaces - 1)));
+    return known->second;
+  }
+
+  /// Edges about as long as one.
+  std::span<const EdgeId> as_long_as(EdgeId e) const {
+    const double length = t_.edge_length[e];
+    const auto own = [&](EdgeId other) { return t_.edge_length[other]; };
+    const auto begin = std::ranges::lower_bound(by_length_, (1 - kSameLength) * length, {}, own);
+    return {begin, std::ranges::upper_bound(begin, by_length_.end(), (1 + kSameLength) * length, {}, own)};
+  }
+
+  struct EdgeImage {
+    EdgeId edge = kNone;
+    int way = 1;  // -1: runs the other way round
+  };
+
+  /// The edge that runs through the places of another one after a turn, the nearest of those within `reach`: both edges
+  /// of a thin base are.
+  EdgeImage image_of(EdgeId e, const Similarity& turn, double reach) {
+    Places x = places_of(e);
+    for (Vec3& p : x) p = turn(p);
+    EdgeImage image;
+    for (const EdgeId other : as_long_as(e)) {
+      const Places& own = places_of(other);
+      for (const int way : {1, -1}) {
+        double off = 0;
+        for (std::size_t i = 0; i < kPlaces; ++i)
+          off = std::max(off, distance(own[way > 0 ? i : kPlaces - 1 - i], x[i]));
+        if (off > reach) continue;
+        reach = off;
+        image = {other, way};
+      }
+    }
+    return image;
+  }
+
+  /// At the middle of an edge: its direction, and the normals of the faces there, unit.
+  struct EdgeFrame {
+    Vec3 x, tangent;
+    std::vector<Vec3> normals;
+  };
+
+  EdgeFrame frame_of(EdgeId e) const {
+    const auto curve = model_.curve(e);
+    const double t = ArcTable(*curve).parameter_at(0.5);
+    const CurvePoint p = curve->evaluate(t);
+    EdgeFrame frame{p.x, normalized(p.d1), {}};
+    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k) {
+      const FaceId f = edge_faces_[k];
+      for (const CoedgeId c : t_.coedges(f)) {
+        if (t_.coedge_edge[c] != e) continue;
+        const Vec3 n = surface_normal(*model_.surface(f), model_.pcurve(f, c)->point(t));
+        frame.normals.push_back(t_.face_is_reversed[f] ? -n : n);
+      }
+    }
+    return frame;
+  }
+
+  /// Moves the middle of one edge onto that of another, with direction and normal.
+  static std::optional<Similarity> motion_between(const EdgeFrame& a, Vec3 normal_a, const EdgeFrame& b, Vec3 tangent_b,
+                                                  Vec3 normal_b) {
+    const Vec3 up_a = cross(a.tangent, normal_a), up_b = cross(tangent_b, normal_b);
+    if (norm(up_a) < kUp || norm(up_b) < kUp) return std::nullopt;
+    const std::array<Vec3, 3> from = {a.tangent, normalized(up_a), cross(a.tangent, normalized(up_a))};
+    const std::array<Vec3, 3> to = {tangent_b, normalized(up_b), cross(tangent_b, normalized(up_b))};
+    Similarity motion;
+    const auto row = [&](double Vec3::*part) {
+      return to[0].*part * from[0] + to[1].*part * from[1] + to[2].*part * from[2];
+    };
+    motion.rotation = {row(&Vec3::x), row(&Vec3::y), row(&Vec3::z)};
+    motion.translation = b.x - motion.rotated(a.x);
+    return motion;
+  }
+
+  /// Axes about which an edge may turn onto another one.
+  std::vector<TurnAxis> axes_between(EdgeId a, EdgeId b) {
+    std::vector<TurnAxis> axes;
+    const EdgeFrame from = frame_of(a), to = frame_of(b);
+    const double length = t_.edge_length[a];
+    for (const Vec3 normal : to.normals)
+      for (const double sign : {1.0, -1.0}) {
+        const auto motion = motion_between(from, from.normals.front(), to, sign * to.tangent, normal);
+        if (!motion) continue;
+        const auto axis = axis_of(*motion, kSlip * length);
+        if (axis && image_of(a, *motion, kOff * length).edge == b) axes.push_back(*axis);
+      }
+    return axes;
+  }
+
+  /// The face that has most of the images of a face's edges.
+  FaceId image_of_face(FaceId f, const Similarity& turn, double reach) {
+    std::map<FaceId, int> n_edges;
+    for (const EdgeId e : t_.edges_of(f)) {
+      const EdgeId image = t_.edge_is_degenerate[e] ? kNone : image_of(e, turn, reach).edge;
+      for (std::int32_t k = image == kNone ? 0 : offsets_[image]; image != kNone && k < offsets_[image + 1]; ++k)
+        ++n_edges[edge_faces_[k]];
+    }
+    const auto most = std::ranges::max_element(n_edges, {}, [](const auto& own) { return own.second; });
+    return most == n_edges.end() ? kNone : most->first;
+  }
+
+  /// The surface where a turn takes it; none where the model has not all of its edges there.
+  std::optional<LiftingSurface> image_of_wing(const LiftingSurface& wing, const Similarity& turn) {
+    const double reach = kOff * t_.edge_length[longest_edge(wing)];
+    std::map<FaceId, FaceId> faces{{kNone, kNone}};
+    const auto image = [&](FaceId f) {
+      const auto [known, is_new] = faces.try_emplace(f, kNone);
+      if (is_new) known->second = image_of_face(f, turn, reach);
+      return known->second;
+    };
+    LiftingSurface own = wing;
+    for (ChordEdge& edge : own.trailing) {
+      const auto [e, way] = image_of(edge.edge, turn, reach);
+      if (e == kNone || is_excluded_[e] || (edge.base != kNone && image(edge.base) == kNone)) return std::nullopt;
+      edge.edge = e;
+      edge.base = image(edge.base);
+      for (ChordStation& s : edge.stations) {
+        if (s.is_measured && (image(s.nose_face) == kNone || (edge.is_inside && image(s.tail_face) == kNone)))
+          return std::nullopt;
+        s = {way > 0 ? s.share : 1 - s.share,
+             turn(s.trailing),
+             s.chord,
+             s.is_measured,
+             s.is_hidden,
+             turn(s.nose),
+             image(s.nose_face),
+             image(s.tail_face)};
+      }
+      if (way < 0) std::ranges::reverse(edge.stations);
+    }
+    std::ranges::sort(own.trailing, {}, &ChordEdge::edge);
+    for (FaceId& f : own.faces) f = image(f);
+    sort_once(own.faces);
+    std::erase(own.faces, kNone);
+    for (EdgeId& e : own.leading) e = image_of(e, turn, reach).edge;
+    sort_once(own.leading);
+    std::erase(own.leading, kNone);
+    return own;
+  }
+
+  /// All places where turns about an axis take a surface, its own first.
+  std::vector<BladeImage> images_of(const LiftingSurface& wing, const TurnAxis& axis) {
+    const EdgeId lead = longest_edge(wing);
+    const Vec3 middle = places_of(lead)[kPlaces / 2];
+    const double reach = kOff * t_.edge_length[lead];
+    std::vector<BladeImage> images{{wing, 0}};
+    if (axis.radius(middle) <= reach) return images;
+    for (const EdgeId e : as_long_as(lead)) {
+      const Vec3 x = places_of(e)[kPlaces / 2];
+      if (e == lead || std::abs(axis.height(x) - axis.height(middle)) > reach ||
+          std::abs(axis.radius(x) - axis.radius(middle)) > reach)
+        continue;
+      const double angle = axis.azimuth(x) - axis.azimuth(middle);
+      if (auto own = image_of_wing(wing, axis.turn(angle))) images.push_back({std::move(*own), angle});
+    }
+    return images;
+  }
+
+  static bool has_edge(const LiftingSurface& wing, EdgeId e) {
+    return std::ranges::any_of(wing.trailing, [&](const ChordEdge& own) { return own.edge == e; });
+  }
+  static bool share_edges(const LiftingSurface& a, const LiftingSurface& b) {
+    return std::ranges::any_of(a.trailing, [&](const ChordEdge& own) { return has_edge(b, own.edge); });
+  }
+
+  /// Surfaces at these places, ascending.
+  std::vector<std::size_t> members_of(std::span<const BladeImage> images) const {
+    std::vector<std::size_t> members;
+    for (std::size_t k = 0; k < wings_.size(); ++k)
+      if (std::ranges::any_of(images, [&](const BladeImage& own) { return share_edges(own.wing, wings_[k]); }))
+        members.push_back(k);
+    return members;
+  }
+
+  /// The axis about which most images of a surface stand.
+  std::optional<TurnAxis> best_axis(std::size_t i) {
+    std::optional<TurnAxis> best;
+    std::size_t most = 1;
+    for (std::size_t k = 0; k < wings_.size(); ++k) {
+      if (k == i || !is_whole(wings_[k])) continue;
+      for (const ChordEdge& other : wings_[k].trailing) {
+        const auto alike = as_long_as(longest_edge(wings_[i]));
+        if (std::ranges::count(alike, other.edge) == 0) continue;
+        for (const TurnAxis& axis : axes_between(longest_edge(wings_[i]), other.edge)) {
+          const std::size_t n = images_of(wings_[i], axis).size();
+          if (n <= most) continue;
+          most = n;
+          best = axis;
+          if (n >= alike.size()) return best;
+        }
+      }
+    }
+    return best;
+  }
+
+  bool liken_those_around(std::size_t i) {
+    const auto axis = best_axis(i);
+    if (!axis) return false;
+    const std::vector<BladeImage> own = images_of(wings_[i], *axis);
+    std::vector<std::size_t> members = members_of(own);
+    std::ranges::stable_sort(members, std::greater(), [&](std::size_t k) { return straight_way(wings_[k]); });
+    for (const std::size_t k : members) {
+      if (!is_whole(wings_[k]) || straight_way(wings_[k]) == 0) continue;
+      std::vector<BladeImage> images = images_of(wings_[k], *axis);
+      if (images.size() < own.size()) continue;
+      put_in(images);
+      return true;
+    }
+    return false;
+  }
+
+  /// Each in the place of those that have one of its edges.
+  void put_in(std::span<BladeImage> images) {
+    for (BladeImage& image : images) {
+      std::optional<std::size_t> first;
+      bool is_users = false;
+      for (std::size_t k = 0; k < wings_.size(); ++k) {
+        if (!share_edges(image.wing, wings_[k])) continue;
+        is_users = is_users || !is_whole(wings_[k]);
+        if (!first) first = k;
+      }
+      if (is_users) continue;
+      for (std::size_t k = wings_.size(); first && k-- > *first + 1;) {
+        if (!share_edges(image.wing, wings_[k])) continue;
+        wings_.erase(wings_.begin() + static_cast<std::ptrdiff_t>(k));
+        is_done_.erase(is_done_.begin() + static_cast<std::ptrdiff_t>(k));
+      }
+      if (!first) {
+        first = wings_.size();
+        wings_.emplace_back();
+        is_done_.push_back(0);
+      }
+      wings_[*first] = std::move(image.wing);
+      is_done_[*first] = 1;
+    }
+  }
+
+  const Model& model_;
+  const ModelTables& t_;
+  std::span<const std::uint8_t> is_excluded_;
+  std::vector<LiftingSurface>& wings_;
+  std::vector<std::uint8_t> is_done_;  // by surface: is alike with its sisters
+  std::vector<EdgeId> by_length_;      // not degenerate, the shortest first
+  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
+  std::vector<FaceId> edge_faces_;
+  std::map<EdgeId, Places> places_;
+};
+
+/// Takes out trailing edges that belong to a surface.
+void take_used(const ModelTables& t, std::span<const LiftingSurface> wings, std::vector<UnusedTrailing>& unused) {
+  std::vector<std::uint8_t> is_used(static_cast<std::size_t>(t.n_edges()), 0);
+  for (const LiftingSurface& wing : wings) {
+    for (const ChordEdge& edge : wing.trailing) is_used[edge.edge] = 1;
+    for (const EdgeId e : wing.leading) is_used[e] = 1;
+  }
+  for (UnusedTrailing& own : unused)
+    std::erase_if(own.edges, [&](EdgeId e) {
+      if (is_used[e]) own.length -= t.edge_length[e];
+      return is_used[e] != 0;
+    });
+  std::erase_if(unused, [](const UnusedTrailing& own) { return own.edges.empty(); });
+}
+
+}  // namespace
+
+void liken_blades(const Model& model, std::span<const std::uint8_t> is_excluded, std::vector<LiftingSurface>& wings,
+                  std::vector<UnusedTrailing>& unused) {
+  if (wings.size() < 2) return;
+  if (BladeFinder(model, is_excluded, wings).run()) take_used(model.tables(), wings, unused);
+}
+
+}  // namespace st
