@@ -100,4 +100,21 @@ void hide_tip(const Model& model, const LiftingSurface& surface, ChordEdge& edge
 
 void close_gaps(const GapSearch& search, const Vec3* axis, ChordEdge& edge) { GapCloser(search, axis, edge).run(); }
 
+std::vector<UncoveredStretch> uncovered_stretches(const LiftingSurface& surface) {
+  std::vector<UncoveredStretch> stretches;
+  for (const ChordEdge& edge : surface.trailing) {
+    bool goes_on = false;
+    for (std::size_t i = 1; i < edge.stations.size(); ++i) {
+      const ChordStation &a = edge.stations[i - 1], &b = edge.stations[i];
+      for (const ChordStation* s : {&a, &b}) {
+        const bool is_open = !s->is_measured && !s->is_hidden;
+        if (is_open && !goes_on) stretches.push_back({edge.edge, 0});
+        if (is_open) stretches.back().length += 0.5 * distance(a.trailing, b.trailing);
+        goes_on = is_open;
+      }
+    }
+  }
+  return stretches;
+}
+
 }  // namespace st

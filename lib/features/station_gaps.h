@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "features/lifting_surface.h"
 #include "features/profile.h"
@@ -30,5 +31,14 @@ bool is_along_chord(const LiftingSurface& surface, EdgeId edge, Vec3 x, Vec3 tan
 /// Where an edge without a profile runs along the chord of the nearest station that is measured, as around a tip, it
 /// has no nose of its own.
 void hide_tip(const Model& model, const LiftingSurface& surface, ChordEdge& edge);
+
+/// A stretch of a trailing edge before which no nose is seen though there is one.
+struct UncoveredStretch {
+  EdgeId edge = kNone;
+  double length = 0;  ///< model unit
+};
+
+/// What LiftingSurface::covered() lacks, by edge and along it. Local.
+std::vector<UncoveredStretch> uncovered_stretches(const LiftingSurface& surface);
 
 }  // namespace st

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "base/sort_once.h"
+#include "features/station_gaps.h"
 
 namespace st {
 namespace {
@@ -148,7 +149,7 @@ std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, 
       : wing.is_blunt ? "blunt"
                       : "sharp",
       wing.span, own_unit, wing.least_chord, wing.largest_chord, own_unit, edge_size,
-      wing.has_noses ? wing.covered() < kCovered
+      wing.has_noses ? wing.covered() < 1 - kShortStretch
                            ? fmt::format("edge and nose, which is seen on {:.0f} %", 100 * wing.covered())
                            : "edge and nose"
                      : "the edge, no nose is seen");
@@ -179,9 +180,16 @@ std::string noseless_warning(std::span<const LiftingSurface> wings) {
     if (wing.is_declared) continue;
     if (!wing.has_noses)
       for (const ChordEdge& edge : wing.trailing) edges.push_back(edge.edge + 1);
-    else if (wing.covered() < kCovered)
-      parts.push_back(fmt::format("{:.0f} % of the surface at edge {}", 100 * (1 - wing.covered()),
-                                  wing.trailing.front().edge + 1));
+    else
+      for (const UncoveredStretch& open : uncovered_stretches(wing))
+        if (open.length > kShortStretch * wing.span)
+          parts.push_back(fmt::format("{:.2g} % of the span at edge {}", 100 * open.length / wing.span, open.edge + 1));
+  }
+  constexpr std::size_t kNamed = 8;
+  if (parts.size() > kNamed) {
+    const std::string more = fmt::format("{} more stretches", parts.size() - kNamed);
+    parts.resize(kNamed);
+    parts.push_back(more);
   }
   std::sort(edges.begin(), edges.end());
   if (!edges.empty()) parts.insert(parts.begin(), "the trailing " + listed(edges));

@@ -13,8 +13,9 @@ namespace st {
 /// Above this share of the reference diagonal trailing edges without a lifting surface are worth a warning.
 inline constexpr double kLongTrailing = 0.05;
 
-/// Share of a trailing edge with noses below which that is said: tips and roots may lack some stations.
-inline constexpr double kCovered = 0.95;
+/// Share of the span: stretches without a nose up to this length are not worth a warning, as tips and roots may lack
+/// some stations.
+inline constexpr double kShortStretch = 0.02;
 
 /// One line for each, the longest first, `most` at most, and one for the others.
 std::vector<std::string> unused_lines(std::span<const UnusedTrailing> unused, std::size_t most,
@@ -33,7 +34,8 @@ std::string unused_warning(std::span<const UnusedTrailing> unused, double refere
 /// One line on a lifting surface.
 std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, const std::string& unit = "");
 
-/// Surfaces whose noses are not seen, or not everywhere, and what to do; empty: there are none.
+/// Surfaces whose noses are not seen, and stretches of edges before which they are not, and what to do; empty: there
+/// are none.
 std::string noseless_warning(std::span<const LiftingSurface> wings);
 
 /// Edges of sheets, and seams of blades, at which no lifting surface is looked for, and the rule that gives them

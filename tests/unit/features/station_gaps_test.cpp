@@ -84,5 +84,18 @@ TEST(StationGaps, around_a_tip_run_along_the_chord) {
   EXPECT_TRUE(tip.stations[0].is_hidden);
 }
 
+TEST(StationGaps, are_told_by_edge_and_length) {
+  LiftingSurface wing;
+  wing.trailing.resize(1);
+  for (const double y : {0, 1, 2, 3, 4, 5})
+    wing.trailing[0].stations.push_back(
+        {.share = y / 5, .trailing = {0, y, 0}, .is_measured = y == 1 || y == 2, .is_hidden = y == 4});
+  const std::vector<UncoveredStretch> open = uncovered_stretches(wing);
+  ASSERT_EQ(open.size(), 3u);
+  EXPECT_DOUBLE_EQ(open[0].length, 0.5);
+  EXPECT_DOUBLE_EQ(open[1].length, 1);
+  EXPECT_DOUBLE_EQ(open[2].length, 0.5) << "beyond what has no nose of its own";
+}
+
 }  // namespace
 }  // namespace st

@@ -75,8 +75,11 @@ TEST(WingReport, says_how_much_of_a_nose_is_seen) {
   EXPECT_DOUBLE_EQ(wing.covered(), 0.625);
   EXPECT_NE(wing_line(wing, "1").find("edge and nose, which is seen on 62 %"), std::string::npos);
   const std::string text = noseless_warning({&wing, 1});
-  EXPECT_NE(text.find("before 38 % of the surface at edge 5:"), std::string::npos) << text;
+  EXPECT_NE(text.find("before 50 % of the span at edge 5:"), std::string::npos) << text;
   EXPECT_EQ(text.find("trailing_edge = false"), std::string::npos) << "it is one";
+  wing.trailing[0].stations[4].is_hidden = true;
+  EXPECT_NE(noseless_warning({&wing, 1}).find("before 33 % of the span at edge 5:"), std::string::npos)
+      << "its own nose";
   for (ChordStation& s : wing.trailing[0].stations) s.is_measured = true;
   EXPECT_EQ(noseless_warning({&wing, 1}), "");
 }
