@@ -86,7 +86,8 @@ bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
 struct Reason {
   std::string text;
   bool may_be_wing = true;
-  bool is_inexact = false;  // facets are too coarse to tell
+  bool is_inexact = false;   // facets are too coarse to tell
+  bool is_own_nose = false;  // and as sharp as a nose may be
 };
 
 /// What exact facets of a chain's own faces show.
@@ -102,7 +103,7 @@ using TriedChains = std::map<std::vector<EdgeId>, ExactSurface>;
 struct CutRules {
   std::vector<Vec3> normals;  // of the planes: the first of equally good ones
   Vec3 along;                 // from end to end of the chain, unit
-  std::vector<EdgeId> rims;   // sharp edges of the chain on planes across that
+  std::vector<EdgeId> rims;   // edges of the chain on planes across that
   double reach = 0;           // how far from a place the cut may begin
   double diagonal = 0;        // reference diagonal
   ChainLine line;             // of the chain
@@ -134,7 +135,7 @@ class SurfaceMeasurer {
     const double share = measured_way(places, profiles) / way_of(places);
     if (share < kMeasured) {
       why = {fmt::format("planes cut the profile of a wing on {:.0f} % of its length, half is needed", 100 * share)};
-      return find_part(measured_edges(chain, places, profiles), chain);
+      return find_part(measured_edges(chain, places, profiles), chain, why);
     }
     drop_oblique(axis, profiles);
     try_other_cuts(places, profiles);
@@ -142,16 +143,17 @@ class SurfaceMeasurer {
     if (!is_measured(surface)) return std::nullopt;
     if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
       why = {fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase), false};
-      return find_part(part, chain);
+      return find_part(part, chain, why);
     }
     if (const std::vector<WingEdge> part = without_rims(chain, surface); part.size() < chain.size()) {
       why = {kRimOfEnd, false};
-      return find_part(part, chain);
+      return find_part(part, chain, why);
     }
     why = {why_no_wing(surface), false};
     if (why.text.empty() && has_nose_on(surface, surface)) {
       const bool is_sharp = std::ranges::all_of(chain, [](const WingEdge& w) { return w.angle <= kSharpNose; });
       why = {"it is its own nose, as the rim of a lens", is_sharp};  // or nose and trailing edge meet at a tip
+      why.is_own_nose = is_sharp;
     }
     if (!why.text.empty()) return std::nullopt;
     return SurfaceDraft{std::move(surface), std::move(axis)};
@@ -180,9 +182,13 @@ class SurfaceMeasurer {
 
  private:
   /// None where the part is the whole again: planes may cut an edge on half of its length to rounding.
-  std::optional<SurfaceDraft> find_part(const std::vector<WingEdge>& part, const std::vector<WingEdge>& whole) const {
-    Reason why;
-    return part.empty() || part.size() == whole.size() ? std::nullopt : find(part, why);
+  std::optional<SurfaceDraft> find_part(const std::vector<WingEdge>& part, const std::vector<WingEdge>& whole,
+                                        Reason& why) const {
+    if (part.empty() || part.size() == whole.size()) return std::nullopt;
+    Reason own;
+    std::optional<SurfaceDraft> draft = find(part, own);
+    why.is_own_nose = own.is_own_nose;
+    return draft;
   }
 
   static bool is_measured(const LiftingSurface& surface) {
@@ -804,7 +810,7 @@ class SurfaceFinder {
         return model_.tables().face_type[f] == SurfaceType::kPlane &&
                std::abs(dot(MirrorPlane(model_, f).normal, along)) > kAcrossSpan;
       };
-      if (w.base == kNone && !w.is_declared && std::ranges::any_of(faces_at(w.edge), is_across)) rims.push_back(w.edge);
+      if (!w.is_declared && std::ranges::any_of(faces_at(w.edge), is_across)) rims.push_back(w.edge);
     }
     return rims;
   }
@@ -857,7 +863,23 @@ class SurfaceFinder {
     std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), reach(), why);
     if (why.is_inexact || (surface ? !is_seen(surface, kSeenSmall) : why.may_be_wing))
       try_exact_facets(surface && !is_straight(chain) ? edges_of(*surface, chain) : chain, surface, why);
-    keep(chain, surface, why);
+    const bool is_bent = why.may_be_wing && !is_straight(chain);
+    if (surface || !(why.is_own_nose || is_bent) || !find_lines(chain)) keep(chain, surface, why);
+  }
+
+  /// Each line of a chain by itself, as luff and leech of a sail, or both edges of a blade that are sharp; false: it
+  /// has one.
+  bool find_lines(const std::vector<WingEdge>& chain) {
+    const std::vector<std::vector<WingEdge>> lines = lines_of(model_, chain);
+    if (lines.size() < 2) return false;
+    const std::vector<EdgeId> rims = rims_of(chain);
+    const auto is_rim = [&](const WingEdge& w) { return std::ranges::count(rims, w.edge) > 0; };
+    for (const std::vector<WingEdge>& line : lines)
+      if (std::ranges::all_of(line, is_rim))
+        rest_.push_back({line, {kRimOfEnd, false}});
+      else
+        find_with_noses(line);
+    return true;
   }
 
   void keep(const std::vector<WingEdge>& chain, std::optional<LiftingSurface>& surface, Reason why) {

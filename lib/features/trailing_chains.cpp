@@ -11,6 +11,7 @@ namespace st {
 namespace {
 
 constexpr double kOneLine = 0.985;  // cosine, 10 degrees: between two edges and the way across the notch between them
+constexpr double kGoesOn = 0.7;     // cosine, 45 degrees: between two edges of one line that meet
 constexpr double kSquare = radians(1);  // of a base, from square to the side: a plate's has no noses before it
 
 /// Where an edge ends.
@@ -95,6 +96,27 @@ std::vector<std::vector<WingEdge>> trailing_chains(const Model& model, std::span
   }
   join_across_notches(model, trailing, sets);
   return sets_of(sets, trailing);
+}
+
+std::vector<std::vector<WingEdge>> lines_of(const Model& model, std::span<const WingEdge> chain) {
+  struct EndOfEdge {
+    std::size_t edge;
+    VertexId vertex;
+    Vec3 out;
+  };
+  std::vector<EndOfEdge> ends;
+  for (std::size_t i = 0; i < chain.size(); ++i) {
+    const std::array<End, 2> own = ends_of(model, chain[i].edge);
+    for (const std::size_t k : {0, 1})
+      ends.push_back({i, model.tables().edge_vertices[2 * static_cast<std::size_t>(chain[i].edge) + k], own[k].out});
+  }
+  std::ranges::stable_sort(ends, {}, &EndOfEdge::vertex);
+  DisjointSets sets(static_cast<std::int64_t>(chain.size()));
+  for (std::size_t i = 0; i < ends.size(); ++i)
+    for (std::size_t j = i + 1; j < ends.size() && ends[j].vertex == ends[i].vertex; ++j)
+      if (dot(ends[i].out, ends[j].out) < -kGoesOn)
+        sets.join(static_cast<std::int32_t>(ends[i].edge), static_cast<std::int32_t>(ends[j].edge));
+  return sets_of(sets, chain);
 }
 
 ChainLine::ChainLine(std::span<const EdgePlace> places) {

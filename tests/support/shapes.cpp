@@ -456,6 +456,16 @@ TopoDS_Shape lens() {
       .Shape();
 }
 
+/// A sail of chord 10 and span 30 between two arcs, 0.2 thick and cambered: luff and leech are sharp, and the caps of
+/// its ends so narrow that their rims look like blunt edges.
+TopoDS_Shape thin_sail() {
+  const gp_Pnt a(0, 0, 0), b(10, 0, 0);
+  const TopoDS_Edge lower = BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(a, gp_Pnt(5, 0.8, 0), b).Value());
+  const TopoDS_Edge upper = BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(a, gp_Pnt(5, 1, 0), b).Value());
+  const TopoDS_Wire outline = BRepBuilderAPI_MakeWire(lower, upper).Wire();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline).Face(), gp_Vec(0, 0, 30)).Shape();
+}
+
 /// The sharp wing, its root in a box that ends at z = 4.
 TopoDS_Shape wing_on_body() { return BRepAlgoAPI_Fuse(wing(0.1036), moved(box(16, 4, 8), -3, -2, -4)).Shape(); }
 
@@ -655,6 +665,7 @@ const std::map<std::string, Factory>& factories() {
       {"double_wedge", double_wedge},
       {"wedge_fin", wedge_fin},
       {"lens", lens},
+      {"thin_sail", thin_sail},
       {"wing_with_pod", wing_with_pod},
       {"half_sharp_wing", [] { return half_wing(0.1036); }},
       {"half_blunt_wing", [] { return half_wing(0.1015); }},

@@ -122,6 +122,17 @@ TEST(LiftingSurface, with_a_sharp_nose_is_found_once) {
   EXPECT_NEAR(wings[0].median_chord, 10, 1e-6);
 }
 
+TEST(LiftingSurface, of_a_sail_lies_between_luff_and_leech) {
+  const std::vector<LiftingSurface> wings = wings_of("thin_sail");
+  ASSERT_EQ(wings.size(), 1u);
+  EXPECT_EQ(wings[0].trailing.size(), 1u);
+  EXPECT_EQ(wings[0].leading.size(), 1u);
+  EXPECT_NEAR(wings[0].span, 30, 1e-6);
+  EXPECT_NEAR(wings[0].least_chord, 10, 0.02);
+  EXPECT_NEAR(wings[0].largest_chord, 10, 0.02);
+  EXPECT_GT(wings[0].covered(), 0.99);
+}
+
 TEST(LiftingSurface, says_why_a_trailing_edge_has_none) {
   for (const char* shape : {"fan", "lens"}) {
     const Model model = test::make_model(shape);

@@ -28,6 +28,21 @@ TEST(TrailingChains, hang_together_at_vertices) {
   EXPECT_EQ(n, 11u) << "leading edges are none";
 }
 
+TEST(TrailingChains, part_in_lines_at_corners) {
+  const Model model = test::make_model("box");
+  const std::vector<WingEdge> edges = all_edges_as_trailing(model, 1);
+  EXPECT_EQ(lines_of(model, edges).size(), 12u);
+  const Model split = test::make_model("wing_with_cut_base");
+  std::vector<WingEdge> upper;  // an edge cut into four
+  for (const WingEdge& w : all_edges_as_trailing(split, 1)) {
+    const Vec3 x = split.curve(w.edge)->point(split.curve(w.edge)->t_min());
+    const Vec3 end = split.curve(w.edge)->point(split.curve(w.edge)->t_max());
+    if (x.x > 9.9 && end.x > 9.9 && x.y > 0 && end.y > 0) upper.push_back(w);
+  }
+  ASSERT_EQ(upper.size(), 4u);
+  EXPECT_EQ(lines_of(split, upper).size(), 1u);
+}
+
 TEST(TrailingChains, run_from_place_to_place_and_not_on_to_the_next_edge) {
   const std::vector<EdgePlace> places = {{.edge = 0, .x = {0, 0, 0}, .tangent = {1, 0, 0}},
                                          {.edge = 0, .x = {1, 0, 0}, .tangent = {1, 0, 0}},
