@@ -245,6 +245,31 @@ class Campaign(RunTest):
         self.expect_only("bad.step", "sub", "runs", "p.html")
         self.expect_nothing_left(self.folder / "runs" / "box", "mesh.hdf", "report.html", "log.txt", "said.json")
 
+    def browse(self, file, script):
+        """In a browser, after this script of the page: the DOM that is seen at last, and what the console says."""
+        browser = shutil.which("chromium")
+        if not browser:
+            self.skipTest("no chromium")
+        probed = file.with_name("probed.html")
+        probed.write_text(file.read_text(encoding="utf-8") + f"<script>setTimeout(() => {{ {script} }}, 300)</script>",
+                          encoding="utf-8")
+        done = subprocess.run([browser, "--headless", "--no-sandbox", "--use-angle=swiftshader",
+                               "--enable-unsafe-swiftshader", "--virtual-time-budget=5000", "--enable-logging=stderr",
+                               f"--user-data-dir={self.folder / 'browser'}", "--dump-dom", f"file://{probed}"],
+                              capture_output=True, text=True, timeout=120, check=True)
+        return done.stdout, [line for line in done.stderr.splitlines() if "CONSOLE" in line and "GPU stall" not in line]
+
+    def test_the_page_shows_pictures_and_a_click_opens_the_report(self):
+        self.run_all()
+        page = self.folder / "p.html"
+        dom, console = self.browse(page, "document.title = [...document.images].map(i => i.naturalWidth > 50).join()")
+        self.assertIn("<title>true,true</title>", dom)
+        self.assertEqual(console, [])
+        dom, console = self.browse(page, "[...document.links].find(a => a.textContent == 'box_2').click()")
+        self.assertIn("This mesh passes all checks", dom)
+        self.assertEqual(console, [])
+        self.assertEqual(self.browse(page, "console.error('said')")[1] != [], True, "the console is listened to")
+
     def test_only_what_is_not_done_runs_again(self):
         first = self.run_all()[1]
         before = {name: (self.folder / f"runs/{name}/said.json").stat().st_mtime_ns for name in ("box", "box_2", "bad")}
