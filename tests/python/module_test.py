@@ -1,4 +1,5 @@
 """The Python module: every kind of artifact is read, the chain runs, sizes are those of the tools."""
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -230,6 +231,16 @@ class Module(unittest.TestCase):
         self.assertEqual(len(rows), 2)
         coarse, fine = (int(row.split()[2]) for row in rows)
         self.assertTrue(3.5 < fine / coarse < 4.5, done.stdout)
+
+    @unittest.skipUnless(importlib.util.find_spec("vtk") and shutil.which("xvfb-run"), "no VTK, or no xvfb-run")
+    def test_the_script_with_pictures_draws_them(self):
+        folder = WORK / "pictures"
+        folder.mkdir(parents=True, exist_ok=True)
+        done = subprocess.run(["xvfb-run", "-a", sys.executable, EXAMPLE.with_name("with_pictures.py"),
+                               MODELS / "assembly.step", folder], capture_output=True, text=True, check=True)
+        self.assertRegex(done.stdout, r"(?m)^\d+ triangles, passes$")
+        for name in ("quality.png", "size.png"):
+            self.assertGreater((folder / name).stat().st_size, 10000, "the picture is empty")
 
 
 if __name__ == "__main__":
