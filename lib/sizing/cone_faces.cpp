@@ -167,25 +167,47 @@ class FaceAgreement {
     return false;
   }
 
-  /// So that no step to a centre beside passes the slope, but where no length may pass.
+  /// So that no step to the centre of a cell that touches passes the slope, but where no length may pass.
   void settle_centers() {
     std::vector<std::int32_t> lowered = std::exchange(lowered_, {});
-    for (const std::int32_t site : lowered) settle_centers_beside(site);
+    for (const std::int32_t site : lowered)
+      if (samples_.at_center[site] != kNone) settle_centers_around(site, site, 1);
   }
 
-  void settle_centers_beside(std::int32_t site) {
-    constexpr float kRounded = 1 + 2e-6F;
+  /// Of the cells beside `at`, which is `site` or touches it. Those across edges and corners are found by ways that
+  /// rise, each along the axes in order: `least` is the first side (see SiteBeside) by which the way may go on.
+  void settle_centers_around(std::int32_t site, std::int32_t at, std::int32_t least) {
     const std::int32_t sample = samples_.at_center[site];
-    if (sample == kNone) return;
-    const float length = samples_.center_length[site], slope = cones_[sample].slope * kRounded;
-    for (const SiteBeside& b : sites_.beside_of(site)) {
-      const float rise = samples_.center_length[b.site] - length;
-      if (!(rise > 0)) continue;
-      const float *from = sites_.cell[site].c, *to = sites_.cell[b.site].c;
-      float distance2 = 0;
-      for (int k = 0; k < 3; ++k) distance2 += (to[k] - from[k]) * (to[k] - from[k]);
-      if (rise * rise > slope * slope * distance2 && !has(b.site, sample)) add(b.site, sample);
+    const float length = samples_.center_length[at];
+    for (const SiteBeside& b : sites_.beside_of(at)) {
+      if (b.towards < least || !(samples_.center_length[b.site] > length)) continue;
+      if (at != site && (b.towards == SiteBeside::kAlways || !touches(site, b.site))) continue;
+      if (is_too_steep(site, b.site) && !has(b.site, sample)) add(b.site, sample);
+      constexpr std::int32_t kLowerOfY = 1 << 2, kLowerOfZ = 1 << 4;
+      if (b.towards < kLowerOfZ) settle_centers_around(site, b.site, b.towards < kLowerOfY ? kLowerOfY : kLowerOfZ);
     }
+  }
+
+  bool touches(std::int32_t a, std::int32_t b) const {
+    constexpr float kRounded = 1 + 1e-4F;  // of the halves of cells
+    const ConeCell &first = sites_.cell[a], &second = sites_.cell[b];
+    const float reach = kRounded * (first.half + second.half);
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(first.c[k] - second.c[k]) > reach) return false;
+    return true;
+  }
+
+  /// Whether the step from centre to centre rises by more than the slope.
+  bool is_too_steep(std::int32_t from, std::int32_t to) const {
+    constexpr float kRounded = 1 + 2e-6F;
+    const float slope = cones_[samples_.at_center[from]].slope * kRounded,
+                rise = samples_.center_length[to] - samples_.center_length[from];
+    float distance2 = 0;
+    for (int k = 0; k < 3; ++k) {
+      const float d = sites_.cell[to].c[k] - sites_.cell[from].c[k];
+      distance2 += d * d;
+    }
+    return rise > 0 && rise * rise > slope * slope * distance2;
   }
 
   SiteSamples joined() {

@@ -46,8 +46,8 @@ struct SiteSamples {
 };
 
 /// Gives each site the cones that tell clearly less than its own on a face common with a site that has them, and the
-/// one that tells the length at the centre of a site beside it, where the step from there is above the slope. Until
-/// there is none. `cones` are those of all samples. The same on every run. O(faces) in practice.
+/// one that tells the length at the centre of a site that touches it, where the step from there is above the slope.
+/// Until there is none. `cones` are those of all samples. The same on every run. O(faces) in practice.
 SiteSamples agree_on_faces(const SiteGraph& sites, std::span<const Cone> cones, float largest, SiteSamples samples);
 
 }  // namespace st

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 namespace st {
 namespace {
@@ -44,7 +45,8 @@ struct CellRow {
       samples.at_center.push_back(kNone);
       samples.center_length.push_back(10);
       for (const std::int32_t s : of_cell[i]) {
-        const auto length = static_cast<float>(cones[s].length_at({static_cast<double>(i), 0, 0}));
+        const float* c = graph.cell[i].c;
+        const auto length = static_cast<float>(cones[s].length_at({c[0], c[1], c[2]}));
         if (length < samples.center_length[i]) samples.center_length[i] = length, samples.at_center[i] = s;
       }
     }
@@ -103,6 +105,46 @@ TEST(ConeFaces, pass_nothing_where_a_link_is_closed) {
   EXPECT_EQ(row.settled(0), (CellSamples{0}));
   row.set_samples({{1}, {0}});
   EXPECT_EQ(row.settled(1), (CellSamples{0, 1}));
+}
+
+/// Of a block of 2 x 2 x 2 cells.
+CellRow cell_block() {
+  CellRow block(8);
+  block.beside.clear();
+  block.graph.of_beside.clear();
+  block.graph.holds_sample.assign(8, 0);
+  for (int i = 0; i < 8; ++i) {
+    const auto first = static_cast<std::int32_t>(block.beside.size());
+    for (int k = 0; k < 3; ++k) {
+      block.graph.cell[i].c[k] = static_cast<float>(i >> k & 1);
+      block.beside.push_back({i ^ 1 << k, 1 << (2 * k + 1 - (i >> k & 1))});
+    }
+    block.graph.of_beside.push_back({first, first + 3});
+  }
+  block.graph.beside = block.beside;
+  return block;
+}
+
+/// With a cone at each centre: longer than at the first one by so much after so many steps along the axes.
+CellRow rising_block(const std::array<float, 4>& rise) {
+  CellRow block = cell_block();
+  std::vector<std::vector<std::int32_t>> own;
+  for (int i = 0; i < 8; ++i) {
+    const float* c = block.graph.cell[i].c;
+    block.add_cone({c[0], c[1], c[2]}, 1 + rise[(i & 1) + (i >> 1 & 1) + (i >> 2)]);
+    own.push_back({i});
+  }
+  block.set_samples(own);
+  return block;
+}
+
+TEST(ConeFaces, settle_the_steps_to_centres_across_edges_and_corners) {
+  const CellRow steep_across_edges = rising_block({0, 0.19F, 0.38F, 0.38F});
+  EXPECT_EQ(steep_across_edges.settled(1), (CellSamples{1})) << "no step across a face passes the slope";
+  EXPECT_EQ(steep_across_edges.settled(3), (CellSamples{0, 3}));
+  const CellRow steep_across_corner = rising_block({0, 0.19F, 0.28F, 0.47F});
+  EXPECT_EQ(steep_across_corner.settled(3), (CellSamples{3})) << "0.28 over the root of 2";
+  EXPECT_EQ(steep_across_corner.settled(7), (CellSamples{0, 7}));
 }
 
 TEST(ConeFaces, settle_the_steps_to_centres_everywhere) {
