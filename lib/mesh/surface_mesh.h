@@ -10,6 +10,7 @@
 #include "base/ids.h"
 #include "base/vec.h"
 #include "mesh/edge_mesh.h"
+#include "mesh/face_pair.h"
 
 namespace st {
 
@@ -50,11 +51,12 @@ struct MergedFeatures {
   std::vector<FaceId> strip_face;  ///< [n_strips] a face between two long edges, closed where it is narrow
   std::vector<EdgeId> strip_kept, strip_closed;  ///< [n_strips] these: where closed, both have the nodes of `kept`
   std::vector<std::uint8_t> strip_is_opposed;    ///< [n_strips] 1: they run against each other
+  std::vector<FacePair> pairs;                   ///< faces with one mesh; nothing on them is merged
   bool empty() const { return edge.empty() && strip_face.empty(); }
   bool operator==(const MergedFeatures&) const = default;
 
   static auto fields(auto& m) {
-    return std::tie(m.edge, m.strip_face, m.strip_kept, m.strip_closed, m.strip_is_opposed);
+    return std::tie(m.edge, m.strip_face, m.strip_kept, m.strip_closed, m.strip_is_opposed, m.pairs);
   }
 };
 

@@ -27,6 +27,7 @@
 #include "io/hdf5/sizing_artifact.h"
 #include "judge/cad_contacts.h"
 #include "judge/walls_apart.h"
+#include "mesh/pair_match.h"
 #include "stages/check_report.h"
 #include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
@@ -499,6 +500,19 @@ Check check_value(const std::string& name, const std::string& what, bool is_good
   return c;
 }
 
+/// Nodes and triangles of periodic faces that are no images of each other.
+Check check_pairs(const SurfaceMesh& mesh) {
+  Check c{"pairs", "nodes and triangles of periodic faces without a partner", {}, true, ""};
+  const double tolerance = pair_tolerance(mesh);
+  for (const FacePair& p : mesh.merged.pairs) {
+    const PairMatch match = match_pair(mesh, p, tolerance);
+    for (const NodeId n : match.alone) c.defects.add({mesh.node_xyz[n], p.a, kNone});
+    for (const TriangleId t : match.triangles_alone)
+      c.defects.add({mesh.node_xyz[mesh.triangles[t].n[0]], mesh.triangle_face[t], kNone});
+  }
+  return c;
+}
+
 /// Triangles for which `is_bad(corner, corner, corner)`.
 template <class IsBad>
 Check check_triangles(const SurfaceMesh& mesh, const TriangleCorners& corners, const std::string& name,
@@ -717,6 +731,7 @@ void check_wings(Findings& f) {
 void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
            Findings& f) {
   f.checks = list_mesh_checks(artifact, o.thresholds, has_flow_domain(artifact.mesh), f);
+  if (!artifact.mesh.merged.pairs.empty()) f.checks.push_back(check_pairs(artifact.mesh));
   if (cad) {
     run_cad_checks(artifact.mesh, *cad, o.area_tolerance, f);
     f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,

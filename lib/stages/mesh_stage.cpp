@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -15,14 +16,17 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/threads.h"
+#include "geometry/model/sameness.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "meshing/engine/mesh_regions.h"
+#include "sizing/paired_field.h"
 #include "stages/cell_budget.h"
 #include "stages/expected_triangles.h"
 #include "stages/fitting_files.h"
+#include "stages/pair_input.h"
 #include "stages/patches_result.h"
 #include "stages/resumption.h"
 #include "stages/same_inputs.h"
@@ -35,6 +39,8 @@ namespace {
 constexpr double kLeastTile = 1000;  // triangles
 
 void require_valid(const MeshStageOptions& o) {
+  if (!o.pairs.empty() && !(o.faces.empty() && o.group.empty() && o.edges.empty()))
+    throw Error(ExitCode::kUsage, "--pairs: meshes both sides at once; leave out --faces, --group and --edges");
   o.kEnhanceRounds.require(o.enhance_rounds);
   o.kMergeBelow.require(o.merge_below);
   o.kMaxTurning.require(o.max_turning_deg);
@@ -112,25 +118,39 @@ ArtifactHeader output_header(const MeshStageOptions& o, double tile_triangles, c
                              const ArtifactHeader& sizing) {
   ArtifactHeader header;
   header.tool = "st-mesh";
-  header.options_json = json_text(nlohmann::json{{"faces", o.faces},
-                                                 {"group", o.group},
-                                                 {"enhance_rounds", o.enhance_rounds},
-                                                 {"tile", tile_triangles},
-                                                 {"merge_below", o.merge_below},
-                                                 {"max_turning", o.max_turning_deg}});
+  nlohmann::json options{{"faces", o.faces},
+                         {"group", o.group},
+                         {"enhance_rounds", o.enhance_rounds},
+                         {"tile", tile_triangles},
+                         {"merge_below", o.merge_below},
+                         {"max_turning", o.max_turning_deg}};
+  if (!o.pairs.empty()) options["pairs"] = o.pairs;
+  header.options_json = json_text(options);
   header.inputs = {{"geometry", std::filesystem::path(o.geometry).filename().string(), geometry.content_hash},
                    {"sizing", std::filesystem::path(o.sizing).filename().string(), sizing.content_hash}};
   return header;
 }
 
 /// Digest of what the results depend on.
-std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier) {
+std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier, const std::vector<FacePair>& pairs) {
   Hasher hasher;
+  if (!pairs.empty()) {
+    const Bytes bytes = packed(pairs);
+    hasher.add(std::span(bytes));
+  }
   hasher.add(std::string_view(output.options_json));
   for (const auto& input : output.inputs) hasher.add(std::string_view(input.hash));
   const Bytes edges = packed(earlier);
   hasher.add(std::span(edges));
   return hasher.hex();
+}
+
+/// Null without pairs: the field as it is.
+std::unique_ptr<SizeField> make_paired_field(const SizeField& field, const PeriodicPairs& pairs, const ModelTables& t) {
+  if (pairs.empty()) return nullptr;
+  std::vector<PairedRegion> regions;
+  for (const FacePair& p : pairs.pairs()) regions.push_back({t.face_box[p.a], t.face_box[p.b], p.motion});
+  return std::make_unique<PairedField>(field, std::move(regions), kSamePlace * t.box().diagonal());
 }
 
 }  // namespace
@@ -150,6 +170,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   GeometryArtifact geometry = read_geometry(o.geometry);
   std::vector<FaceId> faces = select_faces(o, geometry.tables);
   const Composites composites = geometry.composites;
+  const PeriodicPairs pairs = read_pairs(o.pairs, geometry, o.geometry);
   std::optional<MappedSizing> mapped;
   std::optional<Model> stored;
   run_jobs(
@@ -163,18 +184,21 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   EarlierPart earlier = read_earlier_part(o, geometry.header);
   require_same_inputs(comm, {{o.edges, earlier.content_hash}});
   progress.step("small features", 0.05);
-  const MeshTopology topology = o.edges.empty() ? merge_small_features(model, *sizing.field, o.merge_below, trace)
-                                                : MeshTopology(model.tables(), std::move(earlier.merged));
+  const auto paired_field = make_paired_field(*sizing.field, pairs, model.tables());
+  const SizeField& field = paired_field ? *paired_field : *sizing.field;
+  MeshTopology topology = o.edges.empty() ? merge_small_features(model, field, o.merge_below, trace)
+                                          : MeshTopology(model.tables(), std::move(earlier.merged));
+  if (!pairs.empty()) topology = MeshTopology(model.tables(), without_paired(topology.merged(), pairs, model.tables()));
   const double load_seconds = timer.seconds();
   const double tile_triangles = o.tile_triangles.value_or(usual_tile(expected_triangles(sizing.face_weight)));
   const ArtifactHeader header = output_header(o, tile_triangles, geometry.header, sizing.header);
   progress.step("meshing", 0.1);
-  Resumption resumption(trace, o.output, run_of(header, earlier.edges), {o.journal_after, o.begins_new});
+  Resumption resumption(trace, o.output, run_of(header, earlier.edges, pairs.pairs()), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
-  MeshResult result = mesh_regions(model, topology, *sizing.field, std::move(plan),
-                                   {o.enhance_rounds, o.max_turning_deg, o.merge_below, tile_triangles,
-                                    resumption.left_out(), o.time_limit, WhenLate::kSignal, PatchesGo::kNowhere},
-                                   resumption);
+  MeshOptions options{o.enhance_rounds,      o.max_turning_deg, o.merge_below,     tile_triangles,
+                      resumption.left_out(), o.time_limit,      WhenLate::kSignal, PatchesGo::kNowhere};
+  options.pairs = &pairs;
+  MeshResult result = mesh_regions(model, topology, field, std::move(plan), options, resumption);
   resumption.end();
   trace.begin_phase("write");
   progress.step("writing", 0.9);

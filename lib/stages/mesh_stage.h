@@ -19,6 +19,7 @@ struct MeshStageOptions {
   std::string faces;        ///< mesh these only: 1-based ids and ranges, "12,17,30-40"; empty: all
   std::string group;        ///< mesh the faces of this group only; empty: all
   std::string edges;        ///< patches artifact of an earlier part, whose edge nodes are taken over; empty: none
+  std::string pairs;        ///< "auto", or a file with tables [[pair]]; empty: none
   bool begins_new = false;  ///< without what an earlier run has kept, see Resumption
   int enhance_rounds = 5;
   static constexpr NumberOption kEnhanceRounds{"--enhance-rounds", "N", "[0, 10]",

@@ -66,10 +66,11 @@ std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const Su
   return std::make_unique<NodeField>(mesh, std::move(lengths), slope);
 }
 
-/// Sets which faces and edges stay: those of the group, and strips that were closed for meshing.
+/// Sets which faces and edges stay: those of the group, strips that were closed for meshing, and periodic pairs.
 void set_kept(const RemeshStageOptions& o, const ModelTables& t, const MergedFeatures& merged, HoleMarkOptions& mark) {
-  if (!merged.strip_face.empty()) mark.keep_face.resize(t.n_faces(), 0);
+  if (!merged.strip_face.empty() || !merged.pairs.empty()) mark.keep_face.resize(t.n_faces(), 0);
   for (const FaceId f : merged.strip_face) mark.keep_face[f] = 1;
+  for (const FacePair& p : merged.pairs) mark.keep_face[p.a] = mark.keep_face[p.b] = 1;
   if (o.keep.empty()) return;
   const std::vector<std::uint8_t> in_group = find_faces(o.keep, t.labels);
   const std::vector<EdgeId> edges = find_members(o.keep, t.labels.edge_groups);

@@ -554,6 +554,15 @@ TopoDS_Shape banded_pie() {
   return BRepAlgoAPI_Fuse(lower, upper).Shape();
 }
 
+/// A passage of a compressor about x, of 40 degrees: its two sides are curved, one the image of the other.
+TopoDS_Shape passage() {
+  TColgp_Array2OfPnt poles(1, 3, 1, 3);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) poles.SetValue(i + 1, j + 1, gp_Pnt(15 * i, i == 1 ? 3 + j : 0, 20 + 5 * j));
+  const gp_Ax1 x(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0));
+  return BRepPrimAPI_MakeRevol(face_of(new Geom_BezierSurface(poles)), x, 40 * M_PI / 180).Shape();
+}
+
 /// Three faces on one edge.
 TopoDS_Shape t_junction() {
   BRepBuilderAPI_Sewing sewing(1e-6, true, true, true, true);
@@ -654,6 +663,8 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"shallow_prism", shallow_prism},
       {"banded_pie", banded_pie},
+      {"pie", [] { return BRepPrimAPI_MakeCylinder(10, 30, 40 * M_PI / 180).Shape(); }},
+      {"passage", passage},
       {"slender_cone", [] { return BRepPrimAPI_MakeCone(kZ, 1, 0, 30).Shape(); }},
       {"sharp_wing", [] { return wing(0.1036); }},
       {"blunt_wing", [] { return wing(0.1015); }},

@@ -21,6 +21,7 @@ namespace st::test {
 ///   wing_on_body (its root in a box of 16 x 4 x 8 that ends at z = 4)
 ///   thin_wing (3.5 % thick) tapering_wing (chord 60 to 6) double_wedge (a wing whose profile is a rhombus)
 ///   lens (12.5 wide, 2 thick, its rim sharp)
+///   pie (40 degrees of a cylinder about z) passage (40 degrees about x between two curved sides)
 ///   banded_pie (a band of 0.002 about a part of a cylinder, its upper side in two edges)
 ///   fan (the sharp wing revolved by 90 degrees about its nose) wing_skin (without tips, inside out)
 ///   thin_pin_in_block (radius 0.05, no gap) rod_and_shallow_prism

@@ -92,6 +92,7 @@ void declare(OptionSet& set, MeshStageOptions& o) {
   set.number(o.kMaxTurning, o.max_turning_deg);
   set.number(o.kTile, o.tile_triangles);
   set.number(o.kTimeLimit, o.time_limit);
+  set.optional_input("--pairs", o.pairs, "periodic faces get the same mesh: file with tables [[pair]] (TOML), or auto");
 }
 
 void declare(OptionSet& set, MergeStageOptions& o) {

@@ -3,8 +3,42 @@
 #include "io/hdf5/artifact_checks.h"
 
 namespace st {
+namespace {
+
+/// Rows of the rotation, then the translation.
+void write_pairs(Hdf5Writer& w, const std::vector<FacePair>& pairs) {
+  if (pairs.empty()) return;
+  std::vector<std::int32_t> a, b;
+  std::vector<Vec3> motion;
+  for (const FacePair& p : pairs) {
+    a.push_back(p.a);
+    b.push_back(p.b);
+    motion.insert(motion.end(), p.motion.rotation.begin(), p.motion.rotation.end());
+    motion.push_back(p.motion.translation);
+  }
+  w.write("/st/pair/a", a);
+  w.write("/st/pair/b", b);
+  w.write("/st/pair/motion", motion);
+}
+
+std::vector<FacePair> read_pairs(const Hdf5Reader& r, std::size_t n_faces) {
+  std::vector<FacePair> pairs;
+  if (!r.has("/st/pair/a")) return pairs;
+  const auto a = r.read<std::int32_t>("/st/pair/a");
+  const auto b = r.read_rows<std::int32_t>("/st/pair/b", a.size());
+  const auto motion = r.read_rows<Vec3>("/st/pair/motion", 4 * a.size());
+  require_ids(r, "/st/pair/a", a, n_faces);
+  require_ids(r, "/st/pair/b", b, n_faces);
+  require_finite(r, "/st/pair/motion", motion);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    pairs.push_back({a[i], b[i], {{motion[4 * i], motion[4 * i + 1], motion[4 * i + 2]}, 1, motion[4 * i + 3]}});
+  return pairs;
+}
+
+}  // namespace
 
 void write_merged(Hdf5Writer& w, const MergedFeatures& m) {
+  write_pairs(w, m.pairs);
   if (m.empty()) return;
   w.write("/st/merged/edge", m.edge);
   w.write("/st/merged/strip_face", m.strip_face);
@@ -15,6 +49,7 @@ void write_merged(Hdf5Writer& w, const MergedFeatures& m) {
 
 MergedFeatures read_merged(const Hdf5Reader& r, std::size_t n_edges, std::size_t n_faces) {
   MergedFeatures m;
+  m.pairs = read_pairs(r, n_faces);
   if (!r.has("/st/merged/edge")) return m;
   m.edge = r.read<std::int32_t>("/st/merged/edge");
   m.strip_face = r.read<std::int32_t>("/st/merged/strip_face");

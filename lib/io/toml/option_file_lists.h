@@ -9,7 +9,7 @@ namespace st {
 /// From the key of the tables to the option that takes a file of them: [[size]] is what --sizes reads.
 inline const std::map<std::string, std::string>& option_file_lists() {
   static const std::map<std::string, std::string> lists = {
-      {"group", "--groups"}, {"size", "--sizes"}, {"source", "--sources"}};
+      {"group", "--groups"}, {"pair", "--pairs"}, {"size", "--sizes"}, {"source", "--sources"}};
   return lists;
 }
 

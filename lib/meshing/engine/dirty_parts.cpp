@@ -1,6 +1,7 @@
 #include "meshing/engine/dirty_parts.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/threads.h"
 
@@ -47,6 +48,12 @@ DirtyParts find_dirty_parts(const MeshTopology& topology, const EdgeMesh& edges,
   for (FaceId f = 0; f < t.n_faces(); ++f)
     for (const EdgeId e : t.edges_of(f)) dirty.face[f] |= dirty.edge[e];
   return dirty;
+}
+
+std::vector<std::int32_t> chosen_of(const std::vector<std::int32_t>& ids, const std::vector<char>& is_chosen) {
+  std::vector<std::int32_t> chosen;
+  std::copy_if(ids.begin(), ids.end(), std::back_inserter(chosen), [&](std::int32_t i) { return is_chosen[i] != 0; });
+  return chosen;
 }
 
 }  // namespace st

@@ -1,6 +1,7 @@
 // What of a mesh is to be made again where sizes became smaller.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,5 +23,8 @@ struct DirtyParts {
 DirtyParts find_dirty_parts(const MeshTopology& topology, const EdgeMesh& edges,
                             std::span<const Refinement> refinements,
                             std::span<const std::pair<EdgeId, EdgeId>> followers);
+
+/// Those of `ids` that are chosen, in their order.
+std::vector<std::int32_t> chosen_of(const std::vector<std::int32_t>& ids, const std::vector<char>& is_chosen);
 
 }  // namespace st

@@ -1,8 +1,13 @@
 #include "meshing/engine/edge_mesher.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "base/current_work.h"
+#include "base/error.h"
 #include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
+#include "geometry/shape/projection.h"
 #include "meshing/engine/curve_tasks.h"
 #include "meshing/face/face_boundary.h"
 #include "meshing/topology/curve_discretiser.h"
@@ -47,12 +52,24 @@ EdgeMesher::EdgeMesher(const Model& model, const MeshTopology& topology, const S
       merge_below_(options.merge_below),
       face_tolerance_(face_tolerances(tables_.labels)),
       min_segments_(min_segments_per_edge(tables_)),
-      facing_(find_facing_edges(topology, field.is_stretched())) {}
+      facing_(find_facing_edges(topology, field.is_stretched())),
+      pairs_(options.pairs) {
+  std::erase_if(facing_, [&](const FacingEdges& f) { return pair_follower(f.edge) != nullptr; });
+}
+
+/// Null where the edge has nodes of its own.
+const PairFollower* EdgeMesher::pair_follower(EdgeId e) const {
+  if (!pairs_ || pairs_->empty()) return nullptr;
+  const PairFollower& f = pairs_->edges()[e];
+  return f.leader == kNone ? nullptr : &f;
+}
 
 std::vector<std::pair<EdgeId, EdgeId>> EdgeMesher::followers() const {
   std::vector<std::pair<EdgeId, EdgeId>> found;
   for (const FacingEdges& f : facing_)
     for (const FacingEdges::Leader& l : f.leaders) found.push_back({f.edge, l.edge});
+  for (EdgeId e = 0; e < tables_.n_edges(); ++e)
+    if (const PairFollower* f = pair_follower(e)) found.push_back({e, f->leader});
   return found;
 }
 
@@ -61,7 +78,7 @@ EdgeMesh EdgeMesher::mesh(const std::vector<EdgeId>& dirty, const Refinements& r
   std::vector<EdgeId> own;
   std::vector<const MeshTopology::Strip*> strips;
   for (const EdgeId e : dirty) {
-    if (topology_.strip_closed_at(e)) continue;
+    if (topology_.strip_closed_at(e) || pair_follower(e)) continue;
     own.push_back(e);
     if (const auto* strip = topology_.strip_kept_at(e)) strips.push_back(strip);
   }
@@ -71,6 +88,7 @@ EdgeMesh EdgeMesher::mesh(const std::vector<EdgeId>& dirty, const Refinements& r
   for (EdgeId i = 0; i < fresh.nodes.n_edges(); ++i) fresh.place[own[i]] = i;
   follow_leaders(refinements, present, fresh);
   mirror(strips, fresh);
+  follow_pairs(dirty, fresh);
   EdgeMesh next;
   for (EdgeId e = 0; e < tables_.n_edges(); ++e)
     fresh.place[e] == kNone ? next.append(present, e) : next.append(fresh.nodes, fresh.place[e]);
@@ -109,6 +127,42 @@ void EdgeMesher::mirror(const std::vector<const MeshTopology::Strip*>& strips, F
   for (EdgeId i = 0; i < mirrored.n_edges(); ++i) fresh.add(strips[i]->closed, mirrored, i);
 }
 
+/// Edges of periodic faces that are images; their leaders are fresh, too.
+void EdgeMesher::follow_pairs(const std::vector<EdgeId>& dirty, Fresh& fresh) const {
+  std::vector<EdgeId> images;
+  for (const EdgeId e : dirty)
+    if (pair_follower(e)) images.push_back(e);
+  const auto make = [&](std::int32_t i) {
+    EdgeMesh leader;
+    leader.append(fresh.nodes, fresh.place[pair_follower(images[i])->leader]);
+    return make_image(images[i], leader);
+  };
+  const EdgeMesh made = make_curve_nodes(static_cast<std::int32_t>(images.size()), make, executor_);
+  for (EdgeId i = 0; i < made.n_edges(); ++i) fresh.add(images[i], made, i);
+}
+
+/// The parameters are those of the images' feet; the ends are the vertices, which are images themselves.
+EdgeMesh EdgeMesher::make_image(EdgeId e, const EdgeMesh& leader) const {
+  const PairFollower& f = *pair_follower(e);
+  const auto curve = model_.curve(e);
+  const std::int32_t n = leader.n_nodes(0);
+  std::vector<double> t, size;
+  std::vector<Vec3> xyz;
+  for (std::int32_t i = 0; i < n; ++i) {
+    const std::int32_t k = f.is_opposed ? n - 1 - i : i;
+    xyz.push_back(f.motion(leader.node_xyz[k]));
+    size.push_back(leader.node_size[k]);
+    t.push_back(i == 0 ? curve->t_min() : i + 1 == n ? curve->t_max() : closest_point(*curve, xyz[i]).t);
+  }
+  if (std::ranges::adjacent_find(t, std::greater_equal<>()) != t.end())
+    throw Error(ExitCode::kGeometry, tables_.edge_label(e) + ": the nodes of its partner " +
+                                         tables_.edge_label(f.leader) +
+                                         " do not follow each other on it; correct the pair, or the CAD");
+  EdgeMesh nodes = EdgeMesh::of_curve(std::move(t), std::move(xyz), std::move(size));
+  end_at_vertices(e, nodes, n - 1);
+  return nodes;
+}
+
 void EdgeMesher::end_at_vertices(EdgeId e, EdgeMesh& nodes, int min_segments) const {
   const auto end = [&](int side) { return tables_.vertex_xyz[tables_.edge_vertices[2 * e + side]]; };
   st::end_at_vertices(nodes, end(0), end(1), min_segments);
@@ -119,6 +173,8 @@ EdgeMesh EdgeMesher::make_edge(EdgeId e, const Refinements& refinements) const {
   const auto curve = model_.curve(e);
   const RefinedField field(field_, refinements.near(box_of(*curve)));
   EdgeMesh nodes = discretise_curve(*curve, field, {max_turning_deg_, min_segments_[e]});
+  if (pairs_)
+    for (Vec3& x : nodes.node_xyz) x = pairs_->on_own_axis(e, x);
   end_at_vertices(e, nodes, min_segments_[e]);
   return nodes;
 }

@@ -11,11 +11,13 @@
 #include "meshing/engine/mesh_result.h"
 #include "meshing/face/refinements.h"
 #include "meshing/topology/mesh_topology.h"
+#include "meshing/topology/periodic_pairs.h"
 
 namespace st {
 
-/// An edge of its own is meshed by the lengths along it; the second edge of a closed strip follows the first, and edges
-/// of narrow faces follow those across from them. Pure: the nodes follow from the inputs, whoever makes them.
+/// An edge of its own is meshed by the lengths along it; the second edge of a closed strip follows the first, edges of
+/// narrow faces follow those across from them, and periodic edges have the images of others' nodes. Pure: the nodes
+/// follow from the inputs, whoever makes them.
 class EdgeMesher {
  public:
   /// All references outlive the object.
@@ -33,6 +35,9 @@ class EdgeMesher {
   EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
   void follow_leaders(const Refinements& refinements, const EdgeMesh& present, Fresh& fresh) const;
   void mirror(const std::vector<const MeshTopology::Strip*>& strips, Fresh& fresh) const;
+  void follow_pairs(const std::vector<EdgeId>& dirty, Fresh& fresh) const;
+  EdgeMesh make_image(EdgeId e, const EdgeMesh& leader) const;
+  const PairFollower* pair_follower(EdgeId e) const;
   void end_at_vertices(EdgeId e, EdgeMesh& nodes, int min_segments) const;
 
   const Model& model_;
@@ -44,6 +49,7 @@ class EdgeMesher {
   std::vector<double> face_tolerance_;    // [n_faces] of their groups, or empty
   std::vector<int> min_segments_;
   std::vector<FacingEdges> facing_;
+  const PeriodicPairs* pairs_;  // or null
 };
 
 }  // namespace st

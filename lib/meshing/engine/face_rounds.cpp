@@ -44,6 +44,7 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       dirty_faces_(plan_.faces),
       edge_mesher_(model, topology, field, options, executor),
       faces_(model, topology, executor, options.parts_bodies, result.edges),
+      paired_(model, topology, executor, options.pairs, faces_),
       hopeless_(tables_.n_faces()) {
   if (static_cast<FaceId>(plan_.face_weight.size()) == tables_.n_faces())
     for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
@@ -80,6 +81,7 @@ void FaceRounds::report(PatchesGo patches) {
   }
   refill_bad(faces_, executor_);
   part_touching(faces_, executor_);
+  paired_.renew_images();
   faces_.hand_over(patches, result_);
 }
 
@@ -104,7 +106,8 @@ void FaceRounds::mesh_dirty_faces() {
               TiledRegions(model_, faces_as_regions(), field_, refinements_, options_.of_face(),
                            time_limit(options_.tile_triangles)),
               made_from(), expected_.empty() ? tables_.face_area : expected_, options_, executor_)
-      .run(dirty_faces_);
+      .run(paired_.meshed_of(dirty_faces_));
+  for (const FaceId f : paired_.make_images(dirty_faces_)) hopeless_.add_meshed(f, faces_.place(f).n_triangles());
 }
 
 /// Folds of faces that were given up stay.
@@ -115,7 +118,7 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   for (FaceId f = 0; f < tables_.n_faces(); ++f)
     if (!hopeless_.contains(f) || faces_.outcome(f).cause != FailureCause::kNone)
       all.insert(all.end(), wanted_[f].begin(), wanted_[f].end());
-  return all;
+  return paired_.with_images(std::move(all));
 }
 
 /// Local, on rank 0. Faces that refining did not help, by their folds or also by their crossings of the last search:
@@ -357,7 +360,7 @@ std::vector<RefinementPoint> FaceRounds::find_crossings() {
   result_.n_crossing_pairs = faces_.crossings().n_pairs();
   if (is_restored_) return {};
   give_up(true);
-  return faces_.crossings_to_refine();
+  return paired_.with_images(faces_.crossings_to_refine());
 }
 
 void FaceRounds::choose_again(std::size_t first_refinement) {
@@ -386,14 +389,10 @@ void FaceRounds::drop_replaced() {
 
 /// Edges and faces of the plan that these reach.
 void FaceRounds::find_dirty(std::span<const Refinement> refinements) {
-  const DirtyParts dirty_parts = find_dirty_parts(topology_, faces_.edges(), refinements, edge_mesher_.followers());
-  const auto of_plan = [](const std::vector<std::int32_t>& plan, const std::vector<char>& is_dirty) {
-    std::vector<std::int32_t> dirty;
-    std::copy_if(plan.begin(), plan.end(), std::back_inserter(dirty), [&](std::int32_t i) { return is_dirty[i]; });
-    return dirty;
-  };
-  dirty_edges_ = of_plan(plan_.edges, dirty_parts.edge);
-  dirty_faces_ = of_plan(plan_.faces, dirty_parts.face);
+  DirtyParts dirty = find_dirty_parts(topology_, faces_.edges(), refinements, edge_mesher_.followers());
+  paired_.spread(dirty.face);
+  dirty_edges_ = chosen_of(plan_.edges, dirty.edge);
+  dirty_faces_ = chosen_of(plan_.faces, dirty.face);
 }
 
 }  // namespace st

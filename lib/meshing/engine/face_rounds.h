@@ -16,6 +16,7 @@
 #include "meshing/engine/mesh_plan.h"
 #include "meshing/engine/mesh_rounds.h"
 #include "meshing/engine/meshed_faces.h"
+#include "meshing/engine/paired_faces.h"
 #include "meshing/engine/tiled_regions.h"
 
 namespace st {
@@ -98,6 +99,7 @@ class FaceRounds : public MeshRounds {
   std::int64_t version_ = 0;  // of patches made in this round
   EdgeMesher edge_mesher_;
   MeshedFaces faces_;
+  PairedFaces paired_;      // of faces_
   HopelessFaces hopeless_;  // on rank 0
 };
 

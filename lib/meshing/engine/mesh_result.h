@@ -15,6 +15,8 @@
 
 namespace st {
 
+class PeriodicPairs;
+
 /// Where the patches of a result are.
 enum class PatchesGo {
   kToRoot,  ///< all on rank 0
@@ -30,8 +32,9 @@ struct MeshOptions {
   std::optional<double> time_limit = {};   ///< of a face, seconds, see CurrentWork; none: by its expected triangles
   WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails
   PatchesGo patches = PatchesGo::kToRoot;
-  bool parts_bodies = true;  ///< bodies that the CAD keeps apart are refined where their triangles cross
-  bool tells_damage = true;  ///< warns of faces that refining does not help
+  bool parts_bodies = true;              ///< bodies that the CAD keeps apart are refined where their triangles cross
+  bool tells_damage = true;              ///< warns of faces that refining does not help
+  const PeriodicPairs* pairs = nullptr;  ///< outlive the run; null: there are none
 
   FaceMeshOptions of_face() const { return {.enhance_rounds = enhance_rounds}; }
 };

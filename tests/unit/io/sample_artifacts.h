@@ -115,7 +115,7 @@ inline PatchesArtifact sample_patches() {
   empty.face = 1;
   p.patches = {patch, empty};
   p.failures = {{1, "the boundary crosses itself", "use a smaller lmin", {0.5, 0.5, 0}, true, false, 0.25}};
-  p.merged = {{2}, {1}, {0}, {1}, {1}};
+  p.merged = {{2}, {1}, {0}, {1}, {1}, {{0, 1, {.translation = {0, 0, 1}}}, {1, 0, {}}}};
   p.labels = sample_labels(2);
   p.labels.face_name = {"top", ""};
   p.labels.group_name = {"default"};
@@ -143,7 +143,7 @@ inline MeshArtifact sample_mesh() {
   for (int i = 0; i < 12; ++i) m.corner_uv.push_back({0.1 * i, -0.1 * i});
   m.node_previous = {0, 2, kNone, 3};
   m.triangle_previous = {kNone, 5, 6, kNone};
-  m.merged = {{5, 7}, {1}, {0}, {1}, {0}};
+  m.merged = {{5, 7}, {1}, {0}, {1}, {0}, {{1, 0, {.translation = {0, 2, 1}}}}};
   m.labels = sample_labels(4);
   m.labels.face_name = {"bottom", "", "Flügel", "a b"};
   m.labels.group_name = {"body", "wing"};

@@ -1,0 +1,150 @@
+#include "meshing/engine/paired_faces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+#include "base/share.h"
+#include "base/threads.h"
+#include "meshing/face/face_patch.h"
+#include "meshing/face/failed_face.h"
+#include "meshing/face/patch_image.h"
+#include "meshing/face/patch_parameters.h"
+#include "meshing/face/refinements.h"
+
+namespace st {
+namespace {
+
+constexpr std::size_t kMostImages = 8;  // of one place: a corner of three pairs
+
+}  // namespace
+
+PairedFaces::PairedFaces(const Model& model, const MeshTopology& topology, const Executor& executor,
+                         const PeriodicPairs* pairs, MeshedFaces& faces)
+    : model_(model), tables_(topology.tables()), executor_(executor), pairs_(pairs ? *pairs : none_), faces_(faces) {}
+
+std::vector<FaceId> PairedFaces::meshed_of(const std::vector<FaceId>& faces) const {
+  std::vector<FaceId> meshed;
+  std::copy_if(faces.begin(), faces.end(), std::back_inserter(meshed), [&](FaceId f) {
+    return std::ranges::none_of(pairs_.pairs(), [&](const FacePair& p) { return p.b == f; });
+  });
+  return meshed;
+}
+
+void PairedFaces::spread(std::vector<char>& is_chosen) const {
+  for (const FacePair& p : pairs_.pairs()) is_chosen[p.a] = is_chosen[p.b] |= is_chosen[p.a];
+}
+
+std::vector<RefinementPoint> PairedFaces::with_images(std::vector<RefinementPoint> places) const {
+  if (pairs_.empty()) return places;
+  std::vector<RefinementPoint> all;
+  const double same = 1e-9 * tables_.box().diagonal();
+  for (const RefinementPoint& place : places) {
+    const std::size_t first = all.size();
+    all.push_back(place);
+    for (std::size_t i = first; i < all.size() && all.size() < first + kMostImages; ++i)
+      for (const FacePair& p : pairs_.pairs())
+        for (const bool forth : {true, false}) {
+          RefinementPoint image = all[i];
+          const double near = image.length + image.radius;
+          if (box_distance(tables_.face_box[forth ? p.a : p.b], image.x) > near) continue;
+          image.x = (forth ? p.motion : p.motion.inverse())(image.x);
+          const auto is_it = [&](const RefinementPoint& r) { return distance(r.x, image.x) <= same; };
+          if (std::none_of(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(), is_it)) all.push_back(image);
+        }
+  }
+  return all;
+}
+
+/// Of each pair's faces: their sections' rounds, summed up.
+std::vector<std::int64_t> PairedFaces::versions() const {
+  std::vector<std::int64_t> all;
+  for (const FacePair& p : pairs_.pairs())
+    for (const FaceId f : {p.a, p.b}) {
+      std::int64_t version = 0;
+      for (const PatchPlace& s : faces_.place(f).sections) version = s.version;
+      all.push_back(version);
+    }
+  return all;
+}
+
+PairedFaces::Image PairedFaces::image(std::size_t pair, const FacePatch& patch) const try {
+  const FacePair& p = pairs_.pairs()[pair];
+  const auto at = [&](const RimPlace& place) -> RimPlace {
+    const auto [dim, entity, index] = place;
+    if (dim == static_cast<std::uint8_t>(EntityDim::kVertex)) return {dim, pairs_.vertex_image(pair, entity), 0};
+    const PairFollower to = pairs_.edge_image(pair, entity);
+    const std::int32_t last = faces_.edges().n_nodes(entity) - 1;
+    return {dim, to.leader, to.is_opposed ? last - index : +index};
+  };
+  Image result{image_of(patch, {p.b, p.motion, pairs_.turns_over(pair), at}), ""};
+  const auto surface = model_.surface(p.b);
+  const FaceBoundary boundary = make_face_boundary(model_, *surface, p.b, faces_.numbering());
+  const FurthestNode off = set_parameters(*surface, boundary, faces_.numbering(), result.patch);
+  if (const double most = pairs_.tolerance(tables_, p); !(off.distance <= most))
+    result.error = fmt::format("the image of {} is {:.3g} off its surface, beyond {:.3g}", tables_.face_label(p.a),
+                               off.distance, most);
+  else if (!has_numbers_only(result.patch))
+    result.error = "a place or (u,v) of its image is no number";
+  return result;
+} catch (const Error& e) {
+  return {{}, e.what()};
+}
+
+void PairedFaces::take(std::size_t pair, Image&& image) {
+  const FaceId f = pairs_.pairs()[pair].b;
+  FaceOutcome o;
+  o.cause_xyz = tables_.face_box[f].center();
+  if (image.error.empty()) {
+    faces_.set(f, {}, std::move(o));
+    return faces_.put(f, std::move(image.patch));
+  }
+  o.cause = FailureCause::kError;
+  o.error = std::move(image.error);
+  o.failed = describe_failure(faces_.numbering(), f, {}, {});
+  faces_.set(f, {}, std::move(o));
+}
+
+std::vector<FaceId> PairedFaces::make_images(const std::vector<FaceId>& faces) {
+  std::vector<FaceId> made;
+  if (pairs_.empty()) return made;
+  std::vector<std::size_t> chosen;
+  std::vector<FaceId> first;
+  for (std::size_t i = 0; i < pairs_.pairs().size(); ++i)
+    if (executor_.is_root() && std::ranges::find(faces, pairs_.pairs()[i].b) != faces.end()) {
+      chosen.push_back(i);
+      first.push_back(pairs_.pairs()[i].a);
+    }
+  const MeshedFaces::Patches patches = faces_.bring(first);
+  if (!executor_.is_root()) return made;
+  std::vector<Image> images(chosen.size());
+  parallel_for(chosen.size(), 1, [&](std::size_t i, std::size_t) {
+    const auto it = patches.find(first[i]);
+    const bool is_there = it != patches.end() && faces_.outcome(first[i]).cause == FailureCause::kNone;
+    images[i] = is_there ? image(chosen[i], it->second)
+                         : Image{{}, fmt::format("{}, whose image it has, has no mesh", tables_.face_label(first[i]))};
+  });
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    if (images[i].error.empty()) made.push_back(pairs_.pairs()[chosen[i]].b);
+    take(chosen[i], std::move(images[i]));
+  }
+  made_of_ = versions();
+  return made;
+}
+
+void PairedFaces::renew_images() {
+  std::vector<FaceId> changed;
+  if (executor_.is_root()) {
+    const std::vector<std::int64_t> now = versions();
+    for (std::size_t i = 0; i < now.size(); ++i)
+      if (made_of_.size() != now.size() || now[i] != made_of_[i]) changed.push_back(pairs_.pairs()[i / 2].b);
+  }
+  share(executor_, changed);
+  if (changed.empty()) return;
+  make_images(changed);
+  faces_.search_crossings();
+}
+
+}  // namespace st

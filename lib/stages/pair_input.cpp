@@ -1,0 +1,65 @@
+#include "stages/pair_input.h"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "io/toml/pair_file.h"
+#include "meshing/topology/pair_search.h"
+#include "stages/stored_model.h"
+
+namespace st {
+namespace {
+
+std::vector<FaceId> faces_of(const PairSpec& pair, const std::string& name, const FaceLabels& labels) {
+  const std::vector<std::uint8_t> is_in = find_faces(name, labels);
+  std::vector<FaceId> faces;
+  for (std::size_t f = 0; f < is_in.size(); ++f)
+    if (is_in[f]) faces.push_back(static_cast<FaceId>(f));
+  if (faces.empty())
+    throw Error(ExitCode::kUsage, fmt::format("{}: pair: the model has no group of faces or part '{}'{}; st-info "
+                                              "GEOMETRY --groups lists them",
+                                              pair.where, name, say_other_kind(name, labels)));
+  return faces;
+}
+
+std::vector<FacePair> pairs_of_file(const std::string& path, const ModelTables& t) {
+  std::vector<FacePair> all;
+  for (const PairSpec& spec : read_pair_file(path)) try {
+      const std::vector<FacePair> some =
+          pair_faces(t, faces_of(spec, spec.a, t.labels), faces_of(spec, spec.b, t.labels), spec.motion);
+      all.insert(all.end(), some.begin(), some.end());
+    } catch (const Error& e) {
+      if (e.code() != ExitCode::kGeometry) throw;
+      throw Error(e.code(), fmt::format("{}: pair: {}", spec.where, e.what()));
+    }
+  return all;
+}
+
+void tell(const ModelTables& t, const std::vector<FacePair>& pairs) {
+  for (const FacePair& p : pairs) {
+    const bool is_translation = p.motion.rotation == Similarity().rotation;
+    const Vec3 d = p.motion.translation;
+    log_info(fmt::format(
+        "pair: {} has the mesh of {}, {}", t.face_label(p.b), t.face_label(p.a),
+        is_translation ? fmt::format("moved by {:.10g} {:.10g} {:.10g}", d.x, d.y, d.z) : std::string("rotated")));
+  }
+}
+
+}  // namespace
+
+PeriodicPairs read_pairs(const std::string& option, GeometryArtifact& geometry, const std::string& path) {
+  if (option.empty()) return {};
+  if (!geometry.composites.empty())
+    throw Error(ExitCode::kInput, path + ": --pairs needs the faces of the CAD; import it without --composite");
+  GeometryArtifact copy = geometry;
+  const Model model = stored_model(copy, path);
+  PeriodicPairs pairs(model, option == "auto" ? find_pairs(model) : pairs_of_file(option, model.tables()));
+  tell(model.tables(), pairs.pairs());
+  geometry.tables.vertex_xyz = pairs.vertex_xyz();
+  return pairs;
+}
+
+}  // namespace st

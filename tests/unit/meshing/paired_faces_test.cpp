@@ -1,0 +1,122 @@
+#include "meshing/engine/paired_faces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/pair_match.h"
+#include "meshing/topology/pair_search.h"
+#include "support/meshed.h"
+
+namespace st {
+namespace {
+
+/// Finer near one corner, so that sides that were meshed apart would differ.
+class FinerThere : public UniformField {
+ public:
+  FinerThere(double length, Vec3 there) : UniformField(length), there_(there) {}
+  using UniformField::size;
+  double size(Vec3 x, int&) const override {
+    return std::min(min_size(), 0.2 * min_size() + 0.2 * distance(x, there_));
+  }
+
+ private:
+  Vec3 there_;
+};
+
+/// A shape meshed with the pairs that are found in it.
+struct PairedMesh {
+  Model model;
+  PeriodicPairs pairs;
+  MeshTopology topology;
+  MeshResult result;
+  OrientationReport report;
+  SurfaceMesh mesh;
+
+  PairedMesh(const std::string& shape, const SizeField& field, MeshOptions options = {})
+      : PairedMesh(test::make_model(shape), field, std::move(options)) {}
+  PairedMesh(Model m, const SizeField& field, MeshOptions options)
+      : model(std::move(m)), pairs(model, find_pairs(model)), topology(placed(model, pairs)) {
+    set_verbosity(Verbosity::kQuiet);
+    options.pairs = &pairs;
+    result = mesh_regions(model, topology, field, plan_all(topology), options, test::one_rank);
+    mesh = test::merged(topology, result, report);
+  }
+
+  static MeshTopology placed(const Model& model, const PeriodicPairs& pairs) {
+    ModelTables t = model.tables();
+    t.vertex_xyz = pairs.vertex_xyz();
+    return MeshTopology(t, without_paired({}, pairs, t));
+  }
+  void expect_matched() const {
+    EXPECT_TRUE(result.failures.empty());
+    ASSERT_FALSE(mesh.merged.pairs.empty());
+    for (const FacePair& p : mesh.merged.pairs) {
+      const PairMatch match = match_pair(mesh, p, pair_tolerance(mesh));
+      EXPECT_GT(match.nodes.size(), 20u);
+      EXPECT_TRUE(match.alone.empty()) << match.alone.size() << " of " << match.nodes.size();
+      EXPECT_TRUE(match.triangles_alone.empty()) << match.triangles_alone.size();
+    }
+  }
+  /// Of nodes inside faces from the surface at their (u,v).
+  double largest_distance() const {
+    double most = 0;
+    for (const FacePatch& p : result.patches) {
+      const auto surface = model.surface(p.face);
+      for (std::size_t i = 0; i < p.inner_xyz.size(); ++i)
+        most = std::max(most, distance(surface->point(p.inner_uv[i]), p.inner_xyz[i]));
+    }
+    return most;
+  }
+};
+
+TEST(PairedFaces, of_a_box_have_the_same_nodes_on_all_three_pairs) {
+  const PairedMesh box("box", FinerThere(6, {0, 0, 0}));
+  EXPECT_EQ(box.pairs.pairs().size(), 3u);
+  box.expect_matched();
+  EXPECT_LT(box.largest_distance(), 1e-9);
+}
+
+TEST(PairedFaces, differ_where_they_are_no_pairs) {
+  const PairedMesh box("box", FinerThere(6, {0, 0, 0}));
+  MeshResult apart =
+      mesh_regions(box.model, box.topology, FinerThere(6, {0, 0, 0}), plan_all(box.topology), {}, test::one_rank);
+  OrientationReport report;
+  const SurfaceMesh mesh = test::merged(box.topology, apart, report);
+  EXPECT_FALSE(match_pair(mesh, box.pairs.pairs()[0], pair_tolerance(mesh)).alone.empty());
+}
+
+TEST(PairedFaces, of_a_pie_meet_on_the_axis) {
+  const PairedMesh pie("pie", FinerThere(2, {0, 0, 5}));
+  pie.expect_matched();
+  EXPECT_LT(pie.largest_distance(), 1e-9);
+}
+
+TEST(PairedFaces, of_a_curved_passage_lie_on_their_own_surfaces) {
+  const PairedMesh passage("passage", FinerThere(3, {0, 0, 20}));
+  passage.expect_matched();
+  EXPECT_LT(passage.largest_distance(), 1e-6);
+}
+
+TEST(PairedFaces, have_the_same_nodes_where_faces_are_cut_into_tiles) {
+  MeshOptions options;
+  options.tile_triangles = 1000;
+  const UniformField field(1);
+  const PairedMesh box("box", field, options);
+  box.expect_matched();
+}
+
+TEST(PairedFaces, ask_for_smaller_sizes_on_both_sides) {
+  const Model box = test::make_model("box");
+  const MeshTopology topology(box.tables());
+  const PeriodicPairs pairs(box, find_pairs(box));
+  EdgeMesh edges;
+  MeshedFaces faces(box, topology, test::one_rank, true, edges);
+  const PairedFaces paired(box, topology, test::one_rank, &pairs, faces);
+  EXPECT_EQ(paired.with_images({{{30, 20, 10}, 1, 0, 0, 0}}).size(), 1u) << "in the middle";
+  EXPECT_EQ(paired.with_images({{{0, 20, 10}, 1, 0, 0, 0}}).size(), 2u) << "on a face";
+  EXPECT_EQ(paired.with_images({{{0, 0, 0}, 1, 0, 0, 0}}).size(), 8u) << "on a corner";
+}
+
+}  // namespace
+}  // namespace st

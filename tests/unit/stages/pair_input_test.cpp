@@ -1,0 +1,60 @@
+#include "stages/pair_input.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "io/file/text_file.h"
+#include "mesh/pair_match.h"
+#include "stages/merge_stage.h"
+#include "support/staged.h"
+
+namespace st {
+namespace {
+
+/// The box as its artifact.
+GeometryArtifact box(const test::StagedModel& staged) {
+  staged.make_raster("box");
+  return read_geometry(staged.raster.geometry);
+}
+
+TEST(PairInput, is_nothing_without_the_option_and_three_pairs_with_auto) {
+  const test::StagedModel staged;
+  GeometryArtifact geometry = box(staged);
+  EXPECT_TRUE(read_pairs("", geometry, "geometry.hdf").empty());
+  EXPECT_EQ(read_pairs("auto", geometry, "geometry.hdf").pairs().size(), 3u);
+}
+
+TEST(PairInput, names_the_line_of_a_group_that_is_not_there) {
+  const test::StagedModel staged;
+  GeometryArtifact geometry = box(staged);
+  write_text_file(staged.dir / "pairs.toml", "[[pair]]\na = \"left\"\nb = \"right\"\ntranslate = [1, 0, 0]\n");
+  try {
+    read_pairs(staged.dir / "pairs.toml", geometry, "geometry.hdf");
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kUsage);
+    EXPECT_NE(std::string(e.what()).find("pairs.toml:1: pair: "), std::string::npos) << e.what();
+  }
+}
+
+TEST(PairInput, goes_with_the_mesh) {
+  test::StagedModel staged;
+  staged.make_sizing("passage");
+  staged.mesh.pairs = "auto";
+  staged.make_patches();
+  MergeStageOptions merge;
+  merge.patches = {staged.mesh.output};
+  merge.output = staged.dir / "mesh.hdf";
+  run_merge(merge);
+  const SurfaceMesh mesh = read_mesh(merge.output).mesh;
+  ASSERT_FALSE(mesh.merged.pairs.empty());
+  for (const FacePair& p : mesh.merged.pairs) {
+    const PairMatch match = match_pair(mesh, p, pair_tolerance(mesh));
+    EXPECT_FALSE(match.nodes.empty());
+    EXPECT_TRUE(match.alone.empty()) << match.alone.size();
+    EXPECT_TRUE(match.triangles_alone.empty());
+  }
+}
+
+}  // namespace
+}  // namespace st
