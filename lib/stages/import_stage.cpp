@@ -153,7 +153,8 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
 std::string repairs_in_words(const ImportResult& r) {
   std::vector<std::pair<std::string, int>> kinds;
   for (const ImportFinding& f : r.findings) {
-    if (!f.is_repair || f.kind == FindingKind::kCapped) continue;  // asked for, and said by say_openings()
+    if (!f.is_repair) continue;
+    if (f.kind == FindingKind::kCapped || f.kind == FindingKind::kMirrored) continue;  // asked for, and said elsewhere
     const std::string kind = f.kind == FindingKind::kOther ? f.what() : name_of(f.kind);
     const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.first == kind; });
     known == kinds.end() ? kinds.emplace_back(kind, 1), void() : void(++known->second);
@@ -257,6 +258,13 @@ void say_open_vertices(const ImportStageOptions& o, const ImportResult& r) {
         worst->xyz.x, worst->xyz.y, worst->xyz.z));
 }
 
+/// How far the half that --mirror makes is from what was there.
+void say_mirror(const ImportResult& r) {
+  for (const ImportFinding& f : r.findings)
+    if (f.kind == FindingKind::kMirrored)
+      log_report(fmt::format("  {}{} at ({:.6g}, {:.6g}, {:.6g})", f.what(), in_unit(r), f.xyz.x, f.xyz.y, f.xyz.z));
+}
+
 /// What --cap closed, and what it could not.
 void say_openings(const ImportStageOptions& o, const ImportResult& r) {
   for (const ImportFinding& f : r.findings) {
@@ -338,6 +346,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   say_crossing_faces(o, r);
   say_faults(o, r);
   say_open_vertices(o, r);
+  say_mirror(r);
   say_openings(o, r);
   const auto say_line = o.check ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
@@ -423,6 +432,7 @@ ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& grou
   options.small = o.small;
   options.sew = o.sew;
   options.symmetry = o.symmetry;
+  options.mirror = o.mirror;
   options.farfield = o.farfield;
   options.replace_farfield = o.replace_farfield;
   options.flow_domain = o.flow_domain;
@@ -435,11 +445,16 @@ ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& grou
   return options;
 }
 
+void require_composable(const ImportStageOptions& o) {
+  if (o.check) throw Error(ExitCode::kUsage, "--composite joins faces of what is written, and --check writes nothing");
+  if (!o.mirror.empty())
+    throw Error(ExitCode::kUsage, "--composite joins faces across the plane of --mirror; give one of them");
+}
+
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
   const bool is_composed = asks_for_composites(o.composite, o.model);
-  if (is_composed && o.check)
-    throw Error(ExitCode::kUsage, "--composite joins faces of what is written, and --check writes nothing");
+  if (is_composed) require_composable(o);
   ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
   nlohmann::json json = report(o.model, r);
@@ -460,6 +475,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     nlohmann::json used{{"unit", o.unit}, {"small", o.small}};
     if (!o.sew.empty()) used["sew"] = o.sew;
     if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
+    if (!o.mirror.empty()) used["mirror"] = o.mirror;
     if (!o.farfield.empty()) used["farfield"] = o.farfield;
     if (!o.replace_farfield.empty()) used["replace_farfield"] = o.replace_farfield;
     if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
@@ -477,6 +493,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.findings = r.findings;
     g.previous_faces = previous_faces(r.file_faces);
     g.is_closed = r.is_closed;
+    g.mirror = std::move(r.mirror);
     g.tables = std::move(r.tables);
     std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
     if (is_composed) {

@@ -22,10 +22,10 @@ struct ImportStageOptions {
   std::optional<double> feature_angle;
   static constexpr NumberOption kFeatureAngle{"--feature-angle", "DEGREES", "[1, 180]",
                                               "of facets: faces meet where neighbours turn by more; default: 30"};
-  std::string symmetry, farfield, replace_farfield;  ///< of ImportOptions; empty: none
-  std::string flow_domain = "auto";                  ///< of ImportOptions
-  std::string groups;                                ///< groups file (TOML); empty: the groups of the CAD file
-  std::string suggest_groups;                        ///< groups file to write, as the shape suggests; empty: none
+  std::string symmetry, mirror, farfield, replace_farfield;  ///< of ImportOptions; empty: none
+  std::string flow_domain = "auto";                          ///< of ImportOptions
+  std::string groups;                                        ///< groups file (TOML); empty: the groups of the CAD file
+  std::string suggest_groups;      ///< groups file to write, as the shape suggests; empty: none
   std::string composite = "none";  ///< faces that meet smoothly are one: "none", "harm" (where the mesh would suffer),
                                    ///< "smooth" (all)
   bool unite = false;              ///< of ImportOptions

@@ -22,6 +22,8 @@
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "meshing/engine/mesh_regions.h"
+#include "meshing/engine/mirrored_mesh.h"
+#include "sizing/mirrored_field.h"
 #include "sizing/paired_field.h"
 #include "stages/cell_budget.h"
 #include "stages/expected_triangles.h"
@@ -114,6 +116,24 @@ MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std:
   return plan;
 }
 
+void require_whole(const MeshStageOptions& o, const Mirror& mirror) {
+  if (mirror.empty()) return;
+  for (const auto& [name, value] : {std::pair{"--faces", &o.faces}, {"--group", &o.group}, {"--edges", &o.edges}})
+    if (!value->empty())
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{} meshes a part, and {} was imported with --mirror: leave one out", name, o.geometry));
+  if (!o.pairs.empty())
+    throw Error(ExitCode::kUsage, fmt::format("--pairs: {} was imported with --mirror: leave one out", o.geometry));
+}
+
+/// Collective. The topology with small features merged, in the same way on both sides of a mirror, and none on pairs.
+MeshTopology make_topology(const Model& model, const SizeField& field, double below, const Mirror& mirror,
+                           const PeriodicPairs& pairs, const Executor& executor) {
+  MeshTopology topology = merge_small_features(model, field, below, executor);
+  if (!pairs.empty()) return {model.tables(), without_paired(topology.merged(), pairs, model.tables())};
+  return mirror.empty() ? topology : MeshTopology(model.tables(), mirrored(topology.merged(), mirror, model.tables()));
+}
+
 ArtifactHeader output_header(const MeshStageOptions& o, double tile_triangles, const ArtifactHeader& geometry,
                              const ArtifactHeader& sizing) {
   ArtifactHeader header;
@@ -131,6 +151,17 @@ ArtifactHeader output_header(const MeshStageOptions& o, double tile_triangles, c
   return header;
 }
 
+/// Collective. As write_patches_result(), with the other half of a mirrored model.
+StageSummary write_result(const std::string& path, const Mirror& mirror, const ModelTables& tables,
+                          const ArtifactHeader& geometry, const ArtifactHeader& header, const MeshTopology& topology,
+                          MeshResult result, const RunFacts& facts, const Executor& executor) {
+  if (mirror.empty())
+    return write_patches_result(path, tables, geometry, header, topology, std::move(result), facts, executor);
+  if (!executor.is_root()) return {};
+  const ModelTables placed = add_image(mirror, tables, topology, result);
+  return write_patches_result(path, placed, geometry, header, topology, std::move(result), facts, SerialExecutor());
+}
+
 /// Digest of what the results depend on.
 std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier, const std::vector<FacePair>& pairs) {
   Hasher hasher;
@@ -145,8 +176,10 @@ std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier, const 
   return hasher.hex();
 }
 
-/// Null without pairs: the field as it is.
-std::unique_ptr<SizeField> make_paired_field(const SizeField& field, const PeriodicPairs& pairs, const ModelTables& t) {
+/// The smaller of the lengths on both sides of a mirror or of pairs; null without either: the field as it is.
+std::unique_ptr<SizeField> make_common_field(const SizeField& field, const Mirror& mirror, const PeriodicPairs& pairs,
+                                             const ModelTables& t) {
+  if (!mirror.empty()) return std::make_unique<MirroredField>(field, mirror);
   if (pairs.empty()) return nullptr;
   std::vector<PairedRegion> regions;
   for (const FacePair& p : pairs.pairs()) regions.push_back({t.face_box[p.a], t.face_box[p.b], p.motion});
@@ -170,6 +203,9 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   GeometryArtifact geometry = read_geometry(o.geometry);
   std::vector<FaceId> faces = select_faces(o, geometry.tables);
   const Composites composites = geometry.composites;
+  const Mirror mirror = std::move(geometry.mirror);
+  require_whole(o, mirror);
+  if (!mirror.empty()) faces = faces_to_mesh(mirror);
   const PeriodicPairs pairs = read_pairs(o.pairs, geometry, o.geometry);
   std::optional<MappedSizing> mapped;
   std::optional<Model> stored;
@@ -184,29 +220,30 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   EarlierPart earlier = read_earlier_part(o, geometry.header);
   require_same_inputs(comm, {{o.edges, earlier.content_hash}});
   progress.step("small features", 0.05);
-  const auto paired_field = make_paired_field(*sizing.field, pairs, model.tables());
-  const SizeField& field = paired_field ? *paired_field : *sizing.field;
-  MeshTopology topology = o.edges.empty() ? merge_small_features(model, field, o.merge_below, trace)
-                                          : MeshTopology(model.tables(), std::move(earlier.merged));
-  if (!pairs.empty()) topology = MeshTopology(model.tables(), without_paired(topology.merged(), pairs, model.tables()));
+  const auto common_field = make_common_field(*sizing.field, mirror, pairs, model.tables());
+  const SizeField& field = common_field ? *common_field : *sizing.field;
+  const MeshTopology topology = o.edges.empty() ? make_topology(model, field, o.merge_below, mirror, pairs, trace)
+                                                : MeshTopology(model.tables(), std::move(earlier.merged));
   const double load_seconds = timer.seconds();
   const double tile_triangles = o.tile_triangles.value_or(usual_tile(expected_triangles(sizing.face_weight)));
   const ArtifactHeader header = output_header(o, tile_triangles, geometry.header, sizing.header);
   progress.step("meshing", 0.1);
   Resumption resumption(trace, o.output, run_of(header, earlier.edges, pairs.pairs()), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
-  MeshOptions options{o.enhance_rounds,      o.max_turning_deg, o.merge_below,     tile_triangles,
-                      resumption.left_out(), o.time_limit,      WhenLate::kSignal, PatchesGo::kNowhere};
+  MeshOptions options{o.enhance_rounds,      o.max_turning_deg,
+                      o.merge_below,         tile_triangles,
+                      resumption.left_out(), o.time_limit,
+                      WhenLate::kSignal,     mirror.empty() ? PatchesGo::kNowhere : PatchesGo::kToRoot};
   options.pairs = &pairs;
   MeshResult result = mesh_regions(model, topology, field, std::move(plan), options, resumption);
   resumption.end();
   trace.begin_phase("write");
   progress.step("writing", 0.9);
   StageSummary summary =
-      write_patches_result(o.output, model.tables(), geometry.header, header, topology, std::move(result),
-                           {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed(),
-                            nlohmann::json::object(), composites},
-                           trace);
+      write_result(o.output, mirror, model.tables(), geometry.header, header, topology, std::move(result),
+                   {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed(),
+                    nlohmann::json::object(), composites},
+                   trace);
   if (comm.is_root()) resumption.remove();
   trace.write();
   return summary;

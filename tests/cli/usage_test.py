@@ -19,7 +19,8 @@ HELP_COLUMN = 34  # where the texts of --help start
 # Values that each option with a bounded value refuses.
 REFUSED = {
     "st-import": {"--unit": ["parsec", ""], "--small": ["0", "-1%", "x"], "--sew": ["0", "-1%", "x"],
-                  "--symmetry": ["y", "w=0", "y=x"], "--farfield": ["box", "ball:20", "box:0.5"],
+                  "--symmetry": ["y", "w=0", "y=x"], "--mirror": ["y", "w=0", "y=x"],
+                  "--farfield": ["box", "ball:20", "box:0.5"],
                   "--time-limit": ["0", "-1", "x"], "--feature-angle": ["0", "181", "x"]},
     "st-edit": {"--transform": ["shear 2", "rotate 1 2 3", "hinge 0 0 0 0 0 0 5", "mirror 1 2", "scale 0",
                                 "translate 1 2 3 at 0 0 0"], "--of": ["wing"]},

@@ -9,6 +9,8 @@ void declare(OptionSet& set, ImportStageOptions& o) {
   set.length("--sew", o.sew, "0.01%", "join free edges that are at most this far apart");
   set.text("--symmetry", o.symmetry, "AXIS=VALUE",
            "cut or close the model at this plane: y=0 keeps the positive side, y=0- the negative side");
+  set.text("--mirror", o.mirror, "AXIS=VALUE",
+           "mesh one half of a symmetric model, the other is its image: y=0 the positive side, y=0- the negative");
   set.text("--farfield", o.farfield, "KIND:SIZE",
            "add a far field: box:20 (half width) or sphere:50 (radius), in diagonals of the model");
   set.text("--replace-farfield", o.replace_farfield, "KIND:SIZE",

@@ -150,7 +150,8 @@ AirFaces counts_of(const FileAir& air) {
 
 AskedAir parse_air(const ImportOptions& options) {
   AskedAir asked;
-  if (!options.symmetry.empty()) asked.plane = parse_symmetry(options.symmetry);
+  if (!options.symmetry.empty()) asked.plane = parse_symmetry(options.symmetry, "--symmetry");
+  if (!options.mirror.empty()) asked.mirror = parse_symmetry(options.mirror, "--mirror");
   if (!options.farfield.empty()) asked.far = parse_farfield(options.farfield, "--farfield");
   if (!options.replace_farfield.empty()) {
     if (asked.far) throw Error(ExitCode::kUsage, "--farfield and --replace-farfield: give one of them");

@@ -12,9 +12,10 @@
 
 namespace st::occt {
 
-/// What --symmetry, --farfield, --replace-farfield and --flow-domain ask for.
+/// What --symmetry, --mirror, --farfield, --replace-farfield and --flow-domain ask for.
 struct AskedAir {
   std::optional<SymmetryPlane> plane;
+  std::optional<SymmetryPlane> mirror;  ///< beside the air: of all that is meshed
   std::optional<FarField> far;
   bool replaces = false;   ///< `far` takes the place of the file's own
   bool may_search = true;  ///< in what no name speaks of

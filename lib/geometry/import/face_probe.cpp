@@ -5,6 +5,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <limits>
 
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
@@ -14,6 +15,8 @@ namespace st::occt {
 namespace {
 
 constexpr int kRows = 9;       // of the grid of points of a face
+constexpr int kFineRows = 40;  // of the grid from which the closest point is sought again
+constexpr int kStarts = 8;     // its nearest points
 constexpr int kInARow = 2;     // points on the face
 constexpr double kBeside = 3;  // tolerances from the face's edges: nearer, sewing joins them
 
@@ -65,6 +68,41 @@ std::vector<Vec3> FaceProbe::samples() {
       if (classifier_.Perform(gp_Pnt2d(uv.x, uv.y)) == TopAbs_IN) points.push_back(domain_.surface->point(uv));
     }
   return points;
+}
+
+double FaceProbe::distance_to(Vec3 p) {
+  double least = std::numeric_limits<double>::infinity();
+  const auto take = [&](const SurfaceFoot& foot) {
+    if (foot.distance < least && classifier_.Perform(gp_Pnt2d(foot.uv.x, foot.uv.y)) != TopAbs_OUT)
+      least = foot.distance;
+  };
+  take(closest_point(*domain_.surface, p));
+  if (least > tolerance_)
+    for (const PlacedCurve& edge : edges_) least = std::min(least, closest_point(*edge.curve, p).distance);
+  if (least > tolerance_)
+    for (const Vec2 start : nearest_places(p)) take(descend_from(*domain_.surface, p, start));
+  return least;
+}
+
+std::vector<Vec2> FaceProbe::nearest_places(Vec3 p) {
+  if (places_.empty()) {
+    const UvBounds& b = domain_.bounds;
+    for (int i = 0; i <= kFineRows; ++i)
+      for (int k = 0; k <= kFineRows; ++k) {
+        const Vec2 uv = {b.u_min + (b.u_max - b.u_min) * i / kFineRows, b.v_min + (b.v_max - b.v_min) * k / kFineRows};
+        places_.emplace_back(uv, domain_.surface->point(uv));
+      }
+  }
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < places_.size(); ++i) order.emplace_back(distance(places_[i].second, p), i);
+  std::partial_sort(order.begin(), order.begin() + kStarts, order.end());
+  std::vector<Vec2> nearest;
+  for (int i = 0; i < kStarts; ++i) nearest.push_back(places_[order[i].second].first);
+  return nearest;
+}
+
+Vec3 FaceProbe::normal_at(Vec3 p) const {
+  return surface_normal(*domain_.surface, closest_point(*domain_.surface, p).uv);
 }
 
 std::optional<double> FaceProbe::distance_inside(Vec3 p) {

@@ -5,6 +5,7 @@
 #include <TopoDS_Face.hxx>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "geometry/brep/face_domain.h"
@@ -29,18 +30,26 @@ class FaceProbe {
   /// Points inside the loops, of a grid, row by row.
   std::vector<Vec3> samples();
 
+  /// Of a point from the face, its edges included; no closer than it is. Cost: where it is more,
+  /// thousands of points of the surface once, and a search from some of them.
+  double distance_to(Vec3 p);
+  /// du x dv at the point of the surface that is next, normalised.
+  Vec3 normal_at(Vec3 p) const;
+
  private:
   struct PlacedCurve {
     Box3 box;
     std::unique_ptr<Curve> curve;
   };
   std::optional<double> distance_inside(Vec3 p);
+  std::vector<Vec2> nearest_places(Vec3 p);
 
   FaceDomain domain_;
   BRepTopAdaptor_FClass2d classifier_;
   double tolerance_;
   Box3 box_;
   std::vector<PlacedCurve> edges_;
+  std::vector<std::pair<Vec2, Vec3>> places_;  ///< of a fine grid of the surface, made when first needed
 };
 
 }  // namespace st::occt

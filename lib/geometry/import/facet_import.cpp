@@ -20,6 +20,7 @@ namespace {
 void require_known(const ImportOptions& o, const std::string& path) {
   const std::pair<const char*, bool> given[] = {{"--sew", !o.sew.empty()},
                                                 {"--symmetry", !o.symmetry.empty()},
+                                                {"--mirror", !o.mirror.empty()},
                                                 {"--farfield", !o.farfield.empty()},
                                                 {"--replace-farfield", !o.replace_farfield.empty()},
                                                 {"--flow-domain", o.flow_domain != ImportOptions().flow_domain},

@@ -23,8 +23,8 @@ struct FarField {
   double size = 0;  ///< half the box's edge or the sphere's radius, in diagonals of the model
 };
 
-/// "y=0", "z=-1.5", "y=0+", "x=2-". Throws Error(kUsage).
-SymmetryPlane parse_symmetry(const std::string& text);
+/// "y=0", "z=-1.5", "y=0+", "x=2-" of `option`. Throws Error(kUsage).
+SymmetryPlane parse_symmetry(const std::string& text, const std::string& option);
 
 /// "box:20", "sphere:50" of `option`. Throws Error(kUsage) for anything else and for sizes outside [1, 1000].
 FarField parse_farfield(const std::string& text, const std::string& option);

@@ -1,4 +1,4 @@
-// What --symmetry and --farfield say.
+// What --symmetry, --mirror and --farfield say.
 #include <cmath>
 #include <cstdlib>
 
@@ -18,9 +18,9 @@ double number_after(const std::string& text, std::size_t start, std::size_t end,
 
 }  // namespace
 
-SymmetryPlane parse_symmetry(const std::string& text) {
+SymmetryPlane parse_symmetry(const std::string& text, const std::string& option) {
   const std::string message =
-      "--symmetry: '" + text +
+      option + ": '" + text +
       "' is not a plane; use x=, y= or z= and a number, then + or - for the kept side (y=0, y=0-)";
   SymmetryPlane plane;
   if (text.size() < 3 || text[0] < 'x' || text[0] > 'z' || text[1] != '=') throw Error(ExitCode::kUsage, message);

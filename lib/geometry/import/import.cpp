@@ -4,6 +4,7 @@
 #include <TopExp.hxx>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include "base/error.h"
@@ -28,9 +29,11 @@
 #include "geometry/import/left_out_faces.h"
 #include "geometry/import/loop_periods.h"
 #include "geometry/import/loop_repair.h"
+#include "geometry/import/mirror_image.h"
 #include "geometry/import/model_unit.h"
 #include "geometry/import/openings.h"
 #include "geometry/import/pcurve_repair.h"
+#include "geometry/import/plane_cut.h"
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
 #include "geometry/import/solid_contacts.h"
@@ -104,9 +107,22 @@ AirFaces settle_air(ImportedShape& model, occt::ModelOfFile& tables, occt::Asked
   return counts;
 }
 
-/// A symmetry plane or a far field gives faces other numbers.
+/// One half becomes the image of the other, where that is asked for.
+std::optional<occt::MirrorShapes> mirror_model(ImportedShape& model, occt::ModelOfFile& tables,
+                                               const std::optional<occt::SymmetryPlane>& plane,
+                                               std::vector<ImportFinding>& findings, const std::string& path) {
+  if (!plane) return std::nullopt;
+  const double diagonal = tables.tables.reference_diagonal();
+  if (occt::cut_at_plane(model, *plane, diagonal, path) > 0) take_new_faces(model, tables, path);
+  occt::MirrorShapes shapes = occt::mirror_half(model, *plane, diagonal, findings, path);
+  tables = occt::make_tables(model, path);
+  return shapes;
+}
+
+/// A symmetry plane, a mirror or a far field gives faces other numbers.
 bool makes_air(const ImportOptions& options) {
-  return !options.symmetry.empty() || !options.farfield.empty() || !options.replace_farfield.empty();
+  return !options.mirror.empty() || !options.symmetry.empty() || !options.farfield.empty() ||
+         !options.replace_farfield.empty();
 }
 
 /// Numbers in a groups file are those before the far field goes: they would name others after it.
@@ -278,9 +294,11 @@ void repair_edges_and_loops(ImportedShape& model, std::vector<ImportFinding>& fi
   occt::divide_kinked_faces(model, findings);
 }
 
-/// The findings of divided faces get the numbers of what is left of their parts.
-void name_parts(const std::vector<std::int32_t>& file_faces, std::vector<ImportFinding>& findings) {
-  for (ImportFinding& f : findings) {
+/// Numbers in the file; the findings of divided faces get the numbers of what is left of their parts.
+void name_parts(const ImportedShape& model, ImportResult& result) {
+  std::vector<std::int32_t>& file_faces = result.file_faces;
+  for (const occt::FaceAttributes& a : model.attributes) file_faces.push_back(a.file_face);
+  for (ImportFinding& f : result.findings) {
     if (f.kind != FindingKind::kDividedSurface) continue;
     std::string ids;
     for (std::size_t k = 0; k < file_faces.size(); ++k)
@@ -327,6 +345,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   relate_bodies(model, tables, options, result.findings, path, progress);
   progress.step("far field and symmetry", 0.7);
   result.air = settle_air(model, tables, air, result.findings, path);
+  const auto mirrored = mirror_model(model, tables, air.mirror, result.findings, path);
   progress.step("faces that cross", 0.75);
   const auto crossings = find_faces_that_cross(model, tables, result.findings, path);
   occt::require_sound_boxes(tables.tables.face_box, path);
@@ -343,9 +362,9 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   say_which_faces_cross(crossings, result.tables, result.findings);
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) occt::require_closed(result, path);
+  if (mirrored) result.mirror = mirrored->numbers_in(model.shape, path);
   result.brep = occt::brep_bytes(model.shape);
-  for (const occt::FaceAttributes& a : model.attributes) result.file_faces.push_back(a.file_face);
-  name_parts(result.file_faces, result.findings);
+  name_parts(model, result);
   for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
   return result;
 }

@@ -7,6 +7,7 @@
 
 #include "geometry/model/finding.h"
 #include "geometry/model/groups.h"
+#include "geometry/model/mirror.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -17,6 +18,7 @@ struct ImportOptions {
   std::string sew;          ///< length: largest gap between free edges that sewing closes; empty: 0.01% of the diagonal
   bool check_only = false;  ///< also run OpenCASCADE's checker
   std::string symmetry;     ///< "y=0", "x=2-" ...: close (and where needed cut) the model at this plane; empty: none
+  std::string mirror;       ///< likewise: one half becomes the image of the other; empty: none
   std::string farfield;     ///< "box:20", "sphere:50": the fluid around the model, out to this far field; empty: none
   std::string replace_farfield;      ///< likewise, in place of the one that the file has; empty: keep it
   std::string flow_domain = "auto";  ///< "auto": air around a body is recognised by its shape where no name says so;
@@ -51,6 +53,7 @@ struct ImportResult {
   bool is_closed = false;                ///< at least one shell and no free edge
   int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
   int n_contradictory_edges = 0;  ///< at which both faces disagree which side is outside
+  Mirror mirror;                  ///< empty: not asked for
   AirFaces air;                   ///< none where the import made it
   bool has_assumed_unit = false;  ///< the file names no unit, and that of ImportOptions was taken as it
   double area = 0, volume = 0;    ///< model unit squared, cubed (volume 0 when open)

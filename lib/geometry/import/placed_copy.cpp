@@ -40,10 +40,16 @@ void copy_trimming_curve(const TopoDS_Edge& from, const TopoDS_Face& from_face, 
 
 }  // namespace
 
+void PlacedCopy::keep(const TopoDS_Shape& shape) {
+  const TopoDS_Shape forward = shape.Oriented(TopAbs_FORWARD);
+  copies_.Bind(forward, forward);
+}
+
 TopoDS_Shape PlacedCopy::of(const TopoDS_Shape& shape) {
   const TopoDS_Shape forward = shape.Oriented(TopAbs_FORWARD);
   if (!copies_.IsBound(forward)) copies_.Bind(forward, make(forward));
-  return copies_.Find(forward).Oriented(shape.Orientation());
+  const TopoDS_Shape copy = copies_.Find(forward).Oriented(shape.Orientation());
+  return motion_.IsNegative() && shape.ShapeType() == TopAbs_FACE ? copy.Reversed() : copy;
 }
 
 TopoDS_Shape PlacedCopy::make(const TopoDS_Shape& shape) {
@@ -52,7 +58,7 @@ TopoDS_Shape PlacedCopy::make(const TopoDS_Shape& shape) {
   if (shape.ShapeType() == TopAbs_VERTEX) {
     TopoDS_Vertex copy;
     const TopoDS_Vertex vertex = TopoDS::Vertex(shape);
-    BRep_Builder().MakeVertex(copy, BRep_Tool::Pnt(vertex), BRep_Tool::Tolerance(vertex));
+    BRep_Builder().MakeVertex(copy, BRep_Tool::Pnt(vertex).Transformed(motion_), BRep_Tool::Tolerance(vertex));
     return copy;
   }
   TopoDS_Shape copy = shape.EmptyCopied();
@@ -72,7 +78,8 @@ TopoDS_Shape PlacedCopy::make_edge(const TopoDS_Edge& edge) {
   TopoDS_Edge copy;
   builder.MakeEdge(copy);
   double t0, t1;
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
+  Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
+  if (is_moved() && !curve.IsNull()) curve = Handle(Geom_Curve)::DownCast(curve->Transformed(motion_));
   if (curve.IsNull())
     BRep_Tool::Range(edge, t0, t1), builder.UpdateEdge(copy, BRep_Tool::Tolerance(edge));
   else
@@ -89,7 +96,9 @@ TopoDS_Shape PlacedCopy::make_edge(const TopoDS_Edge& edge) {
 TopoDS_Shape PlacedCopy::make_face(const TopoDS_Face& face) {
   BRep_Builder builder;
   TopoDS_Face copy;
-  builder.MakeFace(copy, BRep_Tool::Surface(face), BRep_Tool::Tolerance(face));
+  Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  if (is_moved()) surface = Handle(Geom_Surface)::DownCast(surface->Transformed(motion_));
+  builder.MakeFace(copy, surface, BRep_Tool::Tolerance(face));
   builder.NaturalRestriction(copy, BRep_Tool::NaturalRestriction(face));
   add_children(face, copy);
   TopTools_MapOfShape seen;

@@ -1,10 +1,11 @@
-// A copy of a shape without locations, that can be changed part by part.
+// A copy of a shape without locations, that can be changed part by part, or is an image of it.
 #pragma once
 
 #include <TopTools_DataMapOfShapeShape.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Shape.hxx>
+#include <gp_Trsf.hxx>
 
 namespace st::occt {
 
@@ -13,6 +14,12 @@ namespace st::occt {
 /// a location are those of the original. Points, parameters, tolerances and flags stay; triangulations are left out.
 class PlacedCopy {
  public:
+  PlacedCopy() = default;
+  /// Moved or mirrored, all parameters stay. Mirrored faces are turned over: their normals are the images of those
+  /// before.
+  explicit PlacedCopy(const gp_Trsf& motion) : motion_(motion) {}
+  /// A vertex or an edge that lies in a mirror's plane is its own image: both share it.
+  void keep(const TopoDS_Shape& shape);
   /// The copy of a shape, or of a part of one that was copied; oriented as it is.
   TopoDS_Shape of(const TopoDS_Shape& shape);
   bool has(const TopoDS_Shape& shape) const { return copies_.IsBound(shape); }
@@ -22,7 +29,9 @@ class PlacedCopy {
   TopoDS_Shape make_edge(const TopoDS_Edge& edge);
   TopoDS_Shape make_face(const TopoDS_Face& face);
   void add_children(const TopoDS_Shape& from, TopoDS_Shape& to);
+  bool is_moved() const { return motion_.Form() != gp_Identity; }
 
+  gp_Trsf motion_;
   TopTools_DataMapOfShapeShape copies_;  ///< of shapes at their places, oriented forward
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "geometry/model/finding.h"
+#include "geometry/model/mirror.h"
 #include "geometry/model/model.h"
 #include "mesh/surface_mesh.h"
 
@@ -47,6 +48,7 @@ struct GeometryArtifact {
   FacetShape facets;      ///< instead, of a model of facets
   Composites composites;  ///< faces of the CAD that are one in `tables`
   ModelTables cad;        ///< where there are any: the tables that go with `brep`
+  Mirror mirror;          ///< of an imported model of which one half is the image of the other
   std::vector<ImportFinding> findings;
   bool is_closed = false;
   /// [2*n] What each was: id (kNone: none) and input (index into header.inputs). Of an edited geometry; of an imported

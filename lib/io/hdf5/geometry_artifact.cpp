@@ -235,6 +235,41 @@ void name_as_joined(const JoinedTables& joined, std::vector<ImportFinding>& find
   }
 }
 
+void write_mirror(Hdf5Writer& w, const Mirror& mirror) {
+  if (mirror.empty()) return;
+  w.write("/st/mirror/plane", std::vector<double>{static_cast<double>(mirror.axis), mirror.value});
+  w.write("/st/mirror/vertex", mirror.vertex);
+  w.write("/st/mirror/edge", mirror.edge);
+  w.write("/st/mirror/face", mirror.face);
+  w.write("/st/mirror/face_is_image", mirror.face_is_image);
+}
+
+/// An image's image is what it is the image of.
+std::vector<std::int32_t> read_images(const Hdf5Reader& r, const std::string& name, std::size_t n) {
+  const std::vector<std::int32_t> image = r.read_rows<std::int32_t>(name, n);
+  require_ids(r, name, image, n);
+  for (std::size_t i = 0; i < n; ++i)
+    if (static_cast<std::size_t>(image[image[i]]) != i) r.fail(name, "row " + std::to_string(i) + " has no partner");
+  return image;
+}
+
+Mirror read_mirror(const Hdf5Reader& r, const ModelTables& t) {
+  const std::vector<double> plane = r.read_rows<double>("/st/mirror/plane", 2);
+  if (plane[0] != 0 && plane[0] != 1 && plane[0] != 2) r.fail("/st/mirror/plane", "the axis is none of 0, 1, 2");
+  require_finite(r, "/st/mirror/plane", plane);
+  const auto n = [](std::int32_t number) { return static_cast<std::size_t>(number); };
+  Mirror mirror{static_cast<int>(plane[0]),
+                plane[1],
+                read_images(r, "/st/mirror/vertex", n(t.n_vertices())),
+                read_images(r, "/st/mirror/edge", n(t.n_edges())),
+                read_images(r, "/st/mirror/face", n(t.n_faces())),
+                r.read_rows<std::uint8_t>("/st/mirror/face_is_image", n(t.n_faces()))};
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (mirror.face_is_image[f] + mirror.face_is_image[mirror.face[f]] != (mirror.face[f] == f ? 0 : 1))
+      r.fail("/st/mirror/face_is_image", "row " + std::to_string(f) + " contradicts its partner's");
+  return mirror;
+}
+
 /// Tables become those in which the composites are faces.
 void join_faces(const Hdf5Reader& r, GeometryArtifact& geometry) {
   const Composites& c = geometry.composites = read_composites(r);
@@ -271,6 +306,7 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
     w.write(kPreviousVertices, geometry.previous_vertices, 2);
   }
   write_composites(w, geometry.composites);
+  write_mirror(w, geometry.mirror);
   if (geometry.facets.empty())
     w.write("/st/brep", geometry.brep);
   else
@@ -303,6 +339,7 @@ GeometryArtifact read_geometry(const std::string& path) {
     geometry.facets = read_facets(r);
   else
     geometry.brep = r.read<std::byte>("/st/brep");
+  if (r.has("/st/mirror/plane")) geometry.mirror = read_mirror(r, geometry.tables);
   geometry.is_closed = r.int_attribute("/st", "is_closed") != 0;
   if (has_composites(r)) join_faces(r, geometry);
   return geometry;
