@@ -35,6 +35,21 @@ class RasterRanks(ToolTest):
         self.assertEqual(runs[1]["hash"], runs[2]["hash"])
         self.assertAlmostEqual(runs[1]["lmax"], runs[0]["lmax"], delta=1e-3 * runs[0]["lmax"])
 
+    def test_wings_apart_are_walked_by_all_ranks_and_found_alike(self):
+        parts = []
+        for i, name in enumerate(("wing_of_8.brep", "wing_of_8.brep", "wing_with_flap.step", "thin_plate.brep")):
+            must("st-import", MODELS / name, "-o", self.folder / f"{i}.hdf")
+            parts.append(self.folder / f"moved{i}.hdf")
+            must("st-edit", self.folder / f"{i}.hdf", "-o", parts[-1], "--transform",
+                 f"scale {0.3 if i > 1 else 1}; translate 0 {200 * i} 0")
+        must("st-edit", *parts, "--as", "a,b,c,d", "-o", self.folder / "wings.hdf")
+        runs = [must("st-raster", self.folder / "wings.hdf", "-o", self.folder / "r.hdf", "--np", ranks, "--threads",
+                     threads, "--json").json() for ranks, threads in ((1, 1), (1, 2), (2, 1), (3, 2), (4, 1))]
+        self.assertGreater(len(runs[0]["lifting_surfaces"]), 2)
+        self.assertEqual({run["hash"] for run in runs}, {runs[0]["hash"]})
+        self.assertEqual([run["lifting_surfaces"] for run in runs[1:]], 4 * [runs[0]["lifting_surfaces"]])
+        self.assertEqual([run["unused_trailing"] for run in runs[1:]], 4 * [runs[0]["unused_trailing"]])
+
     def test_large_cells_are_fewer_and_their_lengths_hold(self):
         geometry, counts, triangles = artifacts_of("assembly") / "geometry.hdf", [], []
         for cell_per_length in (2, 4, 8):

@@ -4,10 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "features/edge_places.h"
 #include "features/profile.h"
 #include "features/strip.h"
+#include "geometry/model/edit_model.h"
+#include "support/backward_executor.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -21,6 +24,7 @@ struct Case {
   std::vector<WingEdge> edges = find_wing_edges(model, roles, find_strips(model));
 
   explicit Case(const std::string& shape) : model(test::make_model(shape)) {}
+  explicit Case(Model&& own) : model(std::move(own)) {}
   Facets facets() const {
     ProfileFacets facets(model, roles, kLimits);
     facets.add_along(edges, SerialExecutor());
@@ -59,6 +63,43 @@ TEST(ProfileFacets, show_the_same_profiles_as_those_of_all_faces) {
     EXPECT_TRUE(n_profiles > 0 || std::string(shape) == "half_blunt_wing") << shape << ": half a profile is none";
     EXPECT_TRUE(std::is_sorted(facets.face.begin(), facets.face.end()));
   }
+}
+
+/// Tasks of two ranks, all of them here.
+struct TwoRanks : test::BackwardExecutor {
+  int size() const override { return 2; }
+};
+
+TEST(ProfileFacets, are_the_same_where_ranks_make_them_ahead) {
+  Model wings = test::make_model("wing_with_pod");
+  for (const char* shape : {"wing_on_body", "wing_of_8", "wing_of_8"})
+    wings = append(wings, transform(test::make_model(shape), {.translation = {0, wings.tables().box().hi.y + 20, 0}}));
+  const Case c(std::move(wings));
+  const auto facets_by = [&](const Executor& executor) {
+    ProfileFacets facets(c.model, c.roles, kLimits);
+    facets.add_along(c.edges, executor);
+    return facets.facets();
+  };
+  const Facets alone = facets_by(SerialExecutor()), shared = facets_by(TwoRanks());
+  EXPECT_GT(faces_with(alone).size(), 10u);
+  EXPECT_EQ(shared.face, alone.face);
+  EXPECT_EQ(shared.triangle, alone.triangle);
+  EXPECT_EQ(shared.xyz, alone.xyz);
+}
+
+TEST(ProfileFacets, of_bodies_are_made_by_as_many_tasks) {
+  Model wings = test::make_model("wing_of_8");
+  for (const double y : {20., 40.})
+    wings = append(wings, transform(test::make_model("wing_of_8"), {.translation = {0, y, 0}}));
+  const Case c(std::move(wings));
+  const auto n_tasks = [&](const auto& executor) {
+    ProfileFacets facets(c.model, c.roles, kLimits);
+    facets.add_along(c.edges, executor);
+    return executor.n_tasks;
+  };
+  const std::size_t n_alone = n_tasks(test::BackwardExecutor());
+  ASSERT_GT(n_alone, 3u) << "walls beyond walls: one task each time";
+  EXPECT_EQ(n_tasks(TwoRanks()), 1 + 3u) << "of the edges' own walls, and of each body";
 }
 
 TEST(ProfileFacets, are_none_of_faces_that_no_profile_crosses) {

@@ -61,6 +61,43 @@ TEST(Profile, has_its_nose_on_the_surface_itself) {
   EXPECT_FALSE(exact_nose(*surface, tail, profile, 0.05 * radius, guess)) << "further away than the facets may be";
 }
 
+/// Where the plane crosses two sides of a triangle.
+std::vector<Vec3> crossing(const Facets& facets, std::size_t i, Vec3 origin, Vec3 normal) {
+  std::vector<Vec3> ends;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 a = facets.xyz[facets.triangle[i][k]], b = facets.xyz[facets.triangle[i][(k + 1) % 3]];
+    const double high = dot(a - origin, normal), low = dot(b - origin, normal);
+    if ((high >= 0) != (low >= 0)) ends.push_back(a + high / (high - low) * (b - a));
+  }
+  return ends;
+}
+
+TEST(Profile, begins_on_the_facet_that_is_nearest_of_all) {
+  const Model model = test::make_row_of_cubes(40);
+  const Facets facets = make_facets(model, std::vector<std::uint8_t>(model.tables().n_faces(), 1), {.deflection = 0.1});
+  const ProfileCutter cutter(facets);
+  const Box3 box = model.tables().box();
+  const double reach = 0.01 * box.diagonal();
+  int n_found = 0;
+  for (int k = 0; k < 2000; ++k) {
+    const auto share = [&](double step) { return std::fmod(step * (k + 1), 1.0); };
+    const Vec3 size = box.hi - box.lo,
+               at = box.lo + Vec3{share(0.8191725) * size.x, share(0.6710436) * size.y, share(0.5497004) * size.z};
+    const Vec3 normal = normalized(Vec3{share(0.31) - 0.5, share(0.47) - 0.5, share(0.73) - 0.5});
+    std::vector<double> least(static_cast<std::size_t>(model.tables().n_faces()), 2 * reach);
+    for (std::size_t i = 0; i < facets.triangle.size(); ++i)
+      if (const std::vector<Vec3> ends = crossing(facets, i, at, normal); ends.size() == 2)
+        least[facets.face[i]] = std::min(least[facets.face[i]], segment_distance(at, ends[0], ends[1]));
+    const double nearest = std::ranges::min(least);
+    const FaceId found = cutter.nearest_face(at, normal, reach);
+    ASSERT_EQ(found != kNone, nearest <= reach) << k;
+    if (found == kNone) continue;
+    EXPECT_NEAR(least[found], nearest, 1e-12 * reach) << k;
+    ++n_found;
+  }
+  EXPECT_GT(n_found, 300);
+}
+
 TEST(Profile, ends_where_the_next_face_has_no_facets) {
   const Model model = test::make_model("sharp_wing");
   std::vector<std::uint8_t> wanted(static_cast<std::size_t>(model.tables().n_faces()), 1);

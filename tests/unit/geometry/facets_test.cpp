@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "support/backward_executor.h"
 #include "support/shapes.h"
@@ -48,6 +49,32 @@ TEST(Facets, join_those_of_other_faces) {
   for (const auto& t : facets.triangle) nodes.insert(nodes.end(), t.begin(), t.end());
   std::sort(nodes.begin(), nodes.end());
   EXPECT_EQ(std::unique(nodes.begin(), nodes.end()) - nodes.begin(), 8);
+}
+
+TEST(Facets, that_come_one_by_one_are_joined_as_if_they_came_at_once) {
+  constexpr int kCubes = 12;
+  const Model model = test::make_row_of_cubes(kCubes);
+  const auto only = [](FaceId f) {
+    std::vector<std::uint8_t> wanted(6 * kCubes, 0);
+    wanted[static_cast<std::size_t>(f)] = 1;
+    return wanted;
+  };
+  Facets steps, unjoined;
+  for (FaceId k = 0; k < 6 * kCubes; ++k) {
+    const FaceId f = (k * 31) % (6 * kCubes);  // here and there
+    add_facets(model, only(f), {.deflection = 0.1}, SerialExecutor(), steps);
+    const Facets own = make_unjoined_facets(model, only(f), {.deflection = 0.1}, SerialExecutor());
+    const auto first = static_cast<std::int32_t>(unjoined.xyz.size());
+    unjoined.xyz.insert(unjoined.xyz.end(), own.xyz.begin(), own.xyz.end());
+    for (const auto& t : own.triangle) unjoined.triangle.push_back({first + t[0], first + t[1], first + t[2]});
+    unjoined.face.insert(unjoined.face.end(), own.face.begin(), own.face.end());
+  }
+  Facets once;
+  join_facets(model, std::move(unjoined), once);
+  EXPECT_EQ(steps.face, once.face);
+  EXPECT_EQ(steps.xyz, once.xyz);
+  EXPECT_EQ(steps.triangle, once.triangle) << "nodes in one place are the first of them";
+  EXPECT_TRUE(std::ranges::is_sorted(steps.along_x, {}, [&](std::int32_t n) { return steps.xyz[n].x; }));
 }
 
 }  // namespace

@@ -49,6 +49,19 @@ TEST_P(ClosestPointOf, is_within_the_bounds_and_no_sample_is_closer) {
   }
 }
 
+TEST_P(ClosestPointOf, is_the_same_on_a_grid_that_is_kept) {
+  const Model model = test::make_model(GetParam());
+  const auto s = model.surface(0);
+  SurfaceGrid grid;
+  for (int k = 0; k < 25; ++k) {
+    const Vec3 target = point_about(model.tables().face_box[0], k);
+    const SurfaceFoot once = closest_point(*s, target), kept = closest_point(*s, target, grid);
+    EXPECT_EQ(kept.uv, once.uv) << k;
+    EXPECT_EQ(kept.distance, once.distance) << k;
+  }
+  EXPECT_EQ(grid.x.size(), grid.u.size() * grid.v.size());
+}
+
 TEST_P(ClosestPointOf, is_where_the_descent_from_beside_it_ends) {
   const Model model = test::make_model(GetParam());
   const auto s = model.surface(0);
