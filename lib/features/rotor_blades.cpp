@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -11,6 +11,7 @@
 #include "base/similarity.h"
 #include "base/sort_once.h"
 #include "features/arc_table.h"
+#include "features/edge_places.h"
 
 namespace st {
 namespace {
@@ -19,8 +20,9 @@ constexpr std::size_t kPlaces = 5;         // along an edge, its ends included
 constexpr double kSameLength = 1e-3;       // of an edge's length: to that of its image
 constexpr double kOff = 2e-3;              // of an edge's length: a place from that of its image
 constexpr double kLeastTurn = radians(1);  // between two blades: copies in one place are none
-constexpr double kSlip = 2e-3;             // of an edge's length: along the axis, of a turn
 constexpr double kUp = 1e-6;               // of unit vectors across an edge: too short for a direction
+
+constexpr double kNearlyAll = 0.9;  // of the way of the best: others have too few chords to compare
 
 using Places = std::array<Vec3, kPlaces>;
 
@@ -82,11 +84,8 @@ double straight_way(const LiftingSurface& wing) {
   return way;
 }
 
-/// A blade turned about an axis onto another place of the model.
-struct BladeImage {
-  LiftingSurface wing;
-  double angle = 0;  // from the blade, radians
-};
+/// Largest over least chord; those cut along a foreign axis have tiny ones at their ends.
+double spread_of(const LiftingSurface& wing) { return wing.largest_chord / wing.least_chord; }
 
 class BladeFinder {
  public:
@@ -98,7 +97,6 @@ class BladeFinder {
     t_.edge_faces(offsets_, edge_faces_);
   }
 
-  /// Whether any surface changed.
   bool run() {
     bool has_changed = false;
     for (std::size_t i = 0; i < wings_.size(); ++i)
@@ -208,7 +206,7 @@ class BladeFinder {
       for (const double sign : {1.0, -1.0}) {
         const auto motion = motion_between(from, from.normals.front(), to, sign * to.tangent, normal);
         if (!motion) continue;
-        const auto axis = axis_of(*motion, kSlip * length);
+        const auto axis = axis_of(*motion, kOff * length);
         if (axis && image_of(a, *motion, kOff * length).edge == b) axes.push_back(*axis);
       }
     return axes;
@@ -266,11 +264,11 @@ class BladeFinder {
   }
 
   /// All places where turns about an axis take a surface, its own first.
-  std::vector<BladeImage> images_of(const LiftingSurface& wing, const TurnAxis& axis) {
+  std::vector<LiftingSurface> images_of(const LiftingSurface& wing, const TurnAxis& axis) {
     const EdgeId lead = longest_edge(wing);
     const Vec3 middle = places_of(lead)[kPlaces / 2];
     const double reach = kOff * t_.edge_length[lead];
-    std::vector<BladeImage> images{{wing, 0}};
+    std::vector<LiftingSurface> images{wing};
     if (axis.radius(middle) <= reach) return images;
     for (const EdgeId e : as_long_as(lead)) {
       const Vec3 x = places_of(e)[kPlaces / 2];
@@ -278,23 +276,22 @@ class BladeFinder {
           std::abs(axis.radius(x) - axis.radius(middle)) > reach)
         continue;
       const double angle = axis.azimuth(x) - axis.azimuth(middle);
-      if (auto own = image_of_wing(wing, axis.turn(angle))) images.push_back({std::move(*own), angle});
+      if (auto own = image_of_wing(wing, axis.turn(angle))) images.push_back(std::move(*own));
     }
     return images;
   }
 
-  static bool has_edge(const LiftingSurface& wing, EdgeId e) {
-    return std::ranges::any_of(wing.trailing, [&](const ChordEdge& own) { return own.edge == e; });
-  }
   static bool share_edges(const LiftingSurface& a, const LiftingSurface& b) {
-    return std::ranges::any_of(a.trailing, [&](const ChordEdge& own) { return has_edge(b, own.edge); });
+    return std::ranges::any_of(a.trailing, [&](const ChordEdge& own) {
+      return std::ranges::count(b.trailing, own.edge, &ChordEdge::edge) > 0;
+    });
   }
 
   /// Surfaces at these places, ascending.
-  std::vector<std::size_t> members_of(std::span<const BladeImage> images) const {
+  std::vector<std::size_t> members_of(std::span<const LiftingSurface> images) const {
     std::vector<std::size_t> members;
     for (std::size_t k = 0; k < wings_.size(); ++k)
-      if (std::ranges::any_of(images, [&](const BladeImage& own) { return share_edges(own.wing, wings_[k]); }))
+      if (std::ranges::any_of(images, [&](const LiftingSurface& own) { return share_edges(own, wings_[k]); }))
         members.push_back(k);
     return members;
   }
@@ -323,12 +320,16 @@ class BladeFinder {
   bool liken_those_around(std::size_t i) {
     const auto axis = best_axis(i);
     if (!axis) return false;
-    const std::vector<BladeImage> own = images_of(wings_[i], *axis);
+    const std::vector<LiftingSurface> own = images_of(wings_[i], *axis);
     std::vector<std::size_t> members = members_of(own);
     std::ranges::stable_sort(members, std::greater(), [&](std::size_t k) { return straight_way(wings_[k]); });
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t k : members)
+      if (straight_way(wings_[k]) >= kNearlyAll * straight_way(wings_[members.front()]))
+        least = std::min(least, spread_of(wings_[k]));
     for (const std::size_t k : members) {
-      if (!is_whole(wings_[k]) || straight_way(wings_[k]) == 0) continue;
-      std::vector<BladeImage> images = images_of(wings_[k], *axis);
+      if (!is_whole(wings_[k]) || straight_way(wings_[k]) == 0 || spread_of(wings_[k]) > kOutlier * least) continue;
+      std::vector<LiftingSurface> images = images_of(wings_[k], *axis);
       if (images.size() < own.size()) continue;
       put_in(images);
       return true;
@@ -337,18 +338,18 @@ class BladeFinder {
   }
 
   /// Each in the place of those that have one of its edges.
-  void put_in(std::span<BladeImage> images) {
-    for (BladeImage& image : images) {
+  void put_in(std::span<LiftingSurface> images) {
+    for (LiftingSurface& image : images) {
       std::optional<std::size_t> first;
       bool is_users = false;
       for (std::size_t k = 0; k < wings_.size(); ++k) {
-        if (!share_edges(image.wing, wings_[k])) continue;
+        if (!share_edges(image, wings_[k])) continue;
         is_users = is_users || !is_whole(wings_[k]);
         if (!first) first = k;
       }
       if (is_users) continue;
       for (std::size_t k = wings_.size(); first && k-- > *first + 1;) {
-        if (!share_edges(image.wing, wings_[k])) continue;
+        if (!share_edges(image, wings_[k])) continue;
         wings_.erase(wings_.begin() + static_cast<std::ptrdiff_t>(k));
         is_done_.erase(is_done_.begin() + static_cast<std::ptrdiff_t>(k));
       }
@@ -357,7 +358,7 @@ class BladeFinder {
         wings_.emplace_back();
         is_done_.push_back(0);
       }
-      wings_[*first] = std::move(image.wing);
+      wings_[*first] = std::move(image);
       is_done_[*first] = 1;
     }
   }
