@@ -602,6 +602,11 @@ const std::map<std::string, Factory>& factories() {
          const gp_Ax2 along_x(gp_Pnt(0, 0, 0), gp::DX());
          return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeCylinder(along_x, 1, 9)).Shape();
        }},
+      {"ball_with_bar",  // that passes the seam of the ball twice, on one side by almost half of the way around
+       [] {
+         const gp_Ax2 axis(gp_Pnt(-0.825, -0.414, -1.993), gp_Dir(2.061, -3.699, 2.356));
+         return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(2.14), BRepPrimAPI_MakeCylinder(axis, 1.13, 4.85)).Shape();
+       }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"two_balls", [] { return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"cone_on_cylinder",

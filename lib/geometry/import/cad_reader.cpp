@@ -59,6 +59,7 @@
 
 #include "base/error.h"
 #include "base/face_labels.h"
+#include "base/ids.h"
 #include "geometry/flite/flite_file.h"
 #include "geometry/flite/flite_reader.h"
 #include "geometry/import/text_encoding.h"
@@ -380,25 +381,42 @@ void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel) & model) {
       product->SetId(product->Name());
 }
 
+/// Faces that were made of entities of a file, wherever they stand.
+class FacesOfEntities {
+ public:
+  explicit FacesOfEntities(const Handle(XSControl_WorkSession) & session)
+      : process_(session->TransferReader()->TransientProcess()) {}
+
+  /// Whether an entity became a face that is not yet among them; it is its last then.
+  bool add(const Handle(Standard_Transient) & entity) {
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(process_, entity);
+    if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces_.Contains(shape.Located({}))) return false;
+    faces_.Add(shape.Located({}));
+    return true;
+  }
+  /// How many were added before this face; kNone where it is not among them.
+  std::int32_t find(const TopoDS_Shape& face) const {
+    const int k = faces_.FindIndex(face.Located({}));
+    return k > 0 ? k - 1 : kNone;
+  }
+
+ private:
+  Handle(Transfer_TransientProcess) process_;
+  TopTools_IndexedMapOfShape faces_;
+};
+
 /// Names that XCAF kept no label for, from the STEP entities themselves.
 void name_faces_by_entity(const Handle(XSControl_WorkSession) & session, CadFile& file) {
-  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
-  const Handle(Interface_InterfaceModel) model = session->Model();
-  TopTools_IndexedMapOfShape faces;
+  FacesOfEntities faces(session);
   std::vector<std::string> names;
-  for (int i = 1; i <= model->NbEntities(); ++i) {
-    const auto entity = Handle(StepRepr_RepresentationItem)::DownCast(model->Value(i));
+  for (int i = 1; i <= session->Model()->NbEntities(); ++i) {
+    const auto entity = Handle(StepRepr_RepresentationItem)::DownCast(session->Model()->Value(i));
     if (entity.IsNull() || entity->Name().IsNull() || is_junk(entity->Name()->ToCString())) continue;
-    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
-    if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces.Contains(shape.Located(TopLoc_Location())))
-      continue;
-    faces.Add(shape.Located(TopLoc_Location()));
-    names.push_back(valid_utf8(entity->Name()->ToCString()));
+    if (faces.add(entity)) names.push_back(valid_utf8(entity->Name()->ToCString()));
   }
   for (CadPart& part : file.parts)
     for (auto& face : part.faces)
-      if (const int k = face.name.empty() ? faces.FindIndex(face.face.Located(TopLoc_Location())) : 0; k > 0)
-        face.name = names[k - 1];
+      if (const std::int32_t k = face.name.empty() ? faces.find(face.face) : kNone; k != kNone) face.name = names[k];
 }
 
 /// Whether a loop passes an edge twice.
@@ -414,24 +432,17 @@ bool has_seam(const StepShape_FaceSurface& face) {
 
 /// What ADVANCED_FACEs say of the side that they face, and of their seams.
 void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file) {
-  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
-  TopTools_IndexedMapOfShape faces;
-  std::vector<CadPart::FaceAttributes> said;
-  for (int i = 1; i <= session->Model()->NbEntities(); ++i) {
-    const auto entity = Handle(StepShape_FaceSurface)::DownCast(session->Model()->Value(i));
-    if (entity.IsNull()) continue;
-    const TopoDS_Shape shape = TransferBRep::ShapeResult(process, entity);
-    if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces.Contains(shape.Located({}))) continue;
-    faces.Add(shape.Located({}));
-    CadPart::FaceAttributes& face = said.emplace_back();
-    face.same_sense = entity->SameSense();
-    face.has_seam = has_seam(*entity);
-  }
+  FacesOfEntities faces(session);
+  std::vector<Handle(StepShape_FaceSurface)> entities;
+  for (int i = 1; i <= session->Model()->NbEntities(); ++i)
+    if (const auto entity = Handle(StepShape_FaceSurface)::DownCast(session->Model()->Value(i));
+        !entity.IsNull() && faces.add(entity))
+      entities.push_back(entity);
   for (CadPart& part : file.parts)
     for (auto& face : part.faces)
-      if (const int k = faces.FindIndex(face.face.Located({})); k > 0) {
-        face.same_sense = said[k - 1].same_sense;
-        face.has_seam = said[k - 1].has_seam;
+      if (const std::int32_t k = faces.find(face.face); k != kNone) {
+        face.same_sense = entities[k]->SameSense();
+        face.has_seam = has_seam(*entities[k]);
       }
 }
 

@@ -16,11 +16,10 @@
 #include <TopoDS_Face.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <TopoDS_Wire.hxx>
-#include <cmath>
 #include <optional>
 
-#include "base/boxes.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/seam_loop.h"
 #include "geometry/model/imported_shape.h"
 
 namespace st::occt {
@@ -35,15 +34,14 @@ bool is_pole(const Handle(Geom_Surface) & surface, double u, double period, doub
   return true;
 }
 
-/// Whether the surface has no border; its bounds.
-std::optional<Box2> bounds_all_around(const Handle(Geom_Surface) & surface) {
-  if (surface.IsNull() || !surface->IsUPeriodic()) return std::nullopt;
-  Box2 b;
-  surface->Bounds(b.lo.x, b.hi.x, b.lo.y, b.hi.y);
-  if (Precision::IsInfinite(b.lo.y) || Precision::IsInfinite(b.hi.y)) return std::nullopt;
-  const auto is_end = [&](double v) { return is_pole(surface, b.lo.x, surface->UPeriod(), v); };
-  if (!surface->IsVPeriodic() && !(is_end(b.lo.y) && is_end(b.hi.y))) return std::nullopt;
-  return b;
+bool has_no_border(const Handle(Geom_Surface) & surface) {
+  if (surface.IsNull() || !surface->IsUPeriodic()) return false;
+  if (surface->IsVPeriodic()) return true;
+  double u_min, u_max, v_min, v_max;
+  surface->Bounds(u_min, u_max, v_min, v_max);
+  if (Precision::IsInfinite(v_min) || Precision::IsInfinite(v_max)) return false;
+  const auto is_end = [&](double v) { return is_pole(surface, u_min, surface->UPeriod(), v); };
+  return is_end(v_min) && is_end(v_max);
 }
 
 /// The one loop of a face that has no seam and no pole on it.
@@ -62,7 +60,7 @@ std::optional<TopoDS_Wire> plain_loop(const TopoDS_Face& face) {
 }
 
 bool may_be_on_either_side(const TopoDS_Face& face) {
-  return bounds_all_around(BRep_Tool::Surface(face)) && plain_loop(face);
+  return has_no_border(BRep_Tool::Surface(face)) && plain_loop(face);
 }
 
 /// The rest of the surface, facing the other way, with the loop as its hole; its seam is far from that.
@@ -123,7 +121,7 @@ struct PartFaces {
 /// Faces of a shell that may be on either side of their loop, and are on the wrong one: those that had a seam in the
 /// file, and those that do not face as the file says, by what holds for the shell's other faces.
 std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFaces& faces) {
-  std::vector<TopoDS_Face> with_seam, agreeing, other;
+  std::vector<TopoDS_Face> wrong, agreeing, other;
   int n_agree = 0, n_other = 0;  // of those that can be on one side only
   for (TopExp_Explorer f(shell, TopAbs_FACE); f.More(); f.Next()) {
     const TopoDS_Face face = TopoDS::Face(f.Current());
@@ -133,17 +131,17 @@ std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFac
     if (!may_be_on_either_side(face))
       ++(agrees ? n_agree : n_other);
     else if (in_file->has_seam)
-      with_seam.push_back(face);
+      wrong.push_back(face);
     else
       (agrees ? agreeing : other).push_back(face);
   }
-  const std::vector<TopoDS_Face>& wrong = n_agree > n_other ? other : agreeing;
-  if (n_agree == n_other || wrong.empty()) return with_seam;  // the reader may have turned the whole shell
+  const std::vector<TopoDS_Face>& turned = n_agree > n_other ? other : agreeing;
+  if (n_agree == n_other || turned.empty()) return wrong;  // the reader may have turned the whole shell
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, faces_of);
-  for (const TopoDS_Face& face : wrong)  // files may err in what they say of a fillet's corner
-    if (!is_smooth_beside(face, faces_of)) with_seam.push_back(face);
-  return with_seam;
+  for (const TopoDS_Face& face : turned)  // files may err in what they say of a fillet's corner
+    if (!is_smooth_beside(face, faces_of)) wrong.push_back(face);
+  return wrong;
 }
 
 }  // namespace
@@ -154,16 +152,18 @@ void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings) {
     const PartFaces faces(part);
     const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
     bool is_changed = false;
+    const auto replace = [&](const TopoDS_Face& face, const TopoDS_Face& mended) {
+      if (mended.IsNull() || reshape->IsRecorded(face)) return;
+      reshape->Replace(face, mended);
+      is_changed = true;
+      const Box3 box = rough_box(mended);
+      findings.push_back({FindingKind::kOtherSide, file_label(first + faces.index.FindIndex(face) - 1), box.center(),
+                          box.diagonal(), true});
+    };
+    for (const CadPart::FaceAttributes& f : part.faces)
+      if (f.has_seam) replace(TopoDS::Face(f.face), with_chains_turned(TopoDS::Face(f.face)));
     for (TopExp_Explorer s(part.shape, TopAbs_SHELL); s.More(); s.Next())
-      for (const TopoDS_Face& face : wrong_sides_of(s.Current(), faces)) {
-        const TopoDS_Face mended = other_side(face);
-        if (mended.IsNull() || reshape->IsRecorded(face)) continue;
-        reshape->Replace(face, mended);
-        is_changed = true;
-        const Box3 box = rough_box(mended);
-        findings.push_back({FindingKind::kOtherSide, file_label(first + faces.index.FindIndex(face) - 1), box.center(),
-                            box.diagonal(), true});
-      }
+      for (const TopoDS_Face& face : wrong_sides_of(s.Current(), faces)) replace(face, other_side(face));
     first += static_cast<std::int32_t>(part.faces.size());
     if (!is_changed) continue;
     for (CadPart::FaceAttributes& f : part.faces) f.face = reshape->Apply(f.face);

@@ -13,7 +13,7 @@ namespace st::occt {
 /// seam on a surface that closes all around (sphere, torus, what turns about an axis from pole to pole), and gets the
 /// rest of its surface where the file has a seam in its loop, or where it does not face as the file says while the
 /// other faces of its shell do and it meets none of them smoothly, as a fillet's corner would. In a shell of such faces
-/// alone those without a seam stay. Each is said in `findings`.
+/// alone those without a seam stay. Loops along a seam are mended by with_chains_turned(). Each is said in `findings`.
 void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings);
 
 }  // namespace st::occt
