@@ -6,8 +6,8 @@
 #include <span>
 #include <utility>
 
-#include "base/box_tree.h"
 #include "base/eigen.h"
+#include "sizing/length_tree.h"
 
 namespace st {
 namespace {
@@ -110,48 +110,16 @@ std::vector<std::array<std::int32_t, 3>> border_of(const BackgroundMesh& mesh) {
   return border;
 }
 
-/// A tree of boxes, and the smallest length in each of its nodes.
-class LengthTree {
- public:
-  LengthTree() = default;
-  LengthTree(std::span<const Box3> boxes, std::span<const double> least) : tree_(boxes) {
-    for (const BoxTree::Node& node : tree_.nodes()) {
-      double smallest = kInfinity;
-      for (std::int32_t i = node.begin; i < node.end; ++i) smallest = std::min(smallest, least[tree_.items()[i]]);
-      least_.push_back(smallest);
-    }
-  }
-  /// Those whose box holds x, while one may be below `best`.
-  template <class Visit>
-  void visit_at(Vec3 x, const double& best, const Visit& visit) const {
-    tree_.visit_near(
-        x, [&](std::int32_t node, double d2) { return d2 == 0 && least_[node] < best; }, visit);
-  }
-  /// Those from which lengths that grow by `slope` may reach x below `best`.
-  template <class Visit>
-  void visit_from(Vec3 x, double slope, const double& best, const Visit& visit) const {
-    const auto matters = [&](std::int32_t node, double d2) {
-      const double room = best - least_[node];
-      return room > 0 && slope * slope * d2 < room * room;
-    };
-    tree_.visit_near(x, matters, visit);
-  }
-
- private:
-  BoxTree tree_;
-  std::vector<double> least_;  // [nodes of the tree]
-};
-
 class BackgroundSource final : public SizeSource {
  public:
   BackgroundSource(BackgroundMesh mesh, double slope) : SizeSource(slope), mesh_(std::move(mesh)) {
-    border_ = border_of(mesh_);
-    border_.insert(border_.end(), mesh_.triangles.begin(), mesh_.triangles.end());
-    leave_out_flat();
     for (const LocalSize& s : mesh_.node_size) {
       min_size_ = std::min(min_size_, s.length);
       max_aspect_ = std::max(max_aspect_, s.along / s.length);
     }
+    border_ = border_of(mesh_);
+    border_.insert(border_.end(), mesh_.triangles.begin(), mesh_.triangles.end());
+    leave_out_flat();
     for (const Vec3 x : mesh_.node_xyz) box_.add(x);
     tet_tree_ = tree_over(std::span<const std::array<std::int32_t, 4>>(mesh_.tets));
     border_tree_ = tree_over(std::span<const std::array<std::int32_t, 3>>(border_));
@@ -172,6 +140,13 @@ class BackgroundSource final : public SizeSource {
     if (!(shared.share > 0)) return {length, length, {}};
     const double along = length_in(shared.direction, x);
     return {length, length + shared.share * std::max(0.0, along - length), shared.direction};
+  }
+  /// Of the cell that tells the length at x.
+  Vec3 gradient(Vec3 x) const override {
+    std::size_t tet = kNowhere, border = kNowhere;
+    least_outside(x, least_inside(x, kInfinity, tet), border);
+    if (border != kNowhere) return gradient_of([&](Vec3 at) { return border_length(border, at); }, x);
+    return tet == kNowhere ? Vec3{} : frames_[tet].gradient(lengths_of(mesh_, mesh_.tets[tet]));
   }
   double min_size() const override { return min_size_; }
   double max_aspect() const override { return max_aspect_; }
@@ -222,12 +197,15 @@ class BackgroundSource final : public SizeSource {
     });
     return best;
   }
+  double border_length(std::size_t triangle, Vec3 x) const {
+    const std::array<double, 3> lengths = values_at(border_[triangle], [](const LocalSize& s) { return s.length; });
+    return least_over_triangle(x, corners_of(triangle), lengths, slope());
+  }
   /// Of the growth from the border, or best; `winner`: the triangle that asks for less than best, else unchanged.
   double least_outside(Vec3 x, double best, std::size_t& winner) const {
     border_tree_.visit_from(x, slope(), best, [&](std::int32_t b) {
       const auto triangle = static_cast<std::size_t>(b);
-      const std::array<double, 3> lengths = values_at(border_[triangle], [](const LocalSize& s) { return s.length; });
-      const double length = least_over_triangle(x, corners_of(triangle), lengths, slope());
+      const double length = border_length(triangle, x);
       if (!(length < best)) return;
       best = length;
       winner = triangle;

@@ -131,6 +131,10 @@ double grown_length(const SourceSpacing& s, double slope, double r) {
   return t <= steep ? s.length * std::exp(t / width) : slope * (width + t - steep);
 }
 
+Vec3 SizeSource::gradient(Vec3 x) const {
+  return gradient_of([this](Vec3 at) { return size(at); }, x);
+}
+
 SourceGrowth SizeSource::growth() const {
   constexpr double kFar = 1e150;  // whose square is a number
   return {{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, {min_size(), 0, 0}};

@@ -40,6 +40,8 @@ class SizeSource : public SizeField {
   double slope() const final { return slope_; }
   /// min(upper, size(x)), sooner where a bound is enough.
   virtual double size_below(Vec3 x, double upper) const { return std::min(upper, size(x)); }
+  /// Of size() at x. Here: by differences.
+  virtual Vec3 gradient(Vec3 x) const;
   /// The tighter, the sooner a search passes over it. Here: it may ask for its smallest length anywhere.
   virtual SourceGrowth growth() const;
   /// Largest ratio of the two lengths of local().
@@ -49,6 +51,14 @@ class SizeSource : public SizeField {
  private:
   double slope_;
 };
+
+/// Of a length at x, by central differences.
+template <class Length>
+Vec3 gradient_of(const Length& length, Vec3 x) {
+  const double step = 1e-4 * length(x);
+  const auto change = [&](Vec3 d) { return (length(x + d) - length(x - d)) / (2 * step); };
+  return {change({step, 0, 0}), change({0, step, 0}), change({0, 0, step})};
+}
 
 /// The number of a type in the table (source_types.h).
 enum class SourceKind { kPoint, kLine, kTriangle, kBox, kCylinder, kSphere, kDisc };

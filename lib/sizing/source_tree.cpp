@@ -136,12 +136,7 @@ bool SourceTree::tells(Vec3 x, double length) const {
   return size_below(x, above) < above;
 }
 
-Vec3 SourceTree::gradient(std::int32_t source, Vec3 x) const {
-  const SizeSource& s = *entries_[source].source;
-  const double step = 1e-4 * s.size(x);
-  const auto change = [&](Vec3 d) { return (s.size(x + d) - s.size(x - d)) / (2 * step); };
-  return {change({step, 0, 0}), change({0, step, 0}), change({0, 0, step})};
-}
+Vec3 SourceTree::gradient(std::int32_t source, Vec3 x) const { return entries_[source].source->gradient(x); }
 
 Vec3 SourceTree::origin(std::int32_t source, Vec3 x) const {
   constexpr int kMostSteps = 50;

@@ -81,7 +81,7 @@ class SourceTree {
   FewSources find_near(Vec3 x, double radius, double upper) const;
   /// Whether a source asks for no more than `length` at x.
   bool tells(Vec3 x, double length) const;
-  /// The gradient of a source's lengths at x, by differences.
+  /// The gradient of a source's lengths at x.
   Vec3 gradient(std::int32_t source, Vec3 x) const;
   /// The place from which a source's length at x grows: down its gradient to its smallest length.
   Vec3 origin(std::int32_t source, Vec3 x) const;

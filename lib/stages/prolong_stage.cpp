@@ -21,6 +21,7 @@
 #include "sizing/moved_field.h"
 #include "sizing/size_field.h"
 #include "sizing/stretched_cones.h"
+#include "sizing/telling_triangles.h"
 #include "stages/blank_input.h"
 #include "stages/edit_provenance.h"
 #include "stages/expected_triangles.h"
@@ -266,6 +267,7 @@ ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Pr
       o.sources, o.background, parse_similarity(o.transform, "--transform").then(sizing.frame.inverse()),
       octree_options["slope"].get<double>(), {sizing.numbers.diagonal * sizing.frame.scale, sizing.header.unit_in_m},
       sizing.numbers.max_aspect > 1);
+  input.set.background.triangles = telling_triangles(input.set.background, input.set.slope);
   warn_of_places(input, sizing.shape.view(), sizing.numbers.far_length, sizing.header.unit);
   sizing.sources = std::move(input.set);
   sizing.names.source = std::move(input.names);
