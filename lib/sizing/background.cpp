@@ -400,6 +400,15 @@ std::int64_t remove_stretch(BackgroundMesh& mesh) {
   return n_stretched;
 }
 
+std::int64_t raise_lengths(double least, BackgroundMesh& mesh) {
+  std::int64_t n_raised = 0;
+  for (LocalSize& s : mesh.node_size) {
+    n_raised += s.length < least;
+    s = uniaxial({std::max(s.length, least), std::max(s.along, least), s.direction});
+  }
+  return n_raised;
+}
+
 void transform(const Similarity& motion, BackgroundMesh& mesh) {
   for (Vec3& p : mesh.node_xyz) p = motion(p);
   for (LocalSize& s : mesh.node_size)

@@ -30,6 +30,9 @@ LocalSize uniaxial(const LocalSize& s);
 /// Takes the smallest length in all directions; the number of nodes that had a longer one.
 std::int64_t remove_stretch(BackgroundMesh& mesh);
 
+/// No length below `least` (model unit); the number of nodes that had one.
+std::int64_t raise_lengths(double least, BackgroundMesh& mesh);
+
 void transform(const Similarity& motion, BackgroundMesh& mesh);
 
 /// Appends the nodes and cells of another mesh.

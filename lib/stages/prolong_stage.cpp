@@ -71,6 +71,10 @@ void require_valid(const ProlongStageOptions& o) {
   if (o.no_blank && !o.blank.empty())
     throw Error(ExitCode::kUsage, "--no-blank and --blank exclude each other: leave out one");
   parse_slopes(o.slope_of);
+  if (o.only && o.background.empty())
+    throw Error(ExitCode::kUsage, "--only takes the lengths of --background alone: give one");
+  if (o.only && (!o.blank.empty() || !o.slope_of.empty()))
+    throw Error(ExitCode::kUsage, "--only leaves out the lengths of walls: leave out --blank and --slope-of");
   if (!o.transform.empty() && o.sources.empty() && o.background.empty())
     log_warning("--transform has no effect without --sources or --background");
   if (o.blank_side != ProlongStageOptions().blank_side && o.blank.empty())
@@ -79,9 +83,12 @@ void require_valid(const ProlongStageOptions& o) {
     throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
 }
 
+constexpr const char* kOnly = "only_above";  // option in a sizing of --only: the smallest length, in the octree's frame
+
 /// The options that the octree's lengths depend on; file names stand among the inputs.
-Json octree_options(const ProlongStageOptions& o) {
+Json octree_options(const ProlongStageOptions& o, const RasterArtifact& raster) {
   Json json = {{"slope", o.slope}};
+  if (o.only) json[kOnly] = Json::parse(raster.header.options_json).value("lmin", 0.0);
   if (!o.slope_of.empty()) json["slope_of"] = o.slope_of;
   if (!o.blank.empty()) json["blank_side"] = o.blank_side;
   if (o.no_blank) json["no_blank"] = true;
@@ -215,6 +222,12 @@ std::vector<float> sample_slopes(const ProlongStageOptions& o, const std::option
   return slope;
 }
 
+/// Leaves the largest length alone.
+void forget_walls(RasterArtifact& raster) {
+  raster.samples.clear();
+  forget_samples(raster.octree);
+}
+
 /// Prolongs what the raster asks for; `sizing` gets shape, lengths, blanking and slope.
 void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress& progress, RasterArtifact& raster,
                   SizingArtifact& sizing) {
@@ -260,6 +273,16 @@ struct ProlongedSizes {
   }
 };
 
+/// To the smallest length that the raster allows.
+void raise_background(double least, const SizingArtifact& sizing, BackgroundMesh& mesh) {
+  if (const std::int64_t n = raise_lengths(least, mesh))
+    log_warning(
+        fmt::format("{} of {} nodes of the background mesh ask for less than the raster's lmin, {:.4g}{}, and "
+                    "get it; give st-raster a smaller --lmin",
+                    n, mesh.node_xyz.size(), sizing.frame.scale * least,
+                    sizing.header.unit.empty() ? "" : " " + sizing.header.unit));
+}
+
 /// Adds the sources of `o`, and all that depends on them and on the scale, to the octree's lengths.
 ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Progress& progress,
                            SizingArtifact&& sizing) {
@@ -267,6 +290,8 @@ ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Pr
       o.sources, o.background, parse_similarity(o.transform, "--transform").then(sizing.frame.inverse()),
       octree_options["slope"].get<double>(), {sizing.numbers.diagonal * sizing.frame.scale, sizing.header.unit_in_m},
       sizing.numbers.max_aspect > 1);
+  if (octree_options.contains(kOnly))
+    raise_background(octree_options[kOnly].get<double>(), sizing, input.set.background);
   input.set.background.triangles = telling_triangles(input.set.background, input.set.slope);
   warn_of_places(input, sizing.shape.view(), sizing.numbers.far_length, sizing.header.unit);
   sizing.sources = std::move(input.set);
@@ -297,7 +322,9 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
   SizingArtifact sizing;
   sizing.frame = moved.motion;
   sizing.numbers = raster.numbers;
-  const Barrier barrier = find_barrier(o, raster, moved.motion.inverse());
+  Json options = octree_options(o, raster);
+  const Barrier barrier = o.only ? Barrier{} : find_barrier(o, raster, moved.motion.inverse());
+  if (o.only) forget_walls(raster);
   make_lengths(o, barrier, progress, raster, sizing);
   sizing.names = {std::move(raster.edge_name), raster.labels.face_name, {}};
   sizing.faces = std::move(raster.faces);
@@ -312,7 +339,7 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
   sizing.header.inputs = {{"raster", std::filesystem::path(o.raster).filename().string(), raster.header.content_hash}};
   for (const std::vector<InputRef>& files : {moved.file, barrier.file})
     sizing.header.inputs.insert(sizing.header.inputs.end(), files.begin(), files.end());
-  return add_sources(o, octree_options(o), progress, std::move(sizing));
+  return add_sources(o, std::move(options), progress, std::move(sizing));
 }
 
 /// Other sources for a finished field; what the octree tells stays.
@@ -324,7 +351,7 @@ ProlongedSizes change_sources(ProlongStageOptions o, Progress& progress) {
                                               o.raster));
   const Json made_with = Json::parse(sizing.header.options_json);
   const ProlongStageOptions defaults;
-  if (!o.slope_of.empty() || !o.blank.empty() || o.no_blank || !o.geometry.empty() ||
+  if (!o.slope_of.empty() || !o.blank.empty() || o.no_blank || !o.geometry.empty() || o.only ||
       (o.slope != defaults.slope && o.slope != made_with["slope"].get<double>()))
     throw Error(ExitCode::kUsage, fmt::format("{}: is a finished field, of which the sources and the scale can be "
                                               "changed; give the raster for other slopes, blanking or geometry",

@@ -22,6 +22,7 @@ struct ProlongStageOptions {
   std::vector<std::string> sources;  ///< files of sources (TOML, .bac, .ba3); later ones replace sources of the same
                                      ///< name
   std::string background;            ///< background mesh, see read_background_file() and read_size_mesh(); empty: none
+  bool only = false;                 ///< lengths come from the background alone, between the raster's lmin and lmax
   std::string transform;  ///< moves sources and background into the model's frame; see parse_similarity; empty: as they
                           ///< are
   std::string geometry;   ///< what st-edit --transform made of the raster's geometry: the octree moves with it; empty:

@@ -7,7 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cmake --install "$build" --prefix "$work/prefix" > "$work/install.log" || { cat "$work/install.log"; exit 1; }
 for tool in st-import st-edit st-raster st-prolong st-mesh st-remesh st-merge st-check st-info st-diff st-export \
-  st-report st-run; do
+  st-metric st-report st-run; do
   (cd / && env -i PATH=/usr/bin:/bin "$work/prefix/bin/$tool" --version > /dev/null) \
     || { echo "FAILED: $tool does not run"; exit 1; }
   if readelf -d "$work/prefix/bin/$tool" \

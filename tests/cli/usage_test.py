@@ -11,7 +11,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 from chain import BIN, INPUT, MODELS, OUTPUT, TOOLS, USAGE, Run, ToolTest, artifacts_of, must  # noqa: E402
 
 N_INPUTS = {"st-import": 1, "st-edit": 1, "st-raster": 1, "st-prolong": 1, "st-mesh": 2, "st-remesh": 3, "st-merge": 1,
-            "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1, "st-run": 1}
+            "st-check": 1, "st-info": 1, "st-diff": 2, "st-export": 1, "st-report": 1, "st-metric": 1,
+            "st-run": 1}
+OUTPUTS = {"st-export": ["-o", "out.stl"], "st-metric": ["-o", "out.solb"]}  # that have no default
 # Options of all tools, which the pages describe in words.
 COMMON = {"--help", "--help-all", "--version", "--options", "--print-options", "--print-inputs", "--quiet",
           "--verbose", "--json", "--wall-limit", "--replace-own"}
@@ -50,6 +52,8 @@ REFUSED = {
                    "--max-triangles": ["3", "x"],
                    "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"],
                    "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
+    "st-metric": {"--nodes": ["3", "x"], "--norm": ["0.9", "101"], "--max-aspect": ["0.9", "1001"],
+                  "--lmin": ["0", "-1"], "--lmax": ["0", "x"], "--threads": ["0"]},
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"],
                 "--tile": ["-1", "999", "1e10"], "--np": ["0"], "--threads": ["0", "x"],
                 "--time-limit": ["0", "x"], "--journal-after": ["-1", "x"]},
@@ -82,7 +86,7 @@ for tool_name in N_INPUTS:
 
 
 def inputs(tool):
-    return [f"input{i}" for i in range(N_INPUTS[tool])] + (["-o", "out.stl"] if tool == "st-export" else [])
+    return [f"input{i}" for i in range(N_INPUTS[tool])] + OUTPUTS.get(tool, [])
 
 
 def options_in_help(tool):

@@ -17,7 +17,7 @@ MODELS = Path(os.environ["ST_MODELS"])
 WORK = Path(os.environ["ST_WORK"])
 CORPUS = Path(os.environ.get("ST_CORPUS") or Path(__file__).resolve().parents[2] / "../shared/corpus").resolve()
 TOOLS = ["st-import", "st-edit", "st-raster", "st-prolong", "st-mesh", "st-remesh", "st-merge", "st-check", "st-info",
-         "st-diff", "st-export", "st-run"]
+         "st-diff", "st-export", "st-metric", "st-run"]
 PARALLEL = {"st-raster", "st-mesh", "st-remesh", "st-run"}
 OK, USAGE, INPUT, GEOMETRY, INCOMPLETE, OUTPUT, MISMATCH, MEMORY, INTERNAL = 0, 2, 3, 4, 5, 6, 7, 8, 70
 

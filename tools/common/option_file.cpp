@@ -20,8 +20,8 @@ namespace st {
 namespace {
 
 const std::set<std::string> kTools = {"st-import", "st-edit",   "st-raster", "st-prolong", "st-mesh",
-                                      "st-remesh", "st-merge",  "st-check",  "st-info",    "st-diff",
-                                      "st-export", "st-report", "st-run"};
+                                      "st-metric", "st-remesh", "st-merge",  "st-check",   "st-info",
+                                      "st-diff",   "st-export", "st-report", "st-run"};
 /// Options that a file cannot set: they say where the options come from, or what to do instead of running.
 const std::set<std::string> kCommandLineOnly = {"help", "version", "options", "print-options", "print-inputs"};
 

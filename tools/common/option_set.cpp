@@ -70,6 +70,10 @@ void OptionSet::inputs(const std::string& name, std::vector<std::string>& paths,
   input_options_.push_back(app_.add_option(name, paths, help)->required()->type_name("FILE"));
 }
 
+void OptionSet::input_arrays(const std::string& name, std::vector<std::string>& arrays, const std::string& help) {
+  input_options_.push_back(app_.add_option(name, arrays, help)->required()->type_name(kArrayType));
+}
+
 void OptionSet::optional_input(const std::string& flag, std::string& path, const std::string& help) {
   input_options_.push_back(app_.add_option(flag, path, help)->type_name("FILE"));
   file_options_.push_back(input_options_.back());

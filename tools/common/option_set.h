@@ -28,6 +28,8 @@ class OptionSet {
   void input(const std::string& name, std::string& path, const std::string& help);
   /// One or more positional input files.
   void inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help);
+  /// One or more positional arrays in input files: "FILE:ARRAY".
+  void input_arrays(const std::string& name, std::vector<std::string>& arrays, const std::string& help);
   /// An optional input file; `flag` with its dashes, as in all functions below.
   void optional_input(const std::string& flag, std::string& path, const std::string& help);
   /// The same, repeatable, and with several files after one flag where the positional inputs stand first.

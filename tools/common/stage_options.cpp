@@ -78,6 +78,7 @@ void declare(OptionSet& set, ProlongStageOptions& o) {
   set.optional_array("--background", o.background,
                      "mesh with edge lengths or metrics at its nodes: .bac, .ba3, .msh (version 2.2), .sol, .solb with "
                      "its mesh, .vtu or .vtkhdf with an ARRAY");
+  set.flag("--only", o.only, "take the lengths of the background alone, between the raster's lmin and lmax");
   set.text("--transform", o.transform, "STEPS",
            "move sources and background: 'rotate X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'");
   set.optional_input("--blank", o.blank, "closed mesh that lengths do not pass, instead of the raster's own surface");

@@ -4,109 +4,21 @@
 #include <cstdint>
 
 #include "io/export/export_formats.h"
+#include "io/export/medit_writer.h"
 
 namespace st {
 namespace {
 
-/// Keywords with their numbers in the binary form.
-struct Keyword {
-  const char* name;
-  std::int32_t code;
-};
-constexpr Keyword kVertices{"Vertices", 4}, kEdges{"Edges", 5}, kTriangles{"Triangles", 6},
-    kQuadrilaterals{"Quadrilaterals", 7}, kOnVertices{"VerticesOnGeometricVertices", 40},
-    kOnEdges{"VerticesOnGeometricEdges", 41}, kOnFaces{"VerticesOnGeometricTriangles", 42};
+constexpr MeditKeyword kEdges{"Edges", 5}, kQuadrilaterals{"Quadrilaterals", 7},
+    kOnVertices{"VerticesOnGeometricVertices", 40}, kOnEdges{"VerticesOnGeometricEdges", 41},
+    kOnFaces{"VerticesOnGeometricTriangles", 42};
 
-/// Integers, then reals: an entry of a list.
-struct Entry {
-  std::vector<std::int64_t> integers;
-  std::vector<double> reals;
-};
-
-/// A list of entries that are made one by one. `n_integers`, `n_reals`: of each.
-struct List {
-  Keyword keyword;
-  std::int64_t n = 0, n_integers = 0, n_reals = 0;
-};
-
-class MeditFile {
- public:
-  MeditFile(Output& out, bool is_binary) : out_(out), text_(out), is_binary_(is_binary) {
-    constexpr std::int32_t kByteOrder = 1, kVersion = 3, kDimension = 3, kSpace = 3;  // version 3: 64-bit positions
-    if (is_binary_) {
-      integers({kByteOrder, kVersion, kDimension});
-      position(at_ + 12);
-      integers({kSpace});
-    } else {
-      text_ << "MeshVersionFormatted 2\nDimension\n3\n";
-    }
-  }
-  void comment(const std::string& text) {
-    if (!is_binary_) text_ << "# " << text << "\n";
-  }
-  void begin(const List& list) {
-    constexpr std::int64_t kHead = 16;  // keyword, position of the next one, count
-    if (is_binary_) {
-      integers({list.keyword.code});
-      position(at_ - 4 + kHead + list.n * (4 * list.n_integers + 8 * list.n_reals));
-      integers({static_cast<std::int32_t>(list.n)});
-    } else {
-      text_ << list.keyword.name << "\n" << list.n << "\n";
-    }
-  }
-  /// Vertices have their reals first.
-  void entry(const Entry& e, bool has_reals_first = false) {
-    if (has_reals_first) reals(e.reals, e.integers.empty());
-    for (std::size_t i = 0; i < e.integers.size(); ++i) {
-      if (is_binary_)
-        integers({static_cast<std::int32_t>(e.integers[i])});
-      else
-        text_ << e.integers[i] << (i + 1 < e.integers.size() || (!has_reals_first && !e.reals.empty()) ? " " : "\n");
-    }
-    if (!has_reals_first) reals(e.reals, true);
-  }
-  void end() {
-    constexpr std::int32_t kEnd = 54;
-    if (is_binary_) {
-      integers({kEnd});
-      position(0);
-    } else {
-      text_ << "End\n";
-      text_.flush();
-    }
-  }
-
- private:
-  void integers(std::initializer_list<std::int32_t> values) {
-    for (const std::int32_t v : values) out_.value(v);
-    at_ += static_cast<std::int64_t>(4 * values.size());
-  }
-  void position(std::int64_t value) {
-    out_.value(value);
-    at_ += 8;
-  }
-  void reals(const std::vector<double>& values, bool is_last) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (is_binary_)
-        out_.value(values[i]);
-      else
-        text_ << values[i] << (is_last && i + 1 == values.size() ? "\n" : " ");
-    }
-    if (is_binary_) at_ += static_cast<std::int64_t>(8 * values.size());
-  }
-
-  Output& out_;
-  TextBuffer text_;
-  bool is_binary_;
-  std::int64_t at_ = 0;  ///< bytes written
-};
-
-void write_elements(MeditFile& file, const ExportTask& task, const Keyword& keyword, std::int64_t begin,
+void write_elements(MeditWriter& file, const ExportTask& task, const MeditKeyword& keyword, std::int64_t begin,
                     std::int64_t end, std::int64_t n_corners) {
   if (begin == end && n_corners == 4) return;
   file.begin({keyword, end - begin, n_corners + 1});
   for (std::int64_t i = begin; i < end; ++i) {
-    Entry e{task.nodes_of(i), {}};
+    MeditEntry e{task.nodes_of(i), {}};
     for (std::int64_t& n : e.integers) ++n;
     e.integers.push_back(group_number(task.mesh, task.triangle_of(i)));
     file.entry(e);
@@ -134,7 +46,7 @@ std::vector<NodeOnFace> nodes_on_faces(const SurfaceMesh& m) {
 }
 
 /// As programs of that family read it: node, CAD id, parameters, and the CAD id again as a real number.
-void write_association(MeditFile& file, const SurfaceMesh& m) {
+void write_association(MeditWriter& file, const SurfaceMesh& m) {
   const auto count = [&](EntityDim dim) {
     return std::count(m.node_entity_dim.begin(), m.node_entity_dim.end(), static_cast<std::uint8_t>(dim));
   };
@@ -157,10 +69,10 @@ void write_association(MeditFile& file, const SurfaceMesh& m) {
 
 void write_medit(Output& out, const ExportTask& task, bool is_binary) {
   const SurfaceMesh& m = task.mesh;
-  MeditFile file(out, is_binary);
+  MeditWriter file(out, is_binary);
   for (std::size_t g = 0; g < m.labels.group_name.size(); ++g)
     file.comment("reference " + std::to_string(g + 1) + ": " + clean_name(m.labels.group_name[g], false));
-  file.begin({kVertices, m.n_nodes(), 1, 3});
+  file.begin({kMeditVertices, m.n_nodes(), 1, 3});
   for (const Vec3& p : m.node_xyz) file.entry({{0}, {p.x, p.y, p.z}}, true);
   if (task.options.has_parameters && !m.segment_edge.empty()) {
     file.begin({kEdges, static_cast<std::int64_t>(m.segment_edge.size()), 3});
@@ -169,7 +81,7 @@ void write_medit(Output& out, const ExportTask& task, bool is_binary) {
                    std::int64_t{m.segment_edge[i]} + 1},
                   {}});
   }
-  write_elements(file, task, kTriangles, 0, task.n_triangles(), 3);
+  write_elements(file, task, kMeditTriangles, 0, task.n_triangles(), 3);
   write_elements(file, task, kQuadrilaterals, task.n_triangles(), task.n_elements(), 4);
   if (task.options.has_parameters) write_association(file, m);
   file.end();

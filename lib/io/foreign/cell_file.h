@@ -17,6 +17,7 @@ struct CellFile {
   std::vector<std::int64_t> offset;  ///< [n_cells+1] into `node`
   std::vector<std::int64_t> node;    ///< of all cells, from 0
   std::vector<double> value;         ///< [n_nodes][n_components]; components of tensors: xx yy zz xy yz xz, or rows
+  std::vector<double> cell_value;    ///< the same at cells, where `value` is empty
 };
 
 /// Arrays of lengths that are looked for where none is named.
@@ -24,11 +25,11 @@ inline constexpr const char* kUsualSizes[] = {"size", "metric"};
 /// What a reader says where it finds none.
 inline std::string missing_sizes(const std::string& array) {
   return array.empty() ? "has neither 'size' nor 'metric' among its point data; name its array of lengths: FILE:ARRAY"
-                       : "has no array '" + array + "' among its point data";
+                       : "has no array '" + array + "' among its point or cell data";
 }
 
-/// `array`: of the point data; empty: one of kUsualSizes. All throw Error(kInput) naming file and place. `bytes`: the
-/// whole file.
+/// `array`: of the point data, else of the cell data; empty: one of kUsualSizes of the point data. All throw
+/// Error(kInput) naming file and place. `bytes`: the whole file.
 CellFile parse_vtu_cells(const std::string& path, const std::string& bytes, const std::string& array);
 CellFile read_vtkhdf_cells(const std::string& path, const std::string& array);
 /// INRIA's Medit: nodes and cells of a .mesh or .meshb.

@@ -74,6 +74,25 @@ void split_cells(const std::string& path, const CellFile& file, BackgroundMesh& 
   if (mesh.is_empty()) throw Error(ExitCode::kInput, path + ": has neither tetrahedra nor triangles");
 }
 
+/// Values at cells as their mean at the nodes of these; those of a node without a cell are 0.
+void average_cells(const std::string& path, CellFile& file) {
+  const std::size_t n_cells = file.type.size(), n_nodes = file.node_xyz.size(),
+                    n_components = file.cell_value.size() / std::max<std::size_t>(n_cells, 1);
+  if (n_components * n_cells != file.cell_value.size())
+    throw Error(ExitCode::kInput, fmt::format("{}: has {} values for {} cells", path, file.cell_value.size(), n_cells));
+  file.value.assign(n_components * n_nodes, 0);
+  std::vector<double> n_cells_at(n_nodes, 0);
+  for (std::size_t c = 0; c < n_cells; ++c)
+    for (std::int64_t at = file.offset[c]; n_corners_of(file.type[c]) > 2 && at < file.offset[c + 1]; ++at) {
+      const auto node = static_cast<std::size_t>(file.node[at]);
+      n_cells_at[node] += 1;
+      for (std::size_t k = 0; k < n_components; ++k)
+        file.value[node * n_components + k] += file.cell_value[c * n_components + k];
+    }
+  for (std::size_t i = 0; i < file.value.size(); ++i)
+    if (const double n = n_cells_at[i / n_components]; n > 1) file.value[i] /= n;
+}
+
 /// Of one node; length 0: neither a positive length nor a positive definite metric.
 LocalSize size_of(const double* v, std::size_t n_components) {
   if (n_components == 1) return v[0] > 0 && std::isfinite(v[0]) ? LocalSize{v[0], v[0], {}} : LocalSize{};
@@ -108,25 +127,48 @@ void read_sizes(const std::string& path, const CellFile& file, BackgroundMesh& m
                   n_components == 1 ? "length above 0" : "metric that is positive definite", first, x.x, x.y, x.z));
 }
 
-/// Leaves out nodes that no cell has: they may lie anywhere, and without a length.
-void drop_unused(BackgroundMesh& mesh) {
-  std::vector<std::int32_t> number(mesh.node_xyz.size(), -1);
-  BackgroundMesh kept;
+/// Leaves out nodes that no cell has: they may lie anywhere, and without a length. The kept ones, in their new order.
+std::vector<std::int32_t> drop_unused(BackgroundMesh& mesh) {
+  std::vector<std::int32_t> number(mesh.node_xyz.size(), -1), kept;
   const auto keep = [&](auto& cells) {
     for (auto& cell : cells)
       for (std::int32_t& n : cell) {
         if (number[n] < 0) {
-          number[n] = static_cast<std::int32_t>(kept.node_xyz.size());
-          kept.node_xyz.push_back(mesh.node_xyz[n]);
-          kept.node_size.push_back(mesh.node_size[n]);
+          number[n] = static_cast<std::int32_t>(kept.size());
+          kept.push_back(n);
         }
         n = number[n];
       }
   };
   keep(mesh.tets);
   keep(mesh.triangles);
-  mesh.node_xyz = std::move(kept.node_xyz);
-  mesh.node_size = std::move(kept.node_size);
+  return kept;
+}
+
+template <class Value>
+void keep_only(const std::vector<std::int32_t>& kept, std::vector<Value>& values) {
+  std::vector<Value> all = std::move(values);
+  values.clear();
+  values.reserve(kept.size());
+  for (const std::int32_t n : kept) values.push_back(all[n]);
+}
+
+/// The file as it is, with values at nodes; its cells as simplices in `mesh`.
+CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
+  const auto [path, array] = split_name(file);
+  const std::vector<std::string> files = files_of_size_mesh(file);
+  CellFile cells = files.size() == 2            ? read_medit(files)
+                   : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, read_text_file(path), array)
+                                                : read_vtkhdf_cells(path, array);
+  if (cells.node_xyz.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
+    throw Error(ExitCode::kInput, path + ": has more nodes than 2147483647");
+  for (std::size_t i = 0; i < cells.node_xyz.size(); ++i)
+    if (const Vec3 x = cells.node_xyz[i]; !std::isfinite(x.x + x.y + x.z))
+      throw Error(ExitCode::kInput, fmt::format("{}: node {} has no place", path, i));
+  mesh.node_xyz = cells.node_xyz;
+  split_cells(path, cells, mesh);
+  if (!cells.cell_value.empty()) average_cells(path, cells);
+  return cells;
 }
 
 }  // namespace
@@ -144,22 +186,33 @@ std::vector<std::string> files_of_size_mesh(const std::string& file) {
 }
 
 BackgroundMesh read_size_mesh(const std::string& file) {
-  const auto [path, array] = split_name(file);
-  const std::vector<std::string> files = files_of_size_mesh(file);
-  const CellFile cells = files.size() == 2            ? read_medit(files)
-                         : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, read_text_file(path), array)
-                                                      : read_vtkhdf_cells(path, array);
-  if (cells.node_xyz.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    throw Error(ExitCode::kInput, path + ": has more nodes than 2147483647");
-  for (std::size_t i = 0; i < cells.node_xyz.size(); ++i)
-    if (const Vec3 x = cells.node_xyz[i]; !std::isfinite(x.x + x.y + x.z))
-      throw Error(ExitCode::kInput, fmt::format("{}: node {} has no place", path, i));
   BackgroundMesh mesh;
-  mesh.node_xyz = cells.node_xyz;
-  split_cells(path, cells, mesh);
-  read_sizes(path, cells, mesh);
-  drop_unused(mesh);
+  const CellFile cells = read_cells(file, mesh);
+  read_sizes(split_name(file).first, cells, mesh);
+  const std::vector<std::int32_t> kept = drop_unused(mesh);
+  keep_only(kept, mesh.node_xyz);
+  keep_only(kept, mesh.node_size);
   return mesh;
+}
+
+FieldMesh read_field_mesh(const std::string& file) {
+  const std::string path = split_name(file).first;
+  FieldMesh field;
+  CellFile cells = read_cells(file, field.mesh);
+  if (cells.value.size() != cells.node_xyz.size())
+    throw Error(ExitCode::kInput, fmt::format("{}: has {} values for {} nodes; a field of one number each is expected",
+                                              file, cells.value.size(), cells.node_xyz.size()));
+  const std::vector<std::int32_t> kept = drop_unused(field.mesh);
+  keep_only(kept, field.mesh.node_xyz);
+  field.value = std::move(cells.value);
+  keep_only(kept, field.value);
+  const auto is_bad = [](double v) { return !std::isfinite(v); };
+  if (const auto bad = std::find_if(field.value.begin(), field.value.end(), is_bad); bad != field.value.end())
+    throw Error(ExitCode::kInput,
+                fmt::format("{}: {} of {} nodes have no number, the first is node {}", file,
+                            std::count_if(field.value.begin(), field.value.end(), is_bad), field.value.size(),
+                            kept[static_cast<std::size_t>(bad - field.value.begin())]));
+  return field;
 }
 
 }  // namespace st

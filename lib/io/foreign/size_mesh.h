@@ -16,11 +16,21 @@ std::vector<std::string> files_of_size_mesh(const std::string& file);
 /// Lengths or metrics at the nodes of a mesh of volumes or surfaces: `file` is
 ///   - Medit's .sol or .solb, with the .mesh or .meshb of the same name beside it, or that mesh, with the solution
 ///     beside it; the first scalar or symmetric tensor counts,
-///   - VTK's .vtu, or .vtkhdf, .hdf, .h5: FILE:ARRAY names the array of the point data, without it `size` or `metric`;
-///     one, six (xx yy zz xy yz xz) or nine components.
+///   - VTK's .vtu, or .vtkhdf, .hdf, .h5: FILE:ARRAY names the array of the point data, or else of the cell data, whose
+///     mean counts at nodes; without it `size` or `metric`; one, six (xx yy zz xy yz xz) or nine components.
 /// Cells are cut into tetrahedra; triangles count where there are none. Nodes without a cell are passed over. Throws
 /// Error(kInput) naming file and place: for what cannot be read, and for a length that is not positive or a metric that
 /// is not positive definite, with the number of such nodes and the first.
 BackgroundMesh read_size_mesh(const std::string& file);
+
+/// A number at each node of a mesh without lengths.
+struct FieldMesh {
+  BackgroundMesh mesh;        ///< node_size is empty
+  std::vector<double> value;  ///< [n_nodes]
+};
+
+/// A scalar field from the same files. Throws Error(kInput) as
+/// read_size_mesh(), and for values that are no numbers, with the number of such nodes and the first.
+FieldMesh read_field_mesh(const std::string& file);
 
 }  // namespace st

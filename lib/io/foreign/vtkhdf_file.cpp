@@ -51,6 +51,11 @@ class VtkhdfParser {
       cells.value = std::move(*values);
       return cells;
     }
+    if (!array.empty())
+      if (auto values = read<double>("CellData/" + array, H5T_NATIVE_DOUBLE)) {
+        cells.cell_value = std::move(*values);
+        return cells;
+      }
     fail(missing_sizes(array));
   }
 

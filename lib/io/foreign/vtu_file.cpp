@@ -72,7 +72,8 @@ class VtuParser {
       if (result.offset[c + 1] < result.offset[c] ||
           static_cast<std::size_t>(result.offset[c + 1]) > result.node.size())
         fail("cell " + std::to_string(c) + " has offsets that do not fit");
-    result.value = all_values<double>(size_array(array));
+    const auto of_cells = array.empty() || find("PointData", array) ? std::nullopt : find("CellData", array);
+    (of_cells ? result.cell_value : result.value) = all_values<double>(of_cells ? *of_cells : size_array(array));
     return result;
   }
 
