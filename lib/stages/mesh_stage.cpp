@@ -130,7 +130,7 @@ void require_whole(const MeshStageOptions& o, const Mirror& mirror) {
 MeshTopology make_topology(const Model& model, const SizeField& field, double below, const Mirror& mirror,
                            const PeriodicPairs& pairs, const Executor& executor) {
   MeshTopology topology = merge_small_features(model, field, below, executor);
-  if (!pairs.empty()) return {model.tables(), without_paired(topology.merged(), pairs, model.tables())};
+  if (!pairs.empty()) return MeshTopology(model.tables(), without_paired(topology.merged(), pairs, model.tables()));
   return mirror.empty() ? topology : MeshTopology(model.tables(), mirrored(topology.merged(), mirror, model.tables()));
 }
 
