@@ -20,7 +20,8 @@ struct ClosedStrip {
                          .strip_face = {strip.face},
                          .strip_kept = {strip.edges[0]},
                          .strip_closed = {strip.edges[1]},
-                         .strip_is_opposed = {strip.is_opposed}}};
+                         .strip_is_opposed = {strip.is_opposed},
+                         .pairs = {}}};
   EdgeMesh edges = plain_edges();
 
   /// All edges with nodes of length 0.1.
