@@ -203,7 +203,10 @@ void require_replaceable(const std::string& path) {
 }
 
 void note_written(const std::string& path) {
-  if (!g_rules.is_artifact || contains(g_rules.named, path) || is_temporary(path) || is_artifact(path)) return;
+  const bool is_replaced_beside_another = path.ends_with(".msh");  // by an export of .geo
+  if (!g_rules.is_artifact || (contains(g_rules.named, path) && !is_replaced_beside_another) || is_temporary(path) ||
+      is_artifact(path))
+    return;
   const fs::path place = place_of(path);
   Record(place.parent_path(), O_RDWR | O_CREAT).set(place.filename().string(), line_of(place));
 }

@@ -186,7 +186,7 @@ TemporaryFile::~TemporaryFile() {
   g_slots[slot_].state.store(0);
 }
 
-void TemporaryFile::commit() {
+void TemporaryFile::commit(Content content) {
   require_replaceable(path_);
   sync(name_, path_);
   if (rename(name_.c_str(), path_.c_str()) != 0)
@@ -195,7 +195,7 @@ void TemporaryFile::commit() {
   g_slots[slot_].state.store(0);
   slot_ = -1;
   sync(directory_of(path_), path_);
-  note_written(path_);
+  if (content == Content::kOther) note_written(path_);
 }
 
 }  // namespace st

@@ -5,6 +5,9 @@
 
 namespace st {
 
+/// What a file holds: an artifact tells by itself that ST wrote it, of other files note_written() keeps a record.
+enum class Content { kArtifact, kOther };
+
 /// An empty file `.name.tmp.<pid>.<random>` beside `path`, new and no link, for whoever opens it for writing. commit()
 /// gives it its name; without commit() the destructor removes it, and so does remove_temporaries() in a signal handler.
 /// What a killed process (SIGKILL) left is removed by the next that writes `path`.
@@ -22,7 +25,7 @@ class TemporaryFile {
   const std::string& path() const { return path_; }
   /// The file is closed and complete: syncs it, renames it to path(), syncs the directory. Throws Error(kOutput), and
   /// as require_replaceable().
-  void commit();
+  void commit(Content content = Content::kOther);
 
  private:
   std::string path_, name_;

@@ -5,7 +5,7 @@
 
 namespace st {
 
-ArtifactHeader read_header(const std::string& path) { return Hdf5Reader(path).header(); }
+ArtifactHeader read_header(const std::string& path) { return Hdf5Reader::header_of(path); }
 
 void require_same_geometry(const std::string& path_a, const ArtifactHeader& a, const std::string& path_b,
                            const ArtifactHeader& b) {

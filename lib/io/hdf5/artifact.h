@@ -108,8 +108,8 @@ struct MeshColumns {
   std::optional<Column<Vec2>> node_cad_uv;                         ///< likewise
 };
 
-/// Header of any artifact. Throws Error(kInput) for a missing file, a directory, an empty file, a file that is no
-/// artifact, a truncated one.
+/// Header of any artifact; what else is in the file is for its reader to judge. Throws Error(kInput) for a missing
+/// file, a directory, an empty file, a file that is no artifact, a truncated one.
 ArtifactHeader read_header(const std::string& path);
 
 /// All write_* functions: written to a temporary name in the same directory, synced, renamed; nothing is left behind on

@@ -189,6 +189,8 @@ class Hdf5Reader {
   /// Opens it in the same way, and requires this schema and a version not newer than `newest_version`.
   Hdf5Reader(const std::string& path, const std::string& schema, int newest_version = 1);
   ~Hdf5Reader();
+  /// The header alone: the file is complete and ours, but its parts are not looked at.
+  static ArtifactHeader header_of(const std::string& path);
   Hdf5Reader(const Hdf5Reader&) = delete;
   Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 

@@ -259,6 +259,13 @@ Hdf5Reader::Hdf5Reader(const std::string& path, const std::string& schema, int n
 
 Hdf5Reader::~Hdf5Reader() = default;
 
+ArtifactHeader Hdf5Reader::header_of(const std::string& path) {
+  Impl file;
+  file.path = path;
+  file.open();
+  return std::move(file.header);
+}
+
 const std::string& Hdf5Reader::path() const { return impl_->path; }
 const ArtifactHeader& Hdf5Reader::header() const { return impl_->header; }
 const std::vector<DatasetInfo>& Hdf5Reader::datasets() const { return impl_->datasets; }

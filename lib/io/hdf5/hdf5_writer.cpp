@@ -359,7 +359,7 @@ std::string Hdf5Writer::commit() {
   impl_->groups.clear();
   impl_->require(H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) >= 0, "the file");
   impl_->require(impl_->file.reset(), "the file");
-  impl_->temporary.commit();
+  impl_->temporary.commit(Content::kArtifact);
   return hash;
 }
 
