@@ -124,11 +124,6 @@ std::string conformity_lines(const ConformityReport& c) {
       c.p1, c.p99);
 }
 
-/// "0.25 mm"
-std::string length_text(double length, const std::string& unit) {
-  return fmt::format("{:.3g}{}{}", length, unit.empty() ? "" : " ", unit);
-}
-
 std::string in_face(const SurfaceMesh& mesh, FaceId f) { return f == kNone ? "" : " in " + face_label(mesh, f); }
 
 std::string deviation_line(const SurfaceMesh& mesh, const SurfaceDeviation& d, const std::string& unit) {
@@ -139,8 +134,15 @@ std::string deviation_line(const SurfaceMesh& mesh, const SurfaceDeviation& d, c
       d.model.mean_angle_deg());
 }
 
-/// "  sharp  5 with an angle below 10 deg: 3 corner, 2 free; worst: 4.5 at ..., ...": free places before those that the
-/// CAD forces.
+/// The cause with what it means, where its name alone does not say it.
+std::string cause_words(ShapeCause cause) {
+  const std::string name = cause_name(cause);
+  if (cause == ShapeCause::kSizeJump) return name + " (requested lengths change fast there)";
+  return cause == ShapeCause::kFree ? name + " (no cause in CAD or sizes)" : name;
+}
+
+/// "  sharp  5 with an angle below 10 deg: 3 corner, 2 strip; worst: 4.5 at ..., ...": free places before those that
+/// the CAD forces.
 std::string cause_line(const SurfaceMesh& mesh, const std::string& name, const std::string& what,
                        const CauseList& list) {
   constexpr std::size_t kShown = 3;
@@ -150,7 +152,7 @@ std::string cause_line(const SurfaceMesh& mesh, const std::string& name, const s
   for (std::size_t k = 0; k < kNShapeCauses; ++k)
     if (list.count[k])
       counts +=
-          fmt::format("{}{} {}", counts.empty() ? "" : ", ", list.count[k], cause_name(static_cast<ShapeCause>(k)));
+          fmt::format("{}{} {}", counts.empty() ? "" : ", ", list.count[k], cause_words(static_cast<ShapeCause>(k)));
   for (std::size_t k = kNShapeCauses; k-- > 0;)
     for (const CausePlace& p : list.worst[k])
       if (n_shown++ < kShown)
@@ -384,6 +386,10 @@ json bins_json() {
 }
 
 }  // namespace
+
+std::string length_text(double length, const std::string& unit) {
+  return fmt::format("{:.3g}{}{}", length, unit.empty() ? "" : " ", unit);
+}
 
 std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
   std::string text;

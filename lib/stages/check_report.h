@@ -58,6 +58,9 @@ struct Findings {
 /// "face 17 "WING_UPPER"", 1-based.
 std::string face_label(const SurfaceMesh& mesh, FaceId f);
 
+/// "0.25 mm"; `unit` may be empty.
+std::string length_text(double length, const std::string& unit);
+
 /// One line per check, quality, sizes, deviation; the last line is the verdict. `path`: the mesh's, for the verdict.
 std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds);
 

@@ -197,7 +197,8 @@ double group_tolerance(const std::vector<double>& of_face, FaceId f) { return of
 
 /// Faces with a node off the surface by more than the CAD's own tolerances there explain; those with a tolerance of
 /// their own are judged by it instead.
-Check check_on_surface(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group) {
+Check check_on_surface(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group,
+                       const std::string& unit) {
   Check c{"on-surface", "faces with nodes off the surface by more than twice the CAD's tolerance", {}, false, ""};
   const double rounding = 1e-9 * tables.box().diagonal();
   FaceId worst = kNone;
@@ -208,13 +209,14 @@ Check check_on_surface(const ModelTables& tables, const ChordError& chords, cons
     if (worst == kNone || chords.node_distance[f] > chords.node_distance[worst]) worst = f;
   }
   if (worst != kNone)
-    c.note = fmt::format("largest distance {:.3g} (CAD tolerance there {:.3g})", chords.node_distance[worst],
-                         cad_tolerance(tables, worst));
+    c.note = fmt::format("largest distance {} (CAD tolerance there {})", length_text(chords.node_distance[worst], unit),
+                         length_text(cad_tolerance(tables, worst), unit));
   return c;
 }
 
 /// Likewise the faces whose groups have a tolerance: sewing and merging may each take it once.
-Check check_group_tolerance(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group) {
+Check check_group_tolerance(const ModelTables& tables, const ChordError& chords, const std::vector<double>& of_group,
+                            const std::string& unit) {
   Check c{"group-tolerance",
           "faces with nodes off the surface by more than twice the tolerance of their group",
           {},
@@ -230,8 +232,8 @@ Check check_group_tolerance(const ModelTables& tables, const ChordError& chords,
       worst = f;
   }
   if (worst != kNone)
-    c.note = fmt::format("largest distance {:.3g} (tolerance of its group {:.3g})", chords.node_distance[worst],
-                         of_group[worst]);
+    c.note = fmt::format("largest distance {} (tolerance of its group {})",
+                         length_text(chords.node_distance[worst], unit), length_text(of_group[worst], unit));
   return c;
 }
 
@@ -272,11 +274,13 @@ Check check_off_surface(const ModelTables& tables, const ChordError& chords, con
   return c;
 }
 
-Check check_volume(const TopologyReport& topology, const MeshMeasure& measure) {
+Check check_volume(const TopologyReport& topology, const MeshMeasure& measure, const std::string& unit) {
   Check c{"volume", "closed meshes of no or negative volume", {}, true, ""};
   const bool has_volume = topology.is_closed() && topology.n_cad_boundary_edges == 0;
   if (has_volume && !(measure.volume > 0)) c.defects.add({});
-  c.note = has_volume ? fmt::format("{:.9g}", measure.volume) : "open: none";
+  c.note = has_volume
+               ? fmt::format("{:.9g}{}{}", measure.volume, unit.empty() ? "" : " " + unit, unit.empty() ? "" : "^3")
+               : "open: none";
   return c;
 }
 
@@ -439,7 +443,7 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       {"pinched", "nodes where parts touch", f.topology.pinched_nodes, false, ""},
       {"contacts", "pairs of triangles where parts touch or cross", f.crossings.contacts, is_filled_outside,
        is_filled_outside ? "no volume mesh fills the flow domain around them (st-import --unite or --join)" : ""},
-      check_volume(f.topology, f.measure)};
+      check_volume(f.topology, f.measure, f.unit)};
 }
 
 /// Everything that is measured: jobs that do not depend on each other, the longest first. `cad`, `field`: may be null.
@@ -486,8 +490,8 @@ void run_cad_checks(const SurfaceMesh& mesh, const CadSide& cad, double area_tol
   const std::vector<double> given = given_tolerances(cad);
   f.checks.push_back(check_cad_volume(mesh, cad.model.tables(), given, f));
   const std::vector<double> of_group = face_tolerances(cad.model.tables().labels);
-  f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords, of_group));
-  if (!of_group.empty()) f.checks.push_back(check_group_tolerance(cad.model.tables(), *f.chords, of_group));
+  f.checks.push_back(check_on_surface(cad.model.tables(), *f.chords, of_group, f.unit));
+  if (!of_group.empty()) f.checks.push_back(check_group_tolerance(cad.model.tables(), *f.chords, of_group, f.unit));
   f.checks.push_back(check_off_surface(cad.model.tables(), *f.chords, given));
 }
 
@@ -583,7 +587,8 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
     const std::vector<double> of_group = face_tolerances(tables.labels);
     const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
     Check c{"max-deviation",
-            fmt::format("faces with a triangle centroid off the surface by more than {:.6g}{}", bound, own),
+            fmt::format("faces with a triangle centroid off the surface by more than {:.6g}{}{}", bound,
+                        f.unit.empty() ? "" : " " + f.unit, own),
             {},
             true,
             ""};
@@ -720,8 +725,9 @@ void check_wings(Findings& f) {
   Check c{"wing-sizes", "places on lifting surfaces coarser than 1.5 times what was asked for", {}, false, ""};
   for (const WingMiss& miss : find_misses(f.wings)) {
     if (c.defects.count == 0)
-      c.note = fmt::format("the {} of the surface at edge {} has {:.3g} at {:.0f} % of the span, {:.3g} asked for",
-                           miss.what, f.wings[miss.wing].first_edge + 1, miss.has, 100 * miss.share, miss.asked);
+      c.note = fmt::format("the {} of the surface at edge {} has {} at {:.0f} % of the span, {} asked for", miss.what,
+                           f.wings[miss.wing].first_edge + 1, length_text(miss.has, f.unit), 100 * miss.share,
+                           length_text(miss.asked, f.unit));
     c.defects.add({miss.place, kNone, kNone});
   }
   f.checks.push_back(std::move(c));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -42,7 +43,8 @@ std::string dump(const Json& json) { return json_text(json); }
 /// `outputs`: at least one.
 StageSummary export_summary(const std::string& artifact, const std::vector<std::string>& outputs, const Timer& timer) {
   StageSummary summary;
-  summary.line = fmt::format("{}: {} exported, {:.2f} s", fmt::join(outputs, ", "), artifact, timer.seconds());
+  summary.line = fmt::format("{}: {} exported, {:.2f} s{}", fmt::join(outputs, ", "), artifact, timer.seconds(),
+                             gmsh_hint(outputs));
   Json json{{"tool", "st-export"}, {"artifact", artifact}, {"output", outputs[0]}};
   if (outputs.size() > 1) json["outputs"] = outputs;
   json["seconds"] = timer.seconds();
@@ -296,6 +298,15 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
 }
 
 }  // namespace
+
+std::string gmsh_hint(const std::vector<std::string>& outputs) {
+  for (const std::string& path : outputs) {
+    const std::string script = path.ends_with(".msh") ? path.substr(0, path.size() - 4) + ".geo" : "";
+    if (!script.empty() && std::find(outputs.begin(), outputs.end(), script) == outputs.end())
+      return fmt::format("; gmsh -3 takes {}, which --export or st-export writes, not {} alone", script, path);
+  }
+  return "";
+}
 
 std::string mesh_suffixes() { return export_suffixes() + " .vtm .sol"; }
 

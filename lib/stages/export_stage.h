@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "base/number_option.h"
 #include "stages/summary.h"
@@ -30,6 +31,10 @@ struct ExportStageOptions {
 /// Exports a mesh artifact, a raster/sizing artifact's octree, or a geometry (FLITE .dat), by suffix. Throws
 /// Error(kUsage) for what the format cannot hold, Error(kInput), Error(kMismatch), Error(kOutput).
 StageSummary run_export(const ExportStageOptions& options);
+
+/// Where one of the files that were written is Gmsh's mesh: "; gmsh -3 takes wing.geo, ... not wing.msh alone".
+/// Empty where there is none, or the script as well.
+std::string gmsh_hint(const std::vector<std::string>& outputs);
 
 /// Suffixes of meshes.
 std::string mesh_suffixes();

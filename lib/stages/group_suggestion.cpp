@@ -1,6 +1,9 @@
 #include "stages/group_suggestion.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 
 #include "features/base_strips.h"
 #include "features/bodies.h"
@@ -53,6 +56,30 @@ std::string groups_in_words(const std::vector<SuggestedGroup>& groups, const Mod
   }
   return fmt::format("{}; {} of {} faces are in none", text.empty() ? "none" : text + " faces",
                      static_cast<std::size_t>(tables.n_faces()) - n, tables.n_faces());
+}
+
+std::string groups_in_words(const FaceLabels& labels) {
+  constexpr std::size_t kMost = 16;
+  const auto counted = [](std::size_t n, const char* one, const char* more) {
+    return fmt::format("{} {}", n, n == 1 ? one : more);
+  };
+  std::vector<std::size_t> n_faces(labels.group_name.size(), 0);
+  for (const std::int32_t g : labels.face_group) ++n_faces.at(static_cast<std::size_t>(g));
+  std::vector<std::string> words;
+  for (std::size_t g = 0; g < n_faces.size(); ++g) {
+    const std::string role = g < labels.group_role.size() ? labels.group_role[g] : "wall";
+    words.push_back(fmt::format("{} {}{}", labels.group_name[g], counted(n_faces[g], "face", "faces"),
+                                role == "wall" ? "" : " (" + role + ")"));
+  }
+  for (const GroupTable& table : labels.tables)
+    words.push_back(fmt::format("table {} of {}", table.name, counted(table.group_name.size(), "group", "groups")));
+  for (const EntityGroup& g : labels.edge_groups)
+    words.push_back(fmt::format("{} {}", g.name, counted(g.ids.size(), "edge", "edges")));
+  for (const EntityGroup& g : labels.vertex_groups)
+    words.push_back(fmt::format("{} {}", g.name, counted(g.ids.size(), "vertex", "vertices")));
+  const std::size_t n = std::min(words.size(), kMost);
+  return fmt::format("{}{}", fmt::join(words.begin(), words.begin() + static_cast<std::ptrdiff_t>(n), ", "),
+                     words.size() > n ? fmt::format(" and {} more", words.size() - n) : "");
 }
 
 }  // namespace st

@@ -20,4 +20,8 @@ std::string groups_file_text(const std::vector<SuggestedGroup>& groups, const Mo
 /// "wing 62, fuselage 48 faces; 3 of 237 faces are in none".
 std::string groups_in_words(const std::vector<SuggestedGroup>& groups, const ModelTables& tables);
 
+/// What a groups file made: "inlet 1 face (inlet), hub 3 faces and 4 more". The main groups with their roles where
+/// these are no walls, then further tables and groups of edges and vertices, 16 in all.
+std::string groups_in_words(const FaceLabels& labels);
+
 }  // namespace st

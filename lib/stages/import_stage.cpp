@@ -460,6 +460,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   nlohmann::json json = report(o.model, r);
   if (o.check) json["wing_edges"] = list_wing_edges(r);
   if (!o.suggest_groups.empty()) json["suggested_groups"] = suggest(o, r);
+  if (!o.groups.empty()) log_report(fmt::format("  {}: {}", o.groups, groups_in_words(r.tables.labels)));
   const ModelTables& t = r.tables;
   StageSummary s;
   s.line =

@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
+#include "stages/export_stage.h"
 
 namespace st {
 namespace {
@@ -133,7 +134,7 @@ class Run {
     std::string files = o_.output;
     for (const std::string& path : o_.merge.exports) files += ", " + path;
     if (!o_.report.empty()) files += ", " + o_.report;
-    s.line += fmt::format("\n  {:<20} {}", "files", files);
+    s.line += fmt::format("\n  {:<20} {}{}", "files", files, gmsh_hint(o_.merge.exports));
     if (!o_.keep.empty()) s.line += fmt::format("; artifacts and options in {}", o_.keep);
     nlohmann::json json{{"tool", "st-run"},
                         {"model", o_.model},

@@ -92,6 +92,10 @@ class Check(ToolTest):
         self.assertRegex(brief[-1], r"mesh.hdf: passes; \d+ triangles, \d+ nodes")
         self.assertGreater(len(whole), 20)
         self.assertIn("folds", [line.split()[0] for line in whole])
+        text = "\n".join(whole)
+        self.assertRegex(text, r"(?m)^  volume +ok  \S+ mm\^3$")
+        self.assertRegex(text, r"(?m)^  on-surface +ok  largest distance \S+ mm \(CAD tolerance there \S+ mm\)$")
+        self.assertNotRegex(text, r"\bfree(?! \()")
         self.assertTrue(any(re.match("  group .* off the surface, mm", line) for line in whole), whole)
 
     def test_groups_have_a_line_each(self):
@@ -111,6 +115,23 @@ class ImportCheck(ToolTest):
         self.assertEqual(silent.err, "")
         other = must("st-import", MODELS / "plate_with_hole.brep", "-o", self.folder / "g.hdf")
         self.assertNotIn("  free edge", other.err)
+
+
+class Groups(ToolTest):
+    def test_a_groups_file_says_what_it_matched(self):
+        (self.folder / "groups.toml").write_text('[[group]]\nname = "top"\nfaces = ["2-3"]\nrole = "inlet"\n')
+        run = must("st-import", MODELS / "box.step", "--groups", "groups.toml", cwd=self.folder)
+        self.assertRegex(run.err, r"(?m)^  groups.toml: .*\btop 2 faces \(inlet\)")
+
+
+class GmshFiles(ToolTest):
+    def test_a_mesh_for_gmsh_says_which_file_gmsh_fills(self):
+        mesh = artifacts_of("box") / "mesh.hdf"
+        self.assertIn("; gmsh -3 takes a.geo, ", must("st-export", mesh, "-o", "a.msh", cwd=self.folder).out)
+        again = must("st-export", mesh, "-o", "a.geo", cwd=self.folder).out  # replaces a.msh, which is ST's own
+        self.assertNotIn("gmsh -3", again)
+        (self.folder / "b.msh").write_text("somebody else's")
+        self.assertNotEqual(Run("st-export", mesh, "-o", "b.geo", cwd=self.folder).code, 0)
 
 
 class Misspelt(ToolTest):

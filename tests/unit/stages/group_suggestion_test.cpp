@@ -31,6 +31,20 @@ TEST(GroupSuggestion, says_how_many_faces_are_in_which) {
   EXPECT_EQ(groups_in_words({}, box.tables()), "none; 6 of 6 faces are in none");
 }
 
+TEST(GroupsInWords, have_faces_and_roles_of_every_kind_of_group) {
+  FaceLabels labels;
+  labels.group_name = {"hub", "inlet"};
+  labels.group_role = {"wall", "inlet"};
+  labels.face_group = {0, 1, 0};
+  labels.tables = {{"paint", {"red", "blue"}, {}, {}, {}}};
+  labels.edge_groups = {{"rim", "", "{}", {4}}};
+  labels.vertex_groups = {{"pins", "", "{}", {1, 2}}};
+  EXPECT_EQ(groups_in_words(labels),
+            "hub 2 faces, inlet 1 face (inlet), table paint of 2 groups, rim 1 edge, pins 2 vertices");
+  labels.edge_groups.resize(20, labels.edge_groups[0]);
+  EXPECT_TRUE(groups_in_words(labels).ends_with(", rim 1 edge and 8 more"));
+}
+
 TEST(GroupSuggestion, finds_a_wing) {
   const std::vector<SuggestedGroup> groups = suggest_groups_of(test::make_model("blunt_wing"));
   ASSERT_EQ(groups.size(), 1U);
