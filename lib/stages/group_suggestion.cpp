@@ -64,7 +64,8 @@ std::string groups_in_words(const FaceLabels& labels) {
     return fmt::format("{} {}", n, n == 1 ? one : more);
   };
   std::vector<std::size_t> n_faces(labels.group_name.size(), 0);
-  for (const std::int32_t g : labels.face_group) ++n_faces.at(static_cast<std::size_t>(g));
+  for (const std::int32_t g : labels.face_group)
+    if (g != kNone) ++n_faces[static_cast<std::size_t>(g)];
   std::vector<std::string> words;
   for (std::size_t g = 0; g < n_faces.size(); ++g) {
     const std::string role = g < labels.group_role.size() ? labels.group_role[g] : "wall";
