@@ -587,6 +587,18 @@ TopoDS_Shape baffled_box() {
   return builder.Shape();
 }
 
+/// That passes the seam of the ball twice, on one side by almost half of the way around.
+TopoDS_Shape ball_with_bar() {
+  const gp_Pnt foot(-2.4543, -1.5133, 1.175);
+  const gp_Vec along(1.5845241334505813, -3.712081022202076, 2.681404475281247);
+  const TopoDS_Shape bar =
+      BRepPrimAPI_MakeCylinder(gp_Ax2(foot, gp_Dir(along)), 1.1316396335373533, along.Magnitude()).Shape();
+  gp_Trsf turn;
+  turn.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(0.6884847167200077, -0.176649811524064, 1)), 0.17866263909478408);
+  const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Pnt(-1.4032, -1.5479, 2.9329), 2.1378091136552104).Shape();
+  return BRepAlgoAPI_Fuse(ball, BRepBuilderAPI_Transform(bar, turn, true).Shape()).Shape();
+}
+
 using Factory = std::function<TopoDS_Shape()>;
 
 const std::map<std::string, Factory>& factories() {
@@ -602,11 +614,7 @@ const std::map<std::string, Factory>& factories() {
          const gp_Ax2 along_x(gp_Pnt(0, 0, 0), gp::DX());
          return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeCylinder(along_x, 1, 9)).Shape();
        }},
-      {"ball_with_bar",  // that passes the seam of the ball twice, on one side by almost half of the way around
-       [] {
-         const gp_Ax2 axis(gp_Pnt(-0.825, -0.414, -1.993), gp_Dir(2.061, -3.699, 2.356));
-         return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(2.14), BRepPrimAPI_MakeCylinder(axis, 1.13, 4.85)).Shape();
-       }},
+      {"ball_with_bar", ball_with_bar},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"two_balls", [] { return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"cone_on_cylinder",

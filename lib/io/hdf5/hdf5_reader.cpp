@@ -256,7 +256,6 @@ Hdf5Reader::Hdf5Reader(const std::string& path, const std::string& schema, int n
   impl_->require_schema(schema, newest_version);
   impl_->read_contents();
 }
-
 Hdf5Reader::~Hdf5Reader() = default;
 
 ArtifactHeader Hdf5Reader::header_of(const std::string& path) {

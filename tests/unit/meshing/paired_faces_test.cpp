@@ -53,7 +53,7 @@ struct PairedMesh {
     ASSERT_FALSE(mesh.merged.pairs.empty());
     for (const FacePair& p : mesh.merged.pairs) {
       const PairMatch match = match_pair(mesh, p, pair_tolerance(mesh));
-      EXPECT_GT(match.nodes.size(), 20u);
+      EXPECT_GT(match.nodes.size(), 10u);
       EXPECT_TRUE(match.alone.empty()) << match.alone.size() << " of " << match.nodes.size();
       EXPECT_TRUE(match.triangles_alone.empty()) << match.triangles_alone.size();
     }
