@@ -254,6 +254,7 @@ class BladeFinder {
       if (way < 0) std::ranges::reverse(edge.stations);
     }
     std::ranges::sort(own.trailing, {}, &ChordEdge::edge);
+    if (std::ranges::adjacent_find(own.trailing, {}, &ChordEdge::edge) != own.trailing.end()) return std::nullopt;
     for (FaceId& f : own.faces) f = image(f);
     sort_once(own.faces);
     std::erase(own.faces, kNone);
@@ -276,7 +277,9 @@ class BladeFinder {
           std::abs(axis.radius(x) - axis.radius(middle)) > reach)
         continue;
       const double angle = axis.azimuth(x) - axis.azimuth(middle);
-      if (auto own = image_of_wing(wing, axis.turn(angle))) images.push_back(std::move(*own));
+      const auto own = image_of_wing(wing, axis.turn(angle));
+      if (own && std::ranges::none_of(images, [&](const auto& other) { return share_edges(*own, other); }))
+        images.push_back(*own);
     }
     return images;
   }
@@ -340,26 +343,19 @@ class BladeFinder {
   /// Each in the place of those that have one of its edges.
   void put_in(std::span<LiftingSurface> images) {
     for (LiftingSurface& image : images) {
-      std::optional<std::size_t> first;
-      bool is_users = false;
-      for (std::size_t k = 0; k < wings_.size(); ++k) {
-        if (!share_edges(image, wings_[k])) continue;
-        is_users = is_users || !is_whole(wings_[k]);
-        if (!first) first = k;
+      const std::vector<std::size_t> members = members_of({&image, 1});
+      if (std::ranges::any_of(members, [&](std::size_t k) { return !is_whole(wings_[k]); })) continue;
+      for (std::size_t i = members.size(); i-- > 1;) {
+        wings_.erase(wings_.begin() + static_cast<std::ptrdiff_t>(members[i]));
+        is_done_.erase(is_done_.begin() + static_cast<std::ptrdiff_t>(members[i]));
       }
-      if (is_users) continue;
-      for (std::size_t k = wings_.size(); first && k-- > *first + 1;) {
-        if (!share_edges(image, wings_[k])) continue;
-        wings_.erase(wings_.begin() + static_cast<std::ptrdiff_t>(k));
-        is_done_.erase(is_done_.begin() + static_cast<std::ptrdiff_t>(k));
-      }
-      if (!first) {
-        first = wings_.size();
+      const std::size_t place = members.empty() ? wings_.size() : members.front();
+      if (members.empty()) {
         wings_.emplace_back();
         is_done_.push_back(0);
       }
-      wings_[*first] = std::move(image);
-      is_done_[*first] = 1;
+      wings_[place] = std::move(image);
+      is_done_[place] = 1;
     }
   }
 

@@ -178,7 +178,7 @@ class Usage(ToolTest):
         self.expect_error(USAGE, "st-export", "mesh.hdf", says="--output")
 
     def test_surplus_argument_is_2(self):
-        for tool in set(TOOLS) - {"st-merge", "st-edit", "st-run"}:
+        for tool in set(TOOLS) - {"st-merge", "st-edit", "st-metric", "st-run"}:
             self.expect_error(USAGE, tool, *inputs(tool), "surplus", says="'surplus'", cwd=self.folder)
 
     def test_unknown_option_is_2(self):
@@ -245,7 +245,7 @@ class OptionFile(ToolTest):
         for tool in TOOLS:
             (self.folder / "t.toml").write_text(must(tool, "--print-options").out)
             run = Run(tool, *[f"missing{i}" for i in range(N_INPUTS[tool])],
-                      *(["-o", "x.stl"] if tool == "st-export" else []), "--options", "t.toml", cwd=self.folder)
+                      *OUTPUTS.get(tool, []), "--options", "t.toml", cwd=self.folder)
             self.assertEqual(run.code, INPUT, run)
 
     def test_template_names_every_option_of_the_stage(self):
