@@ -38,7 +38,7 @@ class RasterRanks(ToolTest):
     def test_wings_apart_are_walked_by_all_ranks_and_found_alike(self):
         parts = []
         for i, name in enumerate(("wing_of_8.brep", "wing_of_8.brep", "wing_with_flap.step", "thin_plate.brep")):
-            must("st-import", MODELS / name, "-o", self.folder / f"{i}.hdf")
+            must("st-import", MODELS / name, "--unit", "mm", "-o", self.folder / f"{i}.hdf")
             parts.append(self.folder / f"moved{i}.hdf")
             must("st-edit", self.folder / f"{i}.hdf", "-o", parts[-1], "--transform",
                  f"scale {0.3 if i > 1 else 1}; translate 0 {200 * i} 0")
