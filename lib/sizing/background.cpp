@@ -409,6 +409,23 @@ std::int64_t raise_lengths(double least, BackgroundMesh& mesh) {
   return n_raised;
 }
 
+std::vector<std::int32_t> number_used_nodes(BackgroundMesh& mesh) {
+  std::vector<std::int32_t> number(mesh.node_xyz.size(), -1), kept;
+  const auto number_nodes_of = [&](auto& cells) {
+    for (auto& cell : cells)
+      for (std::int32_t& n : cell) {
+        if (number[n] < 0) {
+          number[n] = static_cast<std::int32_t>(kept.size());
+          kept.push_back(n);
+        }
+        n = number[n];
+      }
+  };
+  number_nodes_of(mesh.tets);
+  number_nodes_of(mesh.triangles);
+  return kept;
+}
+
 void transform(const Similarity& motion, BackgroundMesh& mesh) {
   for (Vec3& p : mesh.node_xyz) p = motion(p);
   for (LocalSize& s : mesh.node_size)

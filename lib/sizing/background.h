@@ -3,6 +3,7 @@
 
 #include <array>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "base/similarity.h"
@@ -34,6 +35,18 @@ std::int64_t remove_stretch(BackgroundMesh& mesh);
 std::int64_t raise_lengths(double least, BackgroundMesh& mesh);
 
 void transform(const Similarity& motion, BackgroundMesh& mesh);
+
+/// Numbers the nodes that cells have by their first use, tetrahedra first. Returns those nodes in that order, for
+/// keep_only(): places and lengths are as before.
+std::vector<std::int32_t> number_used_nodes(BackgroundMesh& mesh);
+/// The values of the kept nodes, in their order.
+template <class Value>
+void keep_only(const std::vector<std::int32_t>& kept, std::vector<Value>& values) {
+  std::vector<Value> all = std::move(values);
+  values.clear();
+  values.reserve(kept.size());
+  for (const std::int32_t n : kept) values.push_back(all[n]);
+}
 
 /// Appends the nodes and cells of another mesh.
 void append(const BackgroundMesh& other, BackgroundMesh& mesh);

@@ -76,32 +76,17 @@ FieldSet read_fields(const std::vector<std::string>& files, Progress& progress) 
 
 /// Leaves the cells that have a node in the box. Throws Error(kUsage) where there is none.
 void restrict_to(const Box3& box, const std::string& text, FieldSet& set) {
-  const std::vector<Vec3> xyz = std::move(set.mesh.node_xyz);
-  set.mesh.node_xyz.clear();
-  std::vector<std::int32_t> number(xyz.size(), -1), kept;
-  const auto restrict_cells = [&](auto& cells) {
-    std::erase_if(cells, [&](const auto& cell) {
-      return std::none_of(cell.begin(), cell.end(), [&](std::int32_t n) { return distance2(xyz[n], box) == 0; });
-    });
-    for (auto& cell : cells)
-      for (std::int32_t& n : cell) {
-        if (number[n] < 0) {
-          number[n] = static_cast<std::int32_t>(kept.size());
-          kept.push_back(n);
-        }
-        n = number[n];
-      }
+  const auto is_outside = [&](const auto& cell) {
+    return std::none_of(cell.begin(), cell.end(),
+                        [&](std::int32_t n) { return distance2(set.mesh.node_xyz[n], box) == 0; });
   };
-  restrict_cells(set.mesh.tets);
-  restrict_cells(set.mesh.triangles);
-  if (kept.empty())
+  std::erase_if(set.mesh.tets, is_outside);
+  std::erase_if(set.mesh.triangles, is_outside);
+  if (set.mesh.is_empty())
     throw Error(ExitCode::kUsage, fmt::format("--box '{}': no node of the mesh is in it; is it in its unit?", text));
-  for (const std::int32_t n : kept) set.mesh.node_xyz.push_back(xyz[n]);
-  for (std::vector<SymmetricTensor>& hessian : set.hessian) {
-    const std::vector<SymmetricTensor> all = std::move(hessian);
-    hessian.clear();
-    for (const std::int32_t n : kept) hessian.push_back(all[n]);
-  }
+  const std::vector<std::int32_t> kept = number_used_nodes(set.mesh);
+  keep_only(kept, set.mesh.node_xyz);
+  for (std::vector<SymmetricTensor>& hessian : set.hessian) keep_only(kept, hessian);
 }
 
 MetricOptions options_for(const MetricStageOptions& o, const BackgroundMesh& mesh) {

@@ -1,6 +1,9 @@
 #include "geometry/brep/face_integral.h"
 
 #include <Geom2dAdaptor_Curve.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -193,5 +196,14 @@ class Integrator {
 }  // namespace
 
 FaceIntegral integrate_face(const FaceDomain& domain, Vec3 origin) { return Integrator(domain, origin).run(); }
+
+double area_of_faces(const TopoDS_Shape& shape) {
+  double area = 0;
+  for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {
+    const FaceDomain domain = make_domain(TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD)));
+    if (!domain.loops.empty()) area += std::abs(integrate_face(domain, {}).area);
+  }
+  return area;
+}
 
 }  // namespace st::occt

@@ -22,7 +22,6 @@
 
 #include "base/disjoint_sets.h"
 #include "geometry/brep/compound.h"
-#include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/boolean_child.h"
@@ -192,15 +191,6 @@ BooleanResult divide(const ImportedShape& model, const Task& task) {
   return result;
 }
 
-double area_of(const TopoDS_Shape& shape) {
-  double area = 0;
-  for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {
-    const FaceDomain domain = make_domain(TopoDS::Face(forward(f.Current())));
-    if (!domain.loops.empty()) area += std::abs(integrate_face(domain, {}).area);
-  }
-  return area;
-}
-
 std::string label(const ImportedShape& model, int face) {
   const FaceAttributes& a = model.attributes[face - 1];
   const std::string& name = a.name.empty() ? a.part : a.name;
@@ -269,8 +259,8 @@ std::string fault_of(const ImportedShape& model, const Task& task, const Boolean
   std::vector<TopoDS_Shape> before;
   for (const int f : task.all) before.push_back(model.faces(f));
   for (std::size_t k = 0; k < task.all.size(); ++k) {
-    const double was = area_of(before[k]);
-    if (std::abs(area_of(result.images[k]) - was) > kSameArea * was)
+    const double was = area_of_faces(before[k]);
+    if (std::abs(area_of_faces(result.images[k]) - was) > kSameArea * was)
       return "it would change the area of " + label(model, task.all[k]);
   }
   const Shared now = shared_of(result.shape), was = shared_of(compound_of(before));

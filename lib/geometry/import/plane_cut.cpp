@@ -21,7 +21,6 @@
 #include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "geometry/brep/compound.h"
-#include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/boolean_child.h"
@@ -73,15 +72,6 @@ PlaneSide side_of(const TopoDS_Face& face, const SymmetryPlane& plane, double to
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) add_edge(TopoDS::Edge(e.Current()), plane, reach);
   for (const Vec3 p : FaceProbe(face, tolerance).samples()) reach.add(component(p, plane.axis) - plane.value);
   return reach.side(tolerance);
-}
-
-double area_of(const TopoDS_Shape& shape) {
-  double area = 0;
-  for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {
-    const FaceDomain domain = make_domain(TopoDS::Face(forward(f.Current())));
-    if (!domain.loops.empty()) area += std::abs(integrate_face(domain, {}).area);
-  }
-  return area;
 }
 
 TopoDS_Shape large_face(const ImportedShape& model, const SymmetryPlane& plane) {
@@ -168,8 +158,8 @@ ImportedShape taken(const ImportedShape& model, const BooleanResult& result) {
 std::string fault_of(const ImportedShape& model, const BooleanResult& result, const ImportedShape& divided,
                      const SymmetryPlane& plane, double tolerance) {
   for (int f = 1; f <= model.faces.Extent(); ++f) {
-    const double was = area_of(model.faces(f));
-    if (std::abs(area_of(result.images[f - 1]) - was) > kSameArea * was)
+    const double was = area_of_faces(model.faces(f));
+    if (std::abs(area_of_faces(result.images[f - 1]) - was) > kSameArea * was)
       return "it would change the area of " + model.file_label(f);
   }
   if (const int n_free = count_free_edges(divided.shape); n_free > 0 && count_free_edges(model.shape) == 0)

@@ -19,7 +19,6 @@
 #include <cmath>
 #include <functional>
 
-#include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
@@ -42,11 +41,6 @@ int count_bad_wires(const TopoDS_Shape& face) {
   return n_wires == 0 ? 1 : n;
 }
 
-double area_of(const TopoDS_Shape& face) {
-  const FaceDomain domain = make_domain(TopoDS::Face(face.Oriented(TopAbs_FORWARD)));
-  return domain.loops.empty() ? 0 : std::abs(integrate_face(domain, {}).area);
-}
-
 using FaceImage = std::function<TopoDS_Shape(const TopoDS_Shape&)>;
 
 /// A repair of the faces that need one is worse than none if it opens edges, or changes the area of the others. The
@@ -58,9 +52,7 @@ bool is_worse(const ImportedShape& model, const TopoDS_Shape& repaired, const Fa
   for (int i = 1; i <= model.faces.Extent(); ++i) {
     const TopoDS_Shape changed = image(model.faces(i));
     if (count_bad_wires(model.faces(i)) > 0 || changed.IsSame(model.faces(i))) continue;
-    double area = 0;
-    for (TopExp_Explorer e(changed, TopAbs_FACE); e.More(); e.Next()) area += area_of(e.Current());
-    const double before = area_of(model.faces(i));
+    const double area = area_of_faces(changed), before = area_of_faces(model.faces(i));
     if (std::abs(area - before) > kAboutSameArea * before) return true;
   }
   return false;

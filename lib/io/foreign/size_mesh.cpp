@@ -127,32 +127,6 @@ void read_sizes(const std::string& path, const CellFile& file, BackgroundMesh& m
                   n_components == 1 ? "length above 0" : "metric that is positive definite", first, x.x, x.y, x.z));
 }
 
-/// Leaves out nodes that no cell has: they may lie anywhere, and without a length. The kept ones, in their new order.
-std::vector<std::int32_t> drop_unused(BackgroundMesh& mesh) {
-  std::vector<std::int32_t> number(mesh.node_xyz.size(), -1), kept;
-  const auto keep = [&](auto& cells) {
-    for (auto& cell : cells)
-      for (std::int32_t& n : cell) {
-        if (number[n] < 0) {
-          number[n] = static_cast<std::int32_t>(kept.size());
-          kept.push_back(n);
-        }
-        n = number[n];
-      }
-  };
-  keep(mesh.tets);
-  keep(mesh.triangles);
-  return kept;
-}
-
-template <class Value>
-void keep_only(const std::vector<std::int32_t>& kept, std::vector<Value>& values) {
-  std::vector<Value> all = std::move(values);
-  values.clear();
-  values.reserve(kept.size());
-  for (const std::int32_t n : kept) values.push_back(all[n]);
-}
-
 /// The file as it is, with values at nodes; its cells as simplices in `mesh`.
 CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
   const auto [path, array] = split_name(file);
@@ -189,7 +163,7 @@ BackgroundMesh read_size_mesh(const std::string& file) {
   BackgroundMesh mesh;
   const CellFile cells = read_cells(file, mesh);
   read_sizes(split_name(file).first, cells, mesh);
-  const std::vector<std::int32_t> kept = drop_unused(mesh);
+  const std::vector<std::int32_t> kept = number_used_nodes(mesh);
   keep_only(kept, mesh.node_xyz);
   keep_only(kept, mesh.node_size);
   return mesh;
@@ -202,7 +176,7 @@ FieldMesh read_field_mesh(const std::string& file) {
   if (cells.value.size() != cells.node_xyz.size())
     throw Error(ExitCode::kInput, fmt::format("{}: has {} values for {} nodes; a field of one number each is expected",
                                               file, cells.value.size(), cells.node_xyz.size()));
-  const std::vector<std::int32_t> kept = drop_unused(field.mesh);
+  const std::vector<std::int32_t> kept = number_used_nodes(field.mesh);
   keep_only(kept, field.mesh.node_xyz);
   field.value = std::move(cells.value);
   keep_only(kept, field.value);

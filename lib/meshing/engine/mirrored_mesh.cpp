@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "meshing/face/patch_image.h"
+
 namespace st {
 namespace {
 
@@ -84,42 +86,16 @@ class ImageMaker {
     }
   }
 
-  using Place = std::tuple<std::uint8_t, std::int32_t, std::int32_t>;  // of a boundary node, in the order of patches
-  Place image_of(const Place& place) const {
+  RimPlace image_of(const RimPlace& place) const {
     const auto [dim, entity, index] = place;
     if (dim == static_cast<std::uint8_t>(EntityDim::kVertex)) return {dim, node_of_[mirror_.vertex[entity]], 0};
     return {dim, mirror_.edge[entity], index};
   }
 
   FacePatch image_of(const FacePatch& half, FaceId face) const {
-    FacePatch p = half;
-    std::vector<std::pair<Place, std::int32_t>> places;
-    for (std::int32_t i = 0; i < half.n_boundary; ++i)
-      places.push_back({image_of({half.boundary_dim[i], half.boundary_entity[i], half.boundary_index[i]}), i});
-    std::sort(places.begin(), places.end());
-    std::vector<NodeId> number(half.n_boundary + half.inner_xyz.size());
-    std::iota(number.begin(), number.end(), 0);
-    for (std::int32_t i = 0; i < half.n_boundary; ++i) {
-      std::tie(p.boundary_dim[i], p.boundary_entity[i], p.boundary_index[i]) = places[i].first;
-      number[places[i].second] = i;
-    }
-    for (Vec3& x : p.inner_xyz) x = mirror_.image_of(x);
-    for (Triangle& t : p.triangles)
-      for (NodeId& n : t.n) n = number[n];
-    if (t_.face_is_reversed[face] != t_.face_is_reversed[mirror_.face[face]]) turn_over(p);
-    return p;
-  }
-
-  /// Corners 1 and 2 of each triangle change places.
-  static void turn_over(FacePatch& p) {
-    for (Triangle& t : p.triangles) std::swap(t.n[1], t.n[2]);
-    std::vector<std::pair<std::int32_t, Vec2>> corners;
-    for (std::size_t i = 0; i < p.uv_corner.size(); ++i) {
-      const std::int32_t c = p.uv_corner[i], k = c % 3;
-      corners.push_back({c - k + (3 - k) % 3, p.own_uv[i]});
-    }
-    std::sort(corners.begin(), corners.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (std::size_t i = 0; i < corners.size(); ++i) std::tie(p.uv_corner[i], p.own_uv[i]) = corners[i];
+    const bool is_turned_over = t_.face_is_reversed[face] != t_.face_is_reversed[mirror_.face[face]];
+    return st::image_of(half, {face, [&](Vec3 x) { return mirror_.image_of(x); }, is_turned_over,
+                               [&](const RimPlace& place) { return image_of(place); }});
   }
 
   void add_failures() {

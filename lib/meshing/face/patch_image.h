@@ -5,7 +5,6 @@
 #include <functional>
 #include <tuple>
 
-#include "base/similarity.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -17,7 +16,7 @@ using RimPlace = std::tuple<std::uint8_t, std::int32_t, std::int32_t>;
 /// What makes a patch another face's.
 struct FaceImage {
   FaceId face = kNone;  ///< that has the image
-  Similarity motion;
+  std::function<Vec3(Vec3)> motion;
   bool is_turned_over = false;  ///< its outside is not the image of the other's outside
   std::function<RimPlace(const RimPlace&)> boundary;
 };

@@ -26,7 +26,7 @@ TEST(PatchImage, moves_inner_nodes_and_names_the_entities_of_the_other_face_in_o
   const auto other = [](const RimPlace& place) -> RimPlace {
     return std::get<0>(place) == 0 ? RimPlace{0, 7, 0} : RimPlace{1, 2, 5};
   };
-  const FacePatch p = image_of(small_patch(), {9, {.translation = {10, 0, 0}}, false, other});
+  const FacePatch p = image_of(small_patch(), {9, Similarity{.translation = {10, 0, 0}}, false, other});
   EXPECT_EQ(p.face, 9);
   EXPECT_EQ(p.boundary_entity, (std::vector<std::int32_t>{7, 2}));
   EXPECT_EQ(p.boundary_index, (std::vector<std::int32_t>{0, 5}));
@@ -39,7 +39,7 @@ TEST(PatchImage, sorts_the_boundary_and_turns_triangles_over) {
   const auto other = [](const RimPlace& place) -> RimPlace {
     return std::get<0>(place) == 0 ? RimPlace{1, 8, 1} : RimPlace{1, 2, 5};
   };
-  const FacePatch p = image_of(small_patch(), {9, {}, true, other});
+  const FacePatch p = image_of(small_patch(), {9, Similarity(), true, other});
   EXPECT_EQ(p.boundary_entity, (std::vector<std::int32_t>{2, 8}));
   EXPECT_EQ(p.triangles[0].n[0], 1);
   EXPECT_EQ(p.triangles[0].n[1], 2);

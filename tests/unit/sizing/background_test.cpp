@@ -6,6 +6,8 @@
 #include <cmath>
 #include <random>
 
+#include "unit/sizing/background_meshes.h"
+
 namespace st {
 namespace {
 
@@ -23,7 +25,6 @@ BackgroundMesh one_tet(const std::array<double, 4>& lengths) {
 template <class Length>
 BackgroundMesh cube_of_tets(int n, const Length& length) {
   BackgroundMesh mesh;
-  const auto node = [n](int i, int j, int k) { return i + (n + 1) * (j + (n + 1) * k); };
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i) {
@@ -31,15 +32,7 @@ BackgroundMesh cube_of_tets(int n, const Length& length) {
         const double h = length(mesh.node_xyz.back());
         mesh.node_size.push_back({h, h, {}});
       }
-  constexpr int kTets[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        for (const auto& tet : kTets) {
-          mesh.tets.emplace_back();
-          for (std::size_t c = 0; c < 4; ++c)
-            mesh.tets.back()[c] = node(i + (tet[c] & 1), j + (tet[c] >> 1 & 1), k + (tet[c] >> 2));
-        }
+  test::add_cube_cells(n, mesh);
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "base/threads.h"
+#include "unit/sizing/background_meshes.h"
 
 namespace st {
 namespace {
@@ -18,12 +19,7 @@ BackgroundMesh roof(int n, double rise) {
       const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
       mesh.node_xyz.push_back({x, y, rise * std::min(x, 1 - x)});
     }
-  const auto node = [n](int i, int j) { return i + (n + 1) * j; };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      mesh.triangles.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-      mesh.triangles.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
-    }
+  test::add_square_cells(n, 0, mesh);
   return mesh;
 }
 
@@ -36,16 +32,7 @@ BackgroundMesh shaken_cube(int n) {
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i)
         mesh.node_xyz.push_back(Vec3{i + shift(random), j + shift(random), k + shift(random)} / n);
-  const auto node = [n](int i, int j, int k) { return i + (n + 1) * (j + (n + 1) * k); };
-  constexpr int kTets[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
-  for (int k = 0; k < n; ++k)
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i)
-        for (const auto& tet : kTets) {
-          mesh.tets.emplace_back();
-          for (std::size_t c = 0; c < 4; ++c)
-            mesh.tets.back()[c] = node(i + (tet[c] & 1), j + (tet[c] >> 1 & 1), k + (tet[c] >> 2));
-        }
+  test::add_cube_cells(n, mesh);
   return mesh;
 }
 

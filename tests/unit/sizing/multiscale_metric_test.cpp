@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/eigen.h"
+#include "unit/sizing/background_meshes.h"
 
 namespace st {
 namespace {
@@ -17,12 +18,7 @@ BackgroundMesh two_squares(int n) {
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i)
         mesh.node_xyz.push_back({square + static_cast<double>(i) / n, static_cast<double>(j) / n, 0});
-    const auto node = [&](int i, int j) { return first + i + (n + 1) * j; };
-    for (int j = 0; j < n; ++j)
-      for (int i = 0; i < n; ++i) {
-        mesh.triangles.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-        mesh.triangles.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
-      }
+    test::add_square_cells(n, first, mesh);
   }
   return mesh;
 }

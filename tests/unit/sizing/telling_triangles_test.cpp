@@ -5,6 +5,8 @@
 #include <cmath>
 #include <random>
 
+#include "unit/sizing/background_meshes.h"
+
 namespace st {
 namespace {
 
@@ -20,12 +22,7 @@ BackgroundMesh sized_square(int n, const Length& length) {
       const double h = length(mesh.node_xyz.back());
       mesh.node_size.push_back({h, h, {}});
     }
-  const auto node = [n](int i, int j) { return i + (n + 1) * j; };
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      mesh.triangles.push_back({node(i, j), node(i + 1, j), node(i + 1, j + 1)});
-      mesh.triangles.push_back({node(i, j), node(i + 1, j + 1), node(i, j + 1)});
-    }
+  test::add_square_cells(n, 0, mesh);
   return mesh;
 }
 
