@@ -11,9 +11,9 @@
 namespace st {
 namespace {
 
-using Corners = std::vector<std::array<float, 9>>;
+using FloatCorners = std::vector<std::array<float, 9>>;
 
-std::string binary(const Corners& triangles, const std::string& title = "") {
+std::string binary(const FloatCorners& triangles, const std::string& title = "") {
   std::string bytes = title;
   bytes.resize(80, ' ');
   const auto put = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
@@ -38,7 +38,7 @@ void expect_refused(const std::string& bytes, const std::string& says) {
   EXPECT_ERROR(read_stl(dir / "m.stl"), kInput, says);
 }
 
-const Corners kTwo{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}};
+const FloatCorners kTwo{{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, 0, 0, 1, 1, 0, 0, 1, 0}};
 
 TEST(StlFile, makes_one_node_of_equal_points_in_the_order_of_the_file) {
   const SurfaceMesh m = read(binary(kTwo));
@@ -54,7 +54,7 @@ TEST(StlFile, takes_minus_zero_for_zero) {
 }
 
 TEST(StlFile, leaves_triangles_out_that_name_a_node_twice) {
-  Corners c = kTwo;
+  FloatCorners c = kTwo;
   c.push_back({0, 0, 0, 0, 0, 0, 5, 5, 5});
   EXPECT_EQ(read(binary(c)).n_triangles(), 2);
 }
