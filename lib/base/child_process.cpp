@@ -18,6 +18,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 
+// There where the program has the address sanitizer, which reserves more addresses than any machine has memory. This
+// file itself may be compiled without it.
+extern "C" [[gnu::weak]] void __asan_init();  // NOLINT(bugprone-reserved-identifier)
+
 namespace st {
 namespace {
 
@@ -71,9 +75,7 @@ double machine_memory() {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (limits.cpu_seconds > 0) end_after(limits.cpu_seconds);
   if (limits.wall_seconds > 0) alarm(static_cast<unsigned>(std::ceil(limits.wall_seconds)));
-#ifndef __SANITIZE_ADDRESS__  // which reserves more addresses than any machine has memory
-  limit(RLIMIT_AS, machine_memory());
-#endif
+  if (&__asan_init == nullptr) limit(RLIMIT_AS, machine_memory());
   limit(RLIMIT_CORE, 0);
   confine_process(limits.writable_folder);
   int code = kUnknownFailure;
