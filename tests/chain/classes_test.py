@@ -44,8 +44,24 @@ class Classes(ToolTest):
             self.assertEqual(check["checks"]["contacts"]["count"], 0)
             self.assertEqual(check["components"], 1)
 
-    def test_bodies_that_touch_in_a_far_field_fail_the_check_with_the_cad_and_without(self):
-        f = make_chain(MODELS / "touching_boxes.brep", self.folder / "far", import_options=("--farfield", "box:3"))
+    def test_bodies_that_touch_or_overlap_become_one_where_a_far_field_is_made(self):
+        for name, says in (("touching_boxes", "bodies that touch joined"), ("wing_in_body", "that overlap united")):
+            for plane in ((), ("--symmetry", "z=0.1")):
+                options = ("--farfield", "box:3", *plane)
+                f = make_chain(MODELS / f"{name}.brep", self.folder / "far", import_options=options)
+                said = must("st-import", MODELS / f"{name}.brep", "-o", self.folder / "again.hdf", *options)
+                self.assertIn(says, said.err)
+                check = must("st-check", f / "mesh.hdf", "--geometry", f / "geometry.hdf", "--json").json()
+                self.assertEqual((check["checks"]["contacts"]["count"], check["components"]), (0, 1 if plane else 2))
+
+    def test_a_domain_of_the_file_is_no_body_to_be_united(self):
+        self.expect_error(USAGE, "st-import", MODELS / "capsule_in_sphere_50.brep", "-o", self.folder / "g.hdf",
+                          "--farfield", "box:3", says="the file has its own air")
+
+    def test_bodies_that_touch_in_a_far_field_of_the_file_fail_the_check_with_the_cad_and_without(self):
+        groups = self.folder / "far.toml"
+        groups.write_text('[[group]]\nname = "far"\nrole = "farfield"\nfaces = "1"\n')
+        f = make_chain(MODELS / "touching_boxes.brep", self.folder / "own", import_options=("--groups", groups))
         for geometry in ((), ("--geometry", f / "geometry.hdf")):
             check = Run("st-check", f / "mesh.hdf", *geometry, "--json")
             self.assertEqual(check.code, INCOMPLETE)

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "base/error.h"
 #include "base/length.h"
@@ -14,8 +13,8 @@
 #include "base/required_unit.h"
 #include "base/text.h"
 #include "geometry/import/air_roles.h"
+#include "geometry/import/body_relations.h"
 #include "geometry/import/cad_reader.h"
-#include "geometry/import/crossing_bodies.h"
 #include "geometry/import/crossing_faces.h"
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/embedded_edges.h"
@@ -36,12 +35,9 @@
 #include "geometry/import/plane_cut.h"
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
-#include "geometry/import/solid_contacts.h"
 #include "geometry/import/sound_geometry.h"
 #include "geometry/import/space_curves.h"
 #include "geometry/import/topology_report.h"
-#include "geometry/import/touching_bodies.h"
-#include "geometry/import/unite.h"
 #include "geometry/import/wrong_sides.h"
 #include "geometry/model/group_selection.h"
 #include "geometry/model/imported_shape.h"
@@ -89,9 +85,9 @@ void take_new_faces(ImportedShape& model, occt::ModelOfFile& tables, const std::
   if (occt::repair_shells(model, tables.measures, own)) tables = occt::make_tables(model, path);
 }
 
-/// The air that the file has gets its roles, or goes; symmetry plane and far field that are asked for are made.
-AirFaces settle_air(ImportedShape& model, occt::ModelOfFile& tables, occt::AskedAir asked,
-                    std::vector<ImportFinding>& findings, const std::string& path) {
+/// The air that the file has gets its roles, or goes; then `asked` tells where the new one ends.
+AirFaces settle_file_air(ImportedShape& model, occt::ModelOfFile& tables, occt::AskedAir& asked,
+                         const std::string& path) {
   const occt::FileAir air = occt::find_file_air(model, tables.tables, asked, path);
   if (air.is_by_shape) tables = occt::make_tables(model, path);
   if (asked.replaces) {
@@ -100,11 +96,16 @@ AirFaces settle_air(ImportedShape& model, occt::ModelOfFile& tables, occt::Asked
   }
   AirFaces counts = occt::counts_of(air);
   counts.is_replaced = asked.replaces;
-  if (!asked.plane && !asked.far) return counts;
+  return counts;
+}
+
+/// Symmetry plane and far field that are asked for.
+void make_air(ImportedShape& model, occt::ModelOfFile& tables, const occt::AskedAir& asked,
+              std::vector<ImportFinding>& findings, const std::string& path) {
+  if (!asked.plane && !asked.far) return;
   occt::make_flow_domain(model, tables.tables.box(), tables.tables.reference_diagonal(), asked.plane, asked.far,
                          findings, path);
   take_new_faces(model, tables, path);
-  return counts;
 }
 
 /// One half becomes the image of the other, where that is asked for.
@@ -120,7 +121,7 @@ std::optional<occt::MirrorShapes> mirror_model(ImportedShape& model, occt::Model
 }
 
 /// A symmetry plane, a mirror or a far field gives faces other numbers.
-bool makes_air(const ImportOptions& options) {
+bool changes_numbers(const ImportOptions& options) {
   return !options.mirror.empty() || !options.symmetry.empty() || !options.farfield.empty() ||
          !options.replace_farfield.empty();
 }
@@ -138,7 +139,7 @@ void refuse_numbers(const ImportOptions& options) {
 
 /// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field changes.
 bool is_known_late(const GroupRule& rule, const ImportOptions& options) {
-  if (!makes_air(options)) return false;
+  if (!changes_numbers(options)) return false;
   return std::any_of(rule.faces.begin(), rule.faces.end(), [](const std::string& item) {
     return item.find_first_not_of("0123456789-") == std::string::npos;
   });
@@ -187,7 +188,7 @@ occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, con
 /// Sewing and voids may put the faces in another order: a group that names them by number must not end with others than
 /// those that were sewn for it. With a flow domain such groups are not sewn.
 void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, const ImportOptions& options) {
-  if (makes_air(options)) return;
+  if (changes_numbers(options)) return;
   const std::vector<double> tolerances = face_tolerances(tables.labels);
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (model.attributes[f].is_sewn_by_group && (tolerances.empty() || tolerances[f] == 0))
@@ -195,20 +196,6 @@ void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, c
                   tables.face_label(f) +
                       " was sewn by the tolerance of a group that no longer contains it: repairs gave the faces new "
                       "numbers; for groups with a tolerance select by place, part, layer or name");
-}
-
-std::string part_name(const ModelTables& t, FaceId f) {
-  const std::string& path = t.labels.path_of(f);
-  if (!path.empty()) return path;
-  const std::string& group = t.labels.group_name[t.labels.face_group[f]];
-  return t.face_solid[f] == kNone ? group : group + " (solid " + std::to_string(t.face_solid[f] + 1) + ")";
-}
-
-void say_what_crosses(const ModelTables& t, const std::vector<occt::BodyCrossing>& crossings,
-                      std::vector<ImportFinding>& findings) {
-  for (const occt::BodyCrossing& c : crossings)
-    findings.push_back({FindingKind::kOverlap, t.face_label(c.of_edge), c.xyz, 0, false,
-                        part_name(t, c.of_edge) + " and " + part_name(t, c.face)});
 }
 
 /// Once the small faces that lie on a neighbour are merged into it.
@@ -238,50 +225,25 @@ void say_which_faces_cross(const std::vector<occt::FaceCrossing>& crossings, con
   }
 }
 
-/// Solids that cross others cannot be joined where they touch.
-std::set<int> crossing_solids(const ModelTables& t, const std::vector<occt::BodyCrossing>& crossings) {
-  std::set<int> solids;
-  for (const occt::BodyCrossing& c : crossings) solids.insert({t.face_solid[c.of_edge], t.face_solid[c.face]});
-  return solids;
-}
-
-/// Solids that lie on each other and were not asked to be joined, group by group.
-void say_what_touches(const ImportedShape& model, const ModelTables& t, const std::set<int>& left_out,
-                      std::vector<ImportFinding>& findings) {
-  for (std::vector<int>& group : occt::find_touching_solids(model, t).groups) {
-    std::erase_if(group, [&](int i) { return left_out.count(i) > 0; });
-    if (group.size() < 2) continue;
-    std::vector<FaceId> first;
-    for (std::size_t k = 0; k < 2; ++k)
-      first.push_back(
-          static_cast<FaceId>(std::find(t.face_solid.begin(), t.face_solid.end(), group[k]) - t.face_solid.begin()));
-    const Box3& box = t.face_box[first[0]];
-    findings.push_back({FindingKind::kTouching, "", box.center(), box.diagonal(), false,
-                        std::to_string(group.size()) + " bodies, among them " + part_name(t, first[0]) + " and " +
-                            part_name(t, first[1])});
-  }
-}
-
-/// Openings are closed and bodies that overlap united where asked, those that touch are joined; what touches itself
-/// always is.
-void relate_bodies(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
-                   std::vector<ImportFinding>& findings, const std::string& path, Progress& progress) {
+void close_openings(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
+                    std::vector<ImportFinding>& findings, const std::string& path) {
   if (options.cap && occt::cap_openings(model, tables.tables.reference_diagonal(), findings))
     take_new_faces(model, tables, path);
-  progress.step("uniting bodies", 0.65);
-  if (options.unite) occt::unite_solids(model, tables, options.unite_seconds, findings, path);
-  progress.step("bodies that cross", 0.67);
-  const occt::CrossingBodies crossings = occt::find_crossing_bodies(model, tables.tables, tables.measures);
-  if (crossings.n_not_compared > 0)
-    log_info(
-        "  " + std::to_string(crossings.n_not_compared) +
-        " pairs of bodies that are near each other were not compared to the end; st-check finds crossings in the mesh");
-  say_what_crosses(tables.tables, crossings.found, findings);
-  const auto join = options.join_touching ? occt::join_touching_solids : occt::join_self_touching_solids;
-  const std::set<int> left_out = crossing_solids(tables.tables, crossings.found);
-  progress.step("bodies that touch", 0.68);
-  join(model, tables, left_out, findings, path);
-  if (!options.join_touching && !options.unite) say_what_touches(model, tables.tables, left_out, findings);
+}
+
+/// Openings, bodies that overlap or touch, and the air around them.
+AirFaces settle_bodies_and_air(ImportedShape& model, occt::ModelOfFile& tables, const ImportOptions& options,
+                               std::vector<ImportFinding>& findings, const std::string& path, Progress& progress) {
+  close_openings(model, tables, options, findings, path);
+  occt::AskedAir air = occt::parse_air(options);
+  const bool has_new_air = air.far.has_value();
+  AirFaces faces;
+  if (has_new_air) faces = settle_file_air(model, tables, air, path);  // its solids are no bodies to be united
+  occt::relate_bodies(model, tables, options, has_new_air, findings, path, progress);
+  progress.step("far field and symmetry", 0.7);
+  if (!has_new_air) faces = settle_file_air(model, tables, air, path);
+  make_air(model, tables, air, findings, path);
+  return faces;
 }
 
 void repair_edges_and_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
@@ -310,7 +272,7 @@ void name_parts(const ImportedShape& model, ImportResult& result) {
 
 ImportResult run_import(const std::string& path, const ImportOptions& options) {
   refuse_numbers(options);
-  const occt::AskedAir air = occt::parse_air(options);
+  const std::optional<occt::SymmetryPlane> mirror = occt::parse_air(options).mirror;  // checks all of them
   Progress progress("importing", 1);
   progress.step("reading", 0);
   CadFile file = occt::read_cad(path);
@@ -342,10 +304,8 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   if (occt::leave_out_faces(model, tables.tables, result.findings, path)) tables = occt::make_tables(model, path);
   if (occt::repair_crossing_loops(model, tables, result.findings)) tables = occt::make_tables(model, path);
   if (occt::repair_shells(model, tables.measures, result.findings)) tables = occt::make_tables(model, path);
-  relate_bodies(model, tables, options, result.findings, path, progress);
-  progress.step("far field and symmetry", 0.7);
-  result.air = settle_air(model, tables, air, result.findings, path);
-  const auto mirrored = mirror_model(model, tables, air.mirror, result.findings, path);
+  result.air = settle_bodies_and_air(model, tables, options, result.findings, path, progress);
+  const auto mirrored = mirror_model(model, tables, mirror, result.findings, path);
   progress.step("faces that cross", 0.75);
   const auto crossings = find_faces_that_cross(model, tables, result.findings, path);
   occt::require_sound_boxes(tables.tables.face_box, path);
