@@ -22,6 +22,7 @@ constexpr int kSamples = 9;  // points of a cell that tell its parts apart: near
 constexpr double kSampleX = 0.9371, kSampleY = 0.9423, kSampleZ = 0.9497, kSampleCentre = 0.0137;
 constexpr std::int8_t kNoFlow = -1;
 constexpr std::size_t kCellsPerPiece = 8'192;
+constexpr double kRounded = 1e-6;     // half edges: far more than clipped corners are rounded by
 constexpr double kSheetCosine = 0.8;  // of triangles with their mean normal: no two of them face each other
 
 /// A leaf as a cube.
@@ -46,10 +47,10 @@ struct Cube {
 /// The parts of the flow in a cut cell, by samples.
 struct CellParts {
   std::array<std::int8_t, kSamples> part = {-1, -1, -1, -1, -1, -1, -1, -1, -1};  // 0, 1 or kNoFlow
-  Vec3 spare;  // a point of the flow where no sample is one
-  std::int8_t spare_part = kNoFlow;
+  std::array<Vec3, 2> spare;  // of each part a point of the flow, where no sample is one
+  std::array<bool, 2> has_spare = {false, false};
 
-  bool has(int p) const { return spare_part == p || std::find(part.begin(), part.end(), p) != part.end(); }
+  bool has(int p) const { return has_spare[p] || std::find(part.begin(), part.end(), p) != part.end(); }
 };
 
 /// A triangle of the surface in the cell at hand.
@@ -93,6 +94,8 @@ class Blanker {
     colour_the_rest();
     find_parts();
     link_sites();
+    result_.cut_index = std::move(cut_index_);
+    result_.sheet = std::move(sheet_);
     return std::move(result_);
   }
 
@@ -313,10 +316,51 @@ class Blanker {
       parts.part[s] = vote[g] <= 0 ? kNoFlow : is_second(g) ? 1 : 0;
     }
     if (largest[0] == kNone)
-      set_spare(cell, find_largest_piece(pieces, [](const Piece&) { return true; }), 0, parts);
+      set_hidden_parts(cell, pieces, !is_sheet(i), parts);
     else if (largest[1] == kNone && !is_sheet(i))
       set_hidden_part(cell, pieces, parts);
     return parts;
+  }
+
+  /// Where no sample is flow: surfaces that clip corners of the cell, a wall between them at most.
+  static void set_hidden_parts(const Cube& cell, const std::vector<Piece>& pieces, bool may_be_two, CellParts& parts) {
+    const Piece* first = find_largest_piece(pieces, [](const Piece&) { return true; });
+    set_spare(cell, first, 0, parts);
+    if (!may_be_two || !first) return;
+    const std::vector<bool> is_first = connected_with(pieces, cell.half, [&](const Piece& p) { return &p == first; });
+    const Piece* second = find_largest_piece(pieces, [&](const Piece& piece) {
+      return !is_first[&piece - pieces.data()] && dot(piece.area, parts.spare[0] - piece.middle) <= 0;
+    });
+    if (second) set_spare(cell, second, 1, parts);
+  }
+
+  /// [n_pieces] those from which a way over the surface in the cell leads to a piece that `is_start` is true for.
+  template <class IsStart>
+  static std::vector<bool> connected_with(const std::vector<Piece>& pieces, double half, const IsStart& is_start) {
+    std::vector<bool> is_connected(pieces.size(), false);
+    std::vector<std::size_t> front;
+    const auto add = [&](std::size_t i) {
+      is_connected[i] = true;
+      front.push_back(i);
+    };
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+      if (is_start(pieces[i])) add(i);
+    while (!front.empty()) {
+      const Piece& from = pieces[front.back()];
+      front.pop_back();
+      for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (!is_connected[i] && have_common_corner(from, pieces[i], half)) add(i);
+    }
+    return is_connected;
+  }
+
+  static bool have_common_corner(const Piece& a, const Piece& b, double half) {
+    const double near = kRounded * half;
+    if (!meet(a.box, b.box, near)) return false;
+    for (int i = 0; i < a.polygon.n; ++i)
+      for (int k = 0; k < b.polygon.n; ++k)
+        if (norm2(a.polygon.corner[i] - b.polygon.corner[k]) <= near * near) return true;
+    return false;
   }
 
   static const Piece* nearest_piece(Vec3 x, const std::vector<Piece>& pieces) {
@@ -382,7 +426,6 @@ class Blanker {
   /// 1: flow, -1: not, 0: nothing to tell it by. The first triangle on the way to the nearest piece of the surface
   /// decides.
   int sign_at(const Cube& cell, Vec3 x, const std::vector<Piece>& pieces) const {
-    constexpr double kRounded = 1e-6;  // half edges: far more than clipped corners are rounded by
     const Piece* nearest = nearest_piece(x, pieces);
     if (!nearest) return 0;
     Box3 way;
@@ -418,21 +461,28 @@ class Blanker {
     return largest;
   }
 
-  /// A surface that turns its back to all samples of the flow bounds a part of its own, too thin for a sample.
+  /// A surface that turns its back to all samples of the flow bounds a part of its own, too thin for a sample; rather
+  /// one that is not connected with what they see.
   static void set_hidden_part(const Cube& cell, const std::vector<Piece>& pieces, CellParts& parts) {
-    const Piece* hidden = find_largest_piece(pieces, [&](const Piece& piece) {
+    const auto is_seen = [&](const Piece& piece) {
       for (int s = 0; s < kSamples; ++s)
-        if (parts.part[s] == 0 && dot(piece.area, cell.sample(s) - piece.middle) > 0) return false;
-      return true;
-    });
-    if (hidden) set_spare(cell, hidden, 1, parts);
+        if (parts.part[s] == 0 && dot(piece.area, cell.sample(s) - piece.middle) > 0) return true;
+      return false;
+    };
+    const Piece* hidden = find_largest_piece(pieces, [&](const Piece& piece) { return !is_seen(piece); });
+    if (!hidden) return;
+    const std::vector<bool> is_connected = connected_with(pieces, cell.half, is_seen);
+    if (const Piece* apart =
+            find_largest_piece(pieces, [&](const Piece& piece) { return !is_connected[&piece - pieces.data()]; }))
+      hidden = apart;
+    set_spare(cell, hidden, 1, parts);
   }
 
   /// A point just off the surface, in the flow.
-  static void set_spare(const Cube& cell, const Piece* piece, std::int8_t part, CellParts& parts) {
+  static void set_spare(const Cube& cell, const Piece* piece, int part, CellParts& parts) {
     constexpr double kOff = 1e-3;  // of the half edge
-    parts.spare = piece ? piece->middle + kOff * cell.half * normalized(piece->area) : cell.center;
-    parts.spare_part = part;
+    parts.spare[part] = piece ? piece->middle + kOff * cell.half * normalized(piece->area) : cell.center;
+    parts.has_spare[part] = true;
   }
 
   /// The plane between the surface that looks to the first part and the one that looks to the second.
@@ -446,7 +496,8 @@ class Blanker {
       ++count[p];
     };
     for (int s = 0; s < kSamples; ++s) add(parts_[i].part[s], cell.sample(s));
-    add(parts_[i].spare_part, parts_[i].spare);
+    for (const int p : {0, 1})
+      if (parts_[i].has_spare[p]) add(p, parts_[i].spare[p]);
     const Vec3 across = sum[0] / count[0] - sum[1] / count[1];
     Vec3 normal;
     for (const Piece& piece : pieces) normal += (dot(piece.area, across) < 0 ? -1.0 : 1.0) * piece.area;
@@ -585,7 +636,7 @@ class Blanker {
     const auto [leaf, part] = at;
     if (!is_cut(leaf)) return own.nearest(x);
     const CellParts& parts = this->parts(cut_index_[leaf], scratch);
-    if (parts.spare_part == part) return parts.spare;
+    if (parts.has_spare[part]) return parts.spare[part];
     Vec3 nearest = without ? *without : own.center;
     double least = std::numeric_limits<double>::infinity();
     const Vec3 low = own.sample(0), high = own.sample(7), from_low = low - x, from_high = high - x;

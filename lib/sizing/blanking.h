@@ -54,7 +54,11 @@ struct Blanking {
   std::vector<std::int32_t> site_links;  ///< [n_leaves + n_split] row of `links`; kNone: all links are open, to first
                                          ///< parts
   std::vector<OpenLinks> links;
-  double flow_along_normals = 0;  ///< 1: normals of the model point into the flow, -1: out of it, 0: unknown
+  // Not stored:
+  std::vector<std::int32_t> cut_index;  ///< [n_leaves] kNone: not cut
+  std::vector<Vec3> sheet;              ///< [n_cut] unit, into the flow, where the cell meets one sheet of the surface;
+                                        ///< else zero
+  double flow_along_normals = 0;        ///< 1: normals of the model point into the flow, -1: out of it, 0: unknown
 
   std::int32_t n_sites() const { return static_cast<std::int32_t>(site_links.size()); }
   /// kNone: not split.

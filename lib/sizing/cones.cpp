@@ -185,6 +185,7 @@ class ConeSpread {
       };
       bool has_way = false;
       for_each_link(blanking_, neighbours_, site, [&](std::int32_t to, const CellStep&) {
+        if (to < n_leaves && blanking_->colour[to] == CellColour::kBlanked) return;  // no length comes from there
         has_way = true;
         take(to);
       });

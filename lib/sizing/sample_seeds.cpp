@@ -9,9 +9,10 @@
 namespace st {
 namespace {
 
+constexpr double kClear = 0.3;  // cosine between the normals of a sample and of a surface: they look the same way
+
 /// Whether a sample lies on the surface of this part of a split leaf; of both where its normal does not tell.
 bool concerns(const LengthSample& s, const Blanking& blanking, std::int32_t split, bool is_second) {
-  constexpr double kClear = 0.3;  // cosine between the normals of sample and split
   const float* n = blanking.split[static_cast<std::size_t>(split)].normal;
   const double along = blanking.flow_along_normals * dot(Vec3(s.normal), Vec3{n[0], n[1], n[2]});
   return is_second ? along < kClear : along > -kClear;
@@ -26,6 +27,7 @@ class SiteVisitor {
 
   /// `leaf`: where the sample lies.
   void visit(const LengthSample& s, std::int32_t leaf) const {
+    if (sheet_along(s, leaf) < -kClear && visit_own_sheet_beside(s, leaf)) return;
     visit_parts(s, leaf);
     if (blanking_.colour[leaf] != CellColour::kBlanked) return;
     // the surface may bulge a little into what is blanked: lengths do not pass from there
@@ -33,6 +35,24 @@ class SiteVisitor {
   }
 
  private:
+  /// Cosine between the normals of the sample and of the surface in the leaf; 0 where that is not one sheet.
+  double sheet_along(const LengthSample& s, std::int32_t leaf) const {
+    const std::int32_t cut = blanking_.cut_index[leaf];
+    return cut == kNone ? 0 : blanking_.flow_along_normals * dot(Vec3(s.normal), blanking_.sheet[cut]);
+  }
+
+  /// A sample that lies a little off the surface, in a leaf that holds the other side of a thin wall alone: the parts
+  /// of leaves beside it on whose surface it lies. Whether there are any.
+  bool visit_own_sheet_beside(const LengthSample& s, std::int32_t leaf) const {
+    bool has_any = false;
+    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
+      if (blanking_.find_split(other) == kNone && !(sheet_along(s, other) > kClear)) return;
+      visit_parts(s, other);
+      has_any = true;
+    });
+    return has_any;
+  }
+
   /// The parts of the leaf on whose surface the sample lies.
   void visit_parts(const LengthSample& s, std::int32_t leaf) const {
     const std::int32_t k = blanking_.colour[leaf] == CellColour::kCut ? blanking_.find_split(leaf) : kNone;
