@@ -21,8 +21,7 @@ constexpr double kSameLength = 1e-3;       // of an edge's length: to that of it
 constexpr double kOff = 2e-3;              // of an edge's length: a place from that of its image
 constexpr double kLeastTurn = radians(1);  // between two blades: copies in one place are none
 constexpr double kUp = 1e-6;               // of unit vectors across an edge: too short for a direction
-
-constexpr double kNearlyAll = 0.9;  // of the way of the best: others have too few chords to compare
+constexpr double kNearlyAll = 0.9;         // of the way of the best: others have too few chords to compare
 
 using Places = std::array<Vec3, kPlaces>;
 
@@ -90,7 +89,12 @@ double spread_of(const LiftingSurface& wing) { return wing.largest_chord / wing.
 class BladeFinder {
  public:
   BladeFinder(const Model& model, std::span<const std::uint8_t> is_excluded, std::vector<LiftingSurface>& wings)
-      : model_(model), t_(model.tables()), is_excluded_(is_excluded), wings_(wings), is_done_(wings.size(), 0) {
+      : model_(model),
+        t_(model.tables()),
+        is_excluded_(is_excluded),
+        wings_(wings),
+        is_done_(wings.size(), 0),
+        places_(t_.n_edges()) {
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
       if (!t_.edge_is_degenerate[e]) by_length_.push_back(e);
     std::ranges::stable_sort(by_length_, {}, [&](EdgeId e) { return t_.edge_length[e]; });
@@ -117,13 +121,13 @@ class BladeFinder {
   }
 
   const Places& places_of(EdgeId e) {
-    const auto [known, is_new] = places_.try_emplace(e);
-    if (!is_new) return known->second;
+    if (places_[e]) return *places_[e];
     const auto curve = model_.curve(e);
     const ArcTable arc(*curve);
+    Places& own = places_[e].emplace();
     for (std::size_t i = 0; i < kPlaces; ++i)
-      known->second[i] = curve->point(arc.parameter_at(static_cast<double>(i) / (kPlaces - 1)));
-    return known->second;
+      own[i] = curve->point(arc.parameter_at(static_cast<double>(i) / (kPlaces - 1)));
+    return own;
   }
 
   /// Edges about as long as one.
@@ -147,6 +151,7 @@ class BladeFinder {
     EdgeImage image;
     for (const EdgeId other : as_long_as(e)) {
       const Places& own = places_of(other);
+      if (distance(own[kPlaces / 2], x[kPlaces / 2]) > reach) continue;  // most are
       for (const int way : {1, -1}) {
         double off = 0;
         for (std::size_t i = 0; i < kPlaces; ++i)
@@ -276,8 +281,7 @@ class BladeFinder {
       if (e == lead || std::abs(axis.height(x) - axis.height(middle)) > reach ||
           std::abs(axis.radius(x) - axis.radius(middle)) > reach)
         continue;
-      const double angle = axis.azimuth(x) - axis.azimuth(middle);
-      const auto own = image_of_wing(wing, axis.turn(angle));
+      const auto own = image_of_wing(wing, axis.turn(axis.azimuth(x) - axis.azimuth(middle)));
       if (own && std::ranges::none_of(images, [&](const auto& other) { return share_edges(*own, other); }))
         images.push_back(*own);
     }
@@ -367,7 +371,7 @@ class BladeFinder {
   std::vector<EdgeId> by_length_;      // not degenerate, the shortest first
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
-  std::map<EdgeId, Places> places_;
+  std::vector<std::optional<Places>> places_;  // by edge; made when first asked
 };
 
 /// Takes out trailing edges that belong to a surface.
