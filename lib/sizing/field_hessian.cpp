@@ -10,6 +10,7 @@ namespace st {
 namespace {
 
 const double kSharp = std::cos(radians(30));  // of the angle between a triangle and the mean of those at a node
+constexpr double kRounding = 1e-12;           // of the largest value: how far a linear field seems to curve
 
 /// Numbers of each node, as CSR.
 struct NodeLists {
@@ -53,9 +54,10 @@ struct Quadric {
     return row;
   }
 
-  /// Second derivatives of the quadric that is 0 at the origin and fits `value` at the points; nullopt: they lie so
-  /// that they do not tell it.
-  static std::optional<Square> fit(const std::vector<Point>& points, const std::vector<double>& value) {
+  /// Second derivatives of the quadric that is 0 at the origin and fits `value` at the points, zero where it curves by
+  /// no more than `rounding` among them; nullopt: they lie so that they do not tell it.
+  static std::optional<Square> fit(const std::vector<Point>& points, const std::vector<double>& value,
+                                   double rounding) {
     constexpr double kSingular = 1e-10;  // of pivots of the scaled normal equations, which are about one
     if (points.size() < kUnknowns) return std::nullopt;
     Square scatter = Square::Zero();
@@ -82,11 +84,18 @@ struct Quadric {
     int at = D;
     for (int i = 0; i < D; ++i)
       for (int k = i; k < D; ++k) second(i, k) = second(k, i) = unknown[at++];
+    if (!(second.cwiseAbs().maxCoeff() > rounding)) return Square::Zero();
     return to_unit.transpose() * second * to_unit;
   }
 };
 
 SymmetricTensor tensor_of(const Eigen::Matrix3d& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)}; }
+
+double largest_of(std::span<const double> value) {
+  double largest = 0;
+  for (const double v : value) largest = std::max(largest, std::abs(v));
+  return largest;
+}
 
 /// Fits quadrics at nodes of one piece of the mesh.
 class HessianFit {
@@ -95,6 +104,7 @@ class HessianFit {
              std::span<const Vec3> triangle_normal)
       : mesh_(mesh),
         value_(value),
+        rounding_(kRounding * largest_of(value)),
         cells_of_(cells_of),
         triangle_normal_(triangle_normal),
         seen_by_(mesh.node_xyz.size(), -1) {}
@@ -103,7 +113,7 @@ class HessianFit {
     for (std::size_t n_wanted = 2 * Quadric<3>::kUnknowns; gather(node, n_wanted, mesh_.tets, kAll); n_wanted *= 2) {
       points3_.clear();
       for (const std::int32_t n : near_) points3_.push_back(to_eigen(mesh_.node_xyz[n] - mesh_.node_xyz[node]));
-      if (const auto second = Quadric<3>::fit(points3_, differences(node))) return tensor_of(*second);
+      if (const auto second = Quadric<3>::fit(points3_, differences(node), rounding_)) return tensor_of(*second);
       if (near_.size() >= kMostNodes) break;
     }
     return std::nullopt;
@@ -130,7 +140,7 @@ class HessianFit {
         const Vec3 d = mesh_.node_xyz[n] - mesh_.node_xyz[node];
         points2_.emplace_back(dot(d, a), dot(d, b));
       }
-      if (const auto second = Quadric<2>::fit(points2_, differences(node))) {
+      if (const auto second = Quadric<2>::fit(points2_, differences(node), rounding_)) {
         const double across =
             Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(*second).eigenvalues().cwiseAbs().maxCoeff();
         return tensor_of(frame * *second * frame.transpose() +
@@ -179,6 +189,7 @@ class HessianFit {
 
   const BackgroundMesh& mesh_;
   const std::span<const double> value_;
+  const double rounding_;
   const NodeLists& cells_of_;
   const std::span<const Vec3> triangle_normal_;  // [triangles] not of unit length
   std::vector<std::int32_t> seen_by_;            // [nodes] for which one

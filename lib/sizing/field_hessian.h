@@ -22,6 +22,7 @@ struct NodeHessians {
 /// unknowns, weighted by one over the squared distance, in coordinates that their scatter scales. Exact for quadratic
 /// fields on volumes. On a surface (no tetrahedra) the quadric is one over the tangent plane, and across it the largest
 /// derivative in it stands; the rings do not pass sharp edges, and nodes on these take the mean of their neighbours.
+/// Zero where a field is linear but for the rounding of its values.
 /// `value`: [n_nodes]. The same bits for every number of threads. O(n).
 NodeHessians fit_hessians(const BackgroundMesh& mesh, std::span<const double> value);
 

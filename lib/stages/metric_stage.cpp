@@ -47,6 +47,16 @@ void require_valid(const MetricStageOptions& o) {
     throw Error(ExitCode::kUsage, fmt::format("--lmin {:g} is not below --lmax {:g}", *o.least, *o.greatest));
 }
 
+/// A metric does not depend on the unit of its field; numbers up to one stay numbers in all that is made of them. By a
+/// power of two, so that nothing is rounded.
+void scale_to_one(std::vector<double>& value) {
+  double largest = 0;
+  for (const double v : value) largest = std::max(largest, std::abs(v));
+  int exponent = 0;
+  std::frexp(largest, &exponent);
+  for (double& v : value) v = std::ldexp(v, -exponent);
+}
+
 /// The mesh of all fields, and the second derivatives of each.
 struct FieldSet {
   BackgroundMesh mesh;
@@ -65,6 +75,7 @@ FieldSet read_fields(const std::vector<std::string>& files, Progress& progress) 
       throw Error(ExitCode::kInput,
                   fmt::format("{}: is on another mesh than {}; give fields on one mesh", files[i], files[0]));
     }
+    scale_to_one(field.value);
     NodeHessians fit = fit_hessians(set.mesh, field.value);
     if (fit.n_unknown > 0)
       log_warning(fmt::format("{}: {} of {} nodes have too few others around them to tell how the field curves there",

@@ -71,6 +71,19 @@ TEST(FieldHessian, does_not_see_a_kink_of_the_field_at_a_sharp_edge) {
     for (const double component : h) EXPECT_NEAR(component, 0, 1e-9);
 }
 
+TEST(FieldHessian, of_a_linear_field_is_zero_and_no_rounding) {
+  const auto linear = [](Vec3 p) { return 1e5 + 0.1 * p.x + 0.3 * p.y; };
+  for (const BackgroundMesh& mesh : {roof(12, 0), shaken_cube(5)})
+    for (const SymmetricTensor& h : fit_hessians(mesh, values_on(mesh, linear)).of_node)
+      EXPECT_EQ(h, SymmetricTensor{});
+}
+
+TEST(FieldHessian, sees_a_weak_field_on_a_large_constant) {
+  const BackgroundMesh mesh = roof(12, 0);
+  const NodeHessians fit = fit_hessians(mesh, values_on(mesh, [](Vec3 p) { return 1e5 + 1e-3 * p.x * p.x; }));
+  for (const SymmetricTensor& h : fit.of_node) EXPECT_NEAR(h[0], 2e-3, 1e-6);
+}
+
 TEST(FieldHessian, is_unknown_where_too_few_nodes_tell_it) {
   BackgroundMesh mesh;
   mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

@@ -13,15 +13,15 @@
 namespace st {
 namespace {
 
-/// The unit square in 2 n^2 triangles with exp(-20 x) at its nodes: NAME.sol and NAME.mesh.
-void write_layer(const std::string& stem, int n) {
+/// The unit square in 2 n^2 triangles with `times` exp(-20 x) at its nodes: NAME.sol and NAME.mesh.
+void write_layer(const std::string& stem, int n, double times = 1) {
   std::ofstream mesh(stem + ".mesh"), solution(stem + ".sol");
   mesh << "MeshVersionFormatted 2\nDimension 3\nVertices\n" << (n + 1) * (n + 1) << "\n";
   solution << "MeshVersionFormatted 2\nDimension 3\nSolAtVertices\n" << (n + 1) * (n + 1) << "\n1 1\n";
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i) {
       mesh << static_cast<double>(i) / n << " " << static_cast<double>(j) / n << " 0 0\n";
-      solution << std::exp(-20.0 * i / n) << "\n";
+      solution << times * std::exp(-20.0 * i / n) << "\n";
     }
   mesh << "Triangles\n" << 2 * n * n << "\n";
   for (int j = 0; j < n; ++j)
@@ -56,6 +56,21 @@ TEST(MetricStage, writes_sizes_that_are_read_as_a_background) {
     }
   }
   EXPECT_NEAR(complexity * 2 / std::sqrt(3.0), 500, 50);
+}
+
+TEST(MetricStage, sizes_do_not_depend_on_the_unit_of_the_field) {
+  const TemporaryDirectory dir;
+  std::vector<std::vector<LocalSize>> sizes;
+  for (const double times : {1.0, 1e-280, 1e280}) {
+    write_layer(dir / "flow", 20, times);
+    MetricStageOptions o;
+    o.fields = {dir / "flow.sol"};
+    o.output = dir / "sizes.solb";
+    run_metric(o);
+    sizes.push_back(read_size_mesh(o.output).node_size);
+  }
+  for (std::size_t n = 0; n < sizes[0].size(); ++n)
+    for (const std::size_t k : {1, 2}) EXPECT_NEAR(sizes[k][n].length / sizes[0][n].length, 1, 1e-3);
 }
 
 TEST(MetricStage, refuses_what_asks_for_nothing) {
