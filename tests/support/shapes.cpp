@@ -790,6 +790,10 @@ const std::map<std::string, Factory>& factories() {
          return occt::compound_of({folded_sheet(), moved(pipe, 28, 0, 7.5)});
        }},
       {"crossed_loop", crossed_loop},
+      {"two_crossed_loops",
+       [] {
+         return occt::compound_of({crossed_loop(), moved(crossed_loop(), 0, 0, 5)});
+       }},
       {"bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(5, 4, 30, 20))); }},
       {"rational_bezier", [] { return face_of(new Geom_BezierSurface(wave_poles(4, 5, 30, 20), wave_weights(4, 5))); }},
       {"stretched", [] { return face_of(stretched()); }},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -17,7 +18,8 @@
 namespace st {
 namespace {
 
-constexpr std::size_t kMostImages = 8;  // of one place: a corner of three pairs
+constexpr std::size_t kMostImages = 8;                                     // of one place: a corner of three pairs
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();  // version of a face without a patch
 
 }  // namespace
 
@@ -58,16 +60,13 @@ std::vector<RefinementPoint> PairedFaces::with_images(std::vector<RefinementPoin
   return all;
 }
 
-/// Of each pair's faces: their sections' rounds, summed up.
-std::vector<std::int64_t> PairedFaces::versions() const {
-  std::vector<std::int64_t> all;
-  for (const FacePair& p : pairs_.pairs())
-    for (const FaceId f : {p.a, p.b}) {
-      std::int64_t version = 0;
-      for (const PatchPlace& s : faces_.place(f).sections) version = s.version;
-      all.push_back(version);
-    }
-  return all;
+/// Of both faces of a pair: all sections of a patch have that of their round.
+PairedFaces::Versions PairedFaces::versions(std::size_t pair) const {
+  const auto version = [&](FaceId f) {
+    const std::vector<PatchPlace>& sections = faces_.place(f).sections;
+    return sections.empty() ? kNever : sections.back().version;
+  };
+  return {version(pairs_.pairs()[pair].a), version(pairs_.pairs()[pair].b)};
 }
 
 PairedFaces::Image PairedFaces::image(std::size_t pair, const FacePatch& patch) const try {
@@ -83,7 +82,8 @@ PairedFaces::Image PairedFaces::image(std::size_t pair, const FacePatch& patch) 
   const auto surface = model_.surface(p.b);
   const FaceBoundary boundary = make_face_boundary(model_, *surface, p.b, faces_.numbering());
   const FurthestNode off = set_parameters(*surface, boundary, faces_.numbering(), result.patch);
-  if (const double most = pairs_.tolerance(tables_, p); !(off.distance <= most))
+  const bool is_sound = faces_.outcome(p.a).cause == FailureCause::kNone;
+  if (const double most = pairs_.tolerance(tables_, p); is_sound && !(off.distance <= most))
     result.error = fmt::format("the image of {} is {:.3g} off its surface, beyond {:.3g}", tables_.face_label(p.a),
                                off.distance, most);
   else if (!has_numbers_only(result.patch))
@@ -93,8 +93,13 @@ PairedFaces::Image PairedFaces::image(std::size_t pair, const FacePatch& patch) 
   return {{}, e.what()};
 }
 
+/// A face that was closed by itself, because the first one failed, has the image of what closes that, where it can.
 void PairedFaces::take(std::size_t pair, Image&& image) {
-  const FaceId f = pairs_.pairs()[pair].b;
+  const auto& [a, f, motion] = pairs_.pairs()[pair];
+  if (faces_.outcome(f).is_closed && faces_.outcome(a).cause != FailureCause::kNone) {
+    if (image.error.empty()) faces_.put(f, std::move(image.patch));
+    return;
+  }
   FaceOutcome o;
   o.cause_xyz = tables_.face_box[f].center();
   if (image.error.empty()) {
@@ -122,25 +127,23 @@ std::vector<FaceId> PairedFaces::make_images(const std::vector<FaceId>& faces) {
   std::vector<Image> images(chosen.size());
   parallel_for(chosen.size(), 1, [&](std::size_t i, std::size_t) {
     const auto it = patches.find(first[i]);
-    const bool is_there = it != patches.end() && faces_.outcome(first[i]).cause == FailureCause::kNone;
-    images[i] = is_there ? image(chosen[i], it->second)
-                         : Image{{}, fmt::format("{}, whose image it has, has no mesh", tables_.face_label(first[i]))};
+    images[i] = it != patches.end()
+                    ? image(chosen[i], it->second)
+                    : Image{{}, fmt::format("{}, whose image it has, has no mesh", tables_.face_label(first[i]))};
   });
+  made_of_.resize(pairs_.pairs().size(), {kNever, kNever});
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     if (images[i].error.empty()) made.push_back(pairs_.pairs()[chosen[i]].b);
     take(chosen[i], std::move(images[i]));
+    made_of_[chosen[i]] = versions(chosen[i]);
   }
-  made_of_ = versions();
   return made;
 }
 
 void PairedFaces::renew_images() {
   std::vector<FaceId> changed;
-  if (executor_.is_root()) {
-    const std::vector<std::int64_t> now = versions();
-    for (std::size_t i = 0; i < now.size(); ++i)
-      if (made_of_.size() != now.size() || now[i] != made_of_[i]) changed.push_back(pairs_.pairs()[i / 2].b);
-  }
+  for (std::size_t i = 0; i < made_of_.size(); ++i)  // none but on rank 0
+    if (versions(i) != made_of_[i]) changed.push_back(pairs_.pairs()[i].b);
   share(executor_, changed);
   if (changed.empty()) return;
   make_images(changed);

@@ -1,6 +1,7 @@
 // Periodic faces in the rounds of the mesher: one face of each pair is meshed, the other has its image.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -36,7 +37,8 @@ class PairedFaces {
   };
   Image image(std::size_t pair, const FacePatch& patch) const;
   void take(std::size_t pair, Image&& image);
-  std::vector<std::int64_t> versions() const;
+  using Versions = std::array<std::int64_t, 2>;
+  Versions versions(std::size_t pair) const;
 
   const Model& model_;
   const ModelTables& tables_;
@@ -44,7 +46,7 @@ class PairedFaces {
   const PeriodicPairs none_;
   const PeriodicPairs& pairs_;
   MeshedFaces& faces_;
-  std::vector<std::int64_t> made_of_;  // versions() after the last images, on rank 0
+  std::vector<Versions> made_of_;  // by pair: versions() after its last image, on rank 0
 };
 
 }  // namespace st

@@ -106,6 +106,26 @@ TEST(PairedFaces, have_the_same_nodes_where_faces_are_cut_into_tiles) {
   box.expect_matched();
 }
 
+TEST(PairedFaces, that_fail_and_are_closed_are_images_as_well) {
+  set_verbosity(Verbosity::kQuiet);
+  const Model model = test::make_model("two_crossed_loops");
+  const PeriodicPairs pairs(model, {{0, 2, {.translation = {0, 0, 5}}}, {1, 3, {.translation = {0, 0, 5}}}});
+  const MeshTopology topology = PairedMesh::placed(model, pairs);
+  MeshOptions options;
+  options.pairs = &pairs;
+  MeshResult r = mesh_regions(model, topology, UniformField(2), plan_all(topology), options, test::one_rank);
+  ASSERT_EQ(r.failures.size(), 2u);
+  for (const FaceFailure& f : r.failures) EXPECT_TRUE(f.is_closed) << f.face;
+  OrientationReport report;
+  const SurfaceMesh mesh = test::merged(topology, r, report);
+  for (const FacePair& p : pairs.pairs()) {
+    const PairMatch match = match_pair(mesh, p, pair_tolerance(mesh));
+    EXPECT_FALSE(match.nodes.empty());
+    EXPECT_TRUE(match.alone.empty());
+    EXPECT_TRUE(match.triangles_alone.empty());
+  }
+}
+
 TEST(PairedFaces, ask_for_smaller_sizes_on_both_sides) {
   const Model box = test::make_model("box");
   const MeshTopology topology(box.tables());
