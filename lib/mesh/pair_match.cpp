@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -91,10 +93,18 @@ PairMatch match_pair(const SurfaceMesh& m, const FacePair& pair, double toleranc
   return match;
 }
 
+double pair_tolerance(const Box3& box) {
+  constexpr double kRounding = 16 * std::numeric_limits<double>::epsilon();  // of coordinates: a turn and back
+  double largest = 0;
+  for (const double x : {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z})
+    largest = std::max(largest, std::abs(x));
+  return std::max(kPairMatch * box.diagonal(), kRounding * largest);
+}
+
 double pair_tolerance(const SurfaceMesh& mesh) {
   Box3 box;
   for (const Vec3& x : mesh.node_xyz) box.add(x);
-  return kPairMatch * box.diagonal();
+  return pair_tolerance(box);
 }
 
 }  // namespace st

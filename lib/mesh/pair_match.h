@@ -20,7 +20,9 @@ struct PairMatch {
 /// `tolerance`: model unit. n log n in the nodes of the two faces, linear in the mesh.
 PairMatch match_pair(const SurfaceMesh& mesh, const FacePair& pair, double tolerance);
 
-/// kPairMatch in model units, by the box of the nodes.
+/// kPairMatch of a box's diagonal, model unit; more where its coordinates are so large that they are rounded by more.
+double pair_tolerance(const Box3& box);
+/// By the box of the nodes.
 double pair_tolerance(const SurfaceMesh& mesh);
 
 }  // namespace st

@@ -677,6 +677,7 @@ const std::map<std::string, Factory>& factories() {
       {"shallow_prism", shallow_prism},
       {"banded_pie", banded_pie},
       {"pie", [] { return BRepPrimAPI_MakeCylinder(10, 30, 40 * M_PI / 180).Shape(); }},
+      {"pie_off_axis", [] { return moved(BRepPrimAPI_MakeCylinder(10, 30, 40 * M_PI / 180).Shape(), 1e5, 7e4, 0); }},
       {"passage", passage},
       {"slender_cone", [] { return BRepPrimAPI_MakeCone(kZ, 1, 0, 30).Shape(); }},
       {"sharp_wing", [] { return wing(0.1036); }},

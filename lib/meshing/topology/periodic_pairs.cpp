@@ -11,11 +11,11 @@
 #include "geometry/model/cad_tolerance.h"
 #include "geometry/model/sameness.h"
 #include "geometry/shape/projection.h"
+#include "mesh/pair_match.h"
 
 namespace st {
 namespace {
 
-constexpr double kSame = 1e-12;  // of the model's diagonal: the promise to solvers
 constexpr double kTurns = 1e-9;  // one less the cosine of an angle: below, a motion is none but for its rounding
 constexpr int kSamples = 8;      // intervals of an edge
 
@@ -198,7 +198,7 @@ std::vector<Round> rounds_of(const Links& links, const std::vector<PairFollower>
 
 void PeriodicPairs::lead(const Model& model) {
   const ModelTables& t = model.tables();
-  const double same = kSame * t.box().diagonal(), most = kSamePlace * t.box().diagonal();
+  const double same = pair_tolerance(t.box()), most = kSamePlace * t.box().diagonal();
   Links edges(t.n_edges()), vertices(t.n_vertices());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     for (const auto& [e, to] : edge_image_[i]) link(edges, e, to);

@@ -29,6 +29,14 @@ TEST(PairMatch, puts_nodes_side_by_side) {
   EXPECT_TRUE(match.triangles_alone.empty());
 }
 
+TEST(PairMatch, allows_for_the_rounding_of_large_coordinates) {
+  SurfaceMesh m = two_squares(true);
+  EXPECT_LT(pair_tolerance(m), 2e-12);
+  for (Vec3& x : m.node_xyz) x.x += 1e6;
+  EXPECT_GT(pair_tolerance(m), 1e-10);  // its last digit
+  EXPECT_LT(pair_tolerance(m), 1e-8);
+}
+
 TEST(PairMatch, tells_of_other_triangles_between_the_same_nodes) {
   const SurfaceMesh m = two_squares(false);
   EXPECT_EQ(match_pair(m, kUp, pair_tolerance(m)).triangles_alone, (std::vector<TriangleId>{0, 1, 2, 3}));

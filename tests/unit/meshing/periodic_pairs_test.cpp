@@ -68,6 +68,12 @@ TEST(PeriodicPairs, put_vertices_of_the_axis_onto_it) {
   EXPECT_EQ(n, 2);
 }
 
+TEST(PeriodicPairs, heed_the_rounding_of_large_coordinates) {
+  std::vector<FacePair> found = find_pairs(test::make_model("pie"));
+  for (FacePair& p : found) p.motion = p.motion.about({1e5, 7e4, 0});
+  EXPECT_EQ(refusal(test::make_model("pie_off_axis"), found), "");
+}
+
 TEST(PeriodicPairs, leave_merged_features_elsewhere_and_drop_their_own) {
   const Model box = test::make_model("box");
   MergedFeatures merged;
