@@ -116,7 +116,9 @@ MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std:
   return plan;
 }
 
-void require_whole(const MeshStageOptions& o, const Mirror& mirror) {
+void require_whole(const MeshStageOptions& o, const Composites& composites, const Mirror& mirror) {
+  if (!o.pairs.empty() && !composites.empty())
+    throw Error(ExitCode::kInput, o.geometry + ": --pairs needs the faces of the CAD; import it without --composite");
   if (mirror.empty()) return;
   for (const auto& [name, value] : {std::pair{"--faces", &o.faces}, {"--group", &o.group}, {"--edges", &o.edges}})
     if (!value->empty())
@@ -126,11 +128,16 @@ void require_whole(const MeshStageOptions& o, const Mirror& mirror) {
     throw Error(ExitCode::kUsage, fmt::format("--pairs: {} was imported with --mirror: leave one out", o.geometry));
 }
 
-/// Collective. The topology with small features merged, in the same way on both sides of a mirror, and none on pairs.
+/// Collective. The topology with small features merged, in the same way on both sides of a mirror, and none on pairs,
+/// whose vertices are images of one another.
 MeshTopology make_topology(const Model& model, const SizeField& field, double below, const Mirror& mirror,
                            const PeriodicPairs& pairs, const Executor& executor) {
   MeshTopology topology = merge_small_features(model, field, below, executor);
-  if (!pairs.empty()) return MeshTopology(model.tables(), without_paired(topology.merged(), pairs, model.tables()));
+  if (!pairs.empty()) {
+    ModelTables placed = model.tables();
+    placed.vertex_xyz = pairs.vertex_xyz();
+    return MeshTopology(placed, without_paired(topology.merged(), pairs, placed));
+  }
   return mirror.empty() ? topology : MeshTopology(model.tables(), mirrored(topology.merged(), mirror, model.tables()));
 }
 
@@ -162,13 +169,19 @@ StageSummary write_result(const std::string& path, const Mirror& mirror, const M
   return write_patches_result(path, placed, geometry, header, topology, std::move(result), facts, SerialExecutor());
 }
 
-/// Digest of what the results depend on.
-std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier, const std::vector<FacePair>& pairs) {
+/// Empty without pairs.
+std::string hash_of(const std::vector<FacePair>& pairs) {
+  if (pairs.empty()) return "";
   Hasher hasher;
-  if (!pairs.empty()) {
-    const Bytes bytes = packed(pairs);
-    hasher.add(std::span(bytes));
-  }
+  const Bytes bytes = packed(pairs);
+  hasher.add(std::span(bytes));
+  return hasher.hex();
+}
+
+/// Digest of what the results depend on.
+std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier, const std::string& pairs) {
+  Hasher hasher;
+  hasher.add(std::string_view(pairs));
   hasher.add(std::string_view(output.options_json));
   for (const auto& input : output.inputs) hasher.add(std::string_view(input.hash));
   const Bytes edges = packed(earlier);
@@ -201,12 +214,10 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   progress.step("reading", 0);
   require_fitting({{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.edges, "patches"}});
   GeometryArtifact geometry = read_geometry(o.geometry);
-  std::vector<FaceId> faces = select_faces(o, geometry.tables);
   const Composites composites = geometry.composites;
   const Mirror mirror = std::move(geometry.mirror);
-  require_whole(o, mirror);
-  if (!mirror.empty()) faces = faces_to_mesh(mirror);
-  const PeriodicPairs pairs = read_pairs(o.pairs, geometry, o.geometry);
+  require_whole(o, composites, mirror);
+  std::vector<FaceId> faces = mirror.empty() ? select_faces(o, geometry.tables) : faces_to_mesh(mirror);
   std::optional<MappedSizing> mapped;
   std::optional<Model> stored;
   run_jobs(
@@ -218,7 +229,9 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing,
                          most_triangles_in(memory_of_all_hosts(comm)));
   EarlierPart earlier = read_earlier_part(o, geometry.header);
-  require_same_inputs(comm, {{o.edges, earlier.content_hash}});
+  const PeriodicPairs pairs = read_pairs(o.pairs, model);
+  const std::string pairs_hash = hash_of(pairs.pairs());
+  require_same_inputs(comm, {{o.edges, earlier.content_hash}, {o.pairs, pairs_hash}});
   progress.step("small features", 0.05);
   const auto common_field = make_common_field(*sizing.field, mirror, pairs, model.tables());
   const SizeField& field = common_field ? *common_field : *sizing.field;
@@ -228,7 +241,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const double tile_triangles = o.tile_triangles.value_or(usual_tile(expected_triangles(sizing.face_weight)));
   const ArtifactHeader header = output_header(o, tile_triangles, geometry.header, sizing.header);
   progress.step("meshing", 0.1);
-  Resumption resumption(trace, o.output, run_of(header, earlier.edges, pairs.pairs()), {o.journal_after, o.begins_new});
+  Resumption resumption(trace, o.output, run_of(header, earlier.edges, pairs_hash), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
   MeshOptions options{o.enhance_rounds,      o.max_turning_deg,
                       o.merge_below,         tile_triangles,
@@ -240,7 +253,7 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   trace.begin_phase("write");
   progress.step("writing", 0.9);
   StageSummary summary =
-      write_result(o.output, mirror, model.tables(), geometry.header, header, topology, std::move(result),
+      write_result(o.output, mirror, topology.tables(), geometry.header, header, topology, std::move(result),
                    {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed(),
                     nlohmann::json::object(), composites},
                    trace);

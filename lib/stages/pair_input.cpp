@@ -8,7 +8,6 @@
 #include "base/log.h"
 #include "io/toml/pair_file.h"
 #include "meshing/topology/pair_search.h"
-#include "stages/stored_model.h"
 
 namespace st {
 namespace {
@@ -50,15 +49,10 @@ void tell(const ModelTables& t, const std::vector<FacePair>& pairs) {
 
 }  // namespace
 
-PeriodicPairs read_pairs(const std::string& option, GeometryArtifact& geometry, const std::string& path) {
+PeriodicPairs read_pairs(const std::string& option, const Model& model) {
   if (option.empty()) return {};
-  if (!geometry.composites.empty())
-    throw Error(ExitCode::kInput, path + ": --pairs needs the faces of the CAD; import it without --composite");
-  GeometryArtifact copy = geometry;
-  const Model model = stored_model(copy, path);
   PeriodicPairs pairs(model, option == "auto" ? find_pairs(model) : pairs_of_file(option, model.tables()));
   tell(model.tables(), pairs.pairs());
-  geometry.tables.vertex_xyz = pairs.vertex_xyz();
   return pairs;
 }
 

@@ -143,16 +143,18 @@ std::vector<FacePair> pair_faces(const ModelTables& t, std::span<const FaceId> a
     throw Error(ExitCode::kGeometry,
                 fmt::format("a has {} faces, and b has {}; both sides need as many", a.size(), b.size()));
   std::vector<FacePair> pairs;
-  std::set<FaceId> taken;
+  std::vector<std::vector<Vec3>> corners;  // of the faces of b
+  for (const FaceId other : b) corners.push_back(corners_of(t, other));
+  std::vector<char> is_taken(b.size(), 0);
   for (const FaceId f : a) {
-    FacePair best{f, kNone, motion};
+    const std::vector<Vec3> own = corners_of(t, f);
+    std::size_t best = 0;
     double least = 1e301;
-    for (const FaceId other : b) {
-      const double off = mismatch(corners_of(t, f), corners_of(t, other), motion);
-      if (off < least && !taken.contains(other)) least = off, best.b = other;
-    }
-    taken.insert(best.b);
-    pairs.push_back(best);
+    for (std::size_t i = 0; i < b.size(); ++i)
+      if (const double off = is_taken[i] ? least : mismatch(own, corners[i], motion); off < least)
+        least = off, best = i;
+    is_taken[best] = 1;
+    pairs.push_back({f, b[best], motion});
   }
   return pairs;
 }

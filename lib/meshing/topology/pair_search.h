@@ -9,9 +9,8 @@
 
 namespace st {
 
-/// A pair for each face of `a`: the face of `b` whose vertices are nearest to the image's. Throws Error(kGeometry)
-/// where both have not as many faces, or a face would be the image of two. Whether they match is for PeriodicPairs to
-/// say.
+/// A pair for each face of `a`: the face of `b` whose vertices are nearest to the image's, of those that no earlier one
+/// has. Throws Error(kGeometry) where both have not as many faces. Whether they match is for PeriodicPairs to say.
 std::vector<FacePair> pair_faces(const ModelTables& tables, std::span<const FaceId> a, std::span<const FaceId> b,
                                  const Similarity& motion);
 

@@ -85,6 +85,7 @@ PeriodicPairs::PeriodicPairs(const Model& model, std::vector<FacePair> pairs) : 
   const ModelTables& t = model.tables();
   std::set<FaceId> used;
   for (const FacePair& p : pairs_) {
+    if (p.a == p.b) fail(t, p, "a face is no partner of itself");
     if (!used.insert(p.a).second || !used.insert(p.b).second) fail(t, p, "one of them is in another pair, too");
     match(model, p);
   }

@@ -46,6 +46,7 @@ TEST(PeriodicPairs, refuse_a_face_in_two_pairs_and_motions_that_contradict_each_
   const Model box = test::make_model("box");
   std::vector<FacePair> found = find_pairs(box);
   EXPECT_NE(refusal(box, {found[0], found[0]}).find("another pair"), std::string::npos);
+  EXPECT_NE(refusal(box, {{0, 0, {}}}).find("no partner of itself"), std::string::npos);
   found[0].motion = rotation_about({0, 0, 1}, 1e-8).then(found[0].motion);
   EXPECT_NE(refusal(box, found).find("contradict"), std::string::npos);
 }

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "io/file/text_file.h"
+#include "io/hdf5/artifact.h"
 #include "mesh/pair_match.h"
 #include "stages/merge_stage.h"
 #include "support/staged.h"
@@ -11,25 +12,17 @@
 namespace st {
 namespace {
 
-/// The box as its artifact.
-GeometryArtifact box(const test::StagedModel& staged) {
-  staged.make_raster("box");
-  return read_geometry(staged.raster.geometry);
-}
-
 TEST(PairInput, is_nothing_without_the_option_and_three_pairs_with_auto) {
-  const test::StagedModel staged;
-  GeometryArtifact geometry = box(staged);
-  EXPECT_TRUE(read_pairs("", geometry, "geometry.hdf").empty());
-  EXPECT_EQ(read_pairs("auto", geometry, "geometry.hdf").pairs().size(), 3u);
+  const Model box = test::make_model("box");
+  EXPECT_TRUE(read_pairs("", box).empty());
+  EXPECT_EQ(read_pairs("auto", box).pairs().size(), 3u);
 }
 
 TEST(PairInput, names_the_line_of_a_group_that_is_not_there) {
   const test::StagedModel staged;
-  GeometryArtifact geometry = box(staged);
   write_text_file(staged.dir / "pairs.toml", "[[pair]]\na = \"left\"\nb = \"right\"\ntranslate = [1, 0, 0]\n");
   try {
-    read_pairs(staged.dir / "pairs.toml", geometry, "geometry.hdf");
+    read_pairs(staged.dir / "pairs.toml", test::make_model("box"));
     FAIL();
   } catch (const Error& e) {
     EXPECT_EQ(e.code(), ExitCode::kUsage);
