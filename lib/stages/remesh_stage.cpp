@@ -25,6 +25,7 @@
 #include "io/hdf5/sizing_artifact.h"
 #include "mesh/edge_segments.h"
 #include "mesh/merge.h"
+#include "mesh/pair_match.h"
 #include "meshing/engine/mesh_regions.h"
 #include "meshing/hole/hole_reprojector.h"
 #include "meshing/hole/mesh_gaps.h"
@@ -71,6 +72,9 @@ void set_kept(const RemeshStageOptions& o, const ModelTables& t, const MergedFea
   if (!merged.strip_face.empty() || !merged.pairs.empty()) mark.keep_face.resize(t.n_faces(), 0);
   for (const FaceId f : merged.strip_face) mark.keep_face[f] = 1;
   for (const FacePair& p : merged.pairs) mark.keep_face[p.a] = mark.keep_face[p.b] = 1;
+  if (!merged.pairs.empty())
+    log_warning(fmt::format("{} periodic faces stay as they are, whatever their sizes: st-mesh --pairs makes others",
+                            2 * merged.pairs.size()));
   if (o.keep.empty()) return;
   const std::vector<std::uint8_t> in_group = find_faces(o.keep, t.labels);
   const std::vector<EdgeId> edges = find_members(o.keep, t.labels.edge_groups);
@@ -125,11 +129,26 @@ struct RemeshInput {
   Composites composites = {};                         ///< of the geometry
 };
 
+/// A move may turn, stretch or part what was the image of something.
+void forget_parted(SurfaceMesh& mesh) {
+  const double tolerance = pair_tolerance(mesh);
+  const auto n = std::erase_if(mesh.merged.pairs, [&](const FacePair& p) {
+    const PairMatch match = match_pair(mesh, p, tolerance);
+    return !match.alone.empty() || !match.triangles_alone.empty();
+  });
+  if (n > 0)
+    log_warning(
+        fmt::format("{} pairs of periodic faces are no images of one another by the motion that they had, and "
+                    "are none any more: mesh the moved geometry with st-mesh --pairs",
+                    n));
+}
+
 /// Puts the mesh onto the moved geometry.
 void move(RemeshInput& in) {
   MovedMesh moved = move_mesh(in.old.mesh, in.model);
   in.earlier_xyz = std::move(in.old.mesh.node_xyz);
   in.old.mesh = std::move(moved.mesh);
+  forget_parted(in.old.mesh);
   in.spoilt = std::move(moved.spoilt);
 }
 

@@ -11,6 +11,7 @@
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "mesh/checks.h"
+#include "mesh/pair_match.h"
 #include "stages/import_stage.h"
 #include "stages/merge_stage.h"
 #include "stages/mesh_stage.h"
@@ -56,8 +57,10 @@ class Remesh : public testing::Test {
     p.scale = scale;
     run_prolong(p);
   }
-  void mesh(const std::string& geometry, const std::string& sizing, const std::string& output) {
+  void mesh(const std::string& geometry, const std::string& sizing, const std::string& output,
+            const std::string& pairs = "") {
     MeshStageOptions m;
+    m.pairs = pairs;
     m.geometry = dir_ / geometry;
     m.sizing = dir_ / sizing;
     m.output = dir_ / "patches.hdf";
@@ -312,6 +315,26 @@ void stretch_step(const std::string& from, const std::string& to, double factor)
     end = m->position() + m->length();
   }
   out << text.substr(end);
+}
+
+TEST_F(Remesh, of_periodic_faces_keeps_the_pairs_that_still_are_images) {
+  import("box", "geometry.hdf");
+  size("geometry.hdf", "sizing.hdf", 20);
+  mesh("geometry.hdf", "sizing.hdf", "mesh.hdf", "auto");
+  ASSERT_EQ(read_mesh(dir_ / "mesh.hdf").mesh.merged.pairs.size(), 3u);
+  stretch_step(dir_ / "box.step", dir_ / "moved.step", 1.05);
+  ImportStageOptions i;
+  i.model = dir_ / "moved.step";
+  i.output = dir_ / "moved.hdf";
+  run_import(i);
+  size("moved.hdf", "moved_sizing.hdf", 20);
+  RemeshStageOptions o = options("moved_sizing.hdf");
+  o.geometry = i.output;
+  o.moved = true;
+  EXPECT_EQ(run_remesh(o, single_rank()).code, ExitCode::kOk);
+  const SurfaceMesh after = merge("remeshed.hdf", "after.hdf").mesh;
+  EXPECT_EQ(after.merged.pairs.size(), 2u) << "63 apart along x instead of 60";
+  for (const FacePair& p : after.merged.pairs) EXPECT_TRUE(match_pair(after, p, pair_tolerance(after)).alone.empty());
 }
 
 TEST_F(Remesh, of_a_mesh_with_closed_strips_follows_a_moved_geometry) {
