@@ -82,13 +82,34 @@ bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
   return is_along_chord(surface, e, middle, normalized(end - begin));
 }
 
+/// Edges of a chain that are none of a wing's, and why.
+struct LeftOut {
+  std::vector<WingEdge> edges;
+  std::string why;
+};
+
 /// Why there is no lifting surface.
 struct Reason {
   std::string text;
   bool may_be_wing = true;
-  bool is_inexact = false;   // facets are too coarse to tell
-  bool is_own_nose = false;  // and as sharp as a nose may be
+  bool is_inexact = false;             // facets are too coarse to tell
+  bool is_own_nose = false;            // and as sharp as a nose may be
+  std::vector<LeftOut> left_out = {};  // what the rest of this is not about
 };
+
+/// Edges of a chain that are no part of a surface with noses.
+struct Rest {
+  std::vector<WingEdge> edges;
+  Reason why;
+};
+
+/// Of these, those that are not among `part`.
+std::vector<WingEdge> without(const std::vector<WingEdge>& edges, const std::vector<WingEdge>& part) {
+  std::vector<WingEdge> others;
+  for (const WingEdge& w : edges)
+    if (std::ranges::count(part, w.edge, &WingEdge::edge) == 0) others.push_back(w);
+  return others;
+}
 
 /// What exact facets of a chain's own faces show.
 struct ExactSurface {
@@ -141,19 +162,18 @@ class SurfaceMeasurer {
     try_other_cuts(places, profiles);
     LiftingSurface surface = assemble(chain, places, profiles);
     if (!is_measured(surface)) return std::nullopt;
-    if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
-      why = {fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase), false};
-      return find_part(part, chain, why);
-    }
-    if (const std::vector<WingEdge> part = without_rims(chain, surface); part.size() < chain.size()) {
-      why = {kRimOfEnd, false};
-      return find_part(part, chain, why);
-    }
+    if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size())
+      return find_without(
+          {without(chain, part), fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase)}, part,
+          why);
+    if (const std::vector<WingEdge> part = without_rims(chain, surface); part.size() < chain.size())
+      return find_without({without(chain, part), kRimOfEnd}, part, why);
     why = {why_no_wing(surface), false};
     if (why.text.empty() && has_nose_on(surface, surface)) {
-      const bool is_sharp = std::ranges::all_of(chain, [](const WingEdge& w) { return w.angle <= kSharpNose; });
-      why = {"it is its own nose, as the rim of a lens", is_sharp};  // or nose and trailing edge meet at a tip
-      why.is_own_nose = is_sharp;
+      const bool is_no_lens =
+          std::ranges::all_of(chain, [](const WingEdge& w) { return w.base != kNone || w.angle <= kSharpNose; });
+      why = {"it is its own nose, as the rim of a lens", is_no_lens};  // or nose and trailing edge meet at a tip
+      why.is_own_nose = is_no_lens;
     }
     if (!why.text.empty()) return std::nullopt;
     return SurfaceDraft{std::move(surface), std::move(axis)};
@@ -188,6 +208,19 @@ class SurfaceMeasurer {
     Reason own;
     std::optional<SurfaceDraft> draft = find(part, own);
     why.is_own_nose = own.is_own_nose;
+    why.left_out = own.left_out;
+    return draft;
+  }
+
+  /// Where the rest shows no surface either, the reason is that of the rest.
+  std::optional<SurfaceDraft> find_without(const LeftOut& others, const std::vector<WingEdge>& part,
+                                           Reason& why) const {
+    std::optional<SurfaceDraft> draft;
+    if (!part.empty()) draft = find(part, why);
+    if (draft || part.empty())
+      why = {others.why, false};
+    else
+      why.left_out.push_back(others);
     return draft;
   }
 
@@ -208,10 +241,16 @@ class SurfaceMeasurer {
   }
 
   /// Without rims of planes across the span that run along the chord: skins that meet a tip or a root at a small angle.
+  /// Cuts at rims may be oblique: the chord is that at the other edges.
   std::vector<WingEdge> without_rims(const std::vector<WingEdge>& chain, const LiftingSurface& surface) const {
+    const auto may_be_rim = [&](EdgeId e) { return std::ranges::count(rims_, e) > 0; };
+    LiftingSurface others;
+    for (const ChordEdge& edge : surface.trailing)
+      if (!may_be_rim(edge.edge)) others.trailing.push_back(edge);
+    const LiftingSurface& known = is_measured(others) ? others : surface;
     std::vector<WingEdge> part;
     for (const WingEdge& w : chain)
-      if (std::ranges::count(rims_, w.edge) == 0 || !is_rim(model_, w.edge, surface)) part.push_back(w);
+      if (!may_be_rim(w.edge) || !is_rim(model_, w.edge, known)) part.push_back(w);
     return part.empty() ? chain : part;
   }
 
@@ -596,12 +635,6 @@ bool has_wall_facets(const FaceRoles& roles, double deflection) {
          std::ranges::all_of(roles.role, [](FaceRole role) { return role == FaceRole::kWall; });
 }
 
-/// Edges of a chain that are no part of a surface with noses.
-struct Rest {
-  std::vector<WingEdge> edges;
-  Reason why;
-};
-
 /// Edges of the chain that are none of the surface's trailing edges.
 void note_rest(const Model& model, const std::vector<WingEdge>& chain, const std::optional<LiftingSurface>& surface,
                const Reason& why, std::vector<Rest>& rest) {
@@ -863,8 +896,19 @@ class SurfaceFinder {
     std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), reach(), why);
     if (why.is_inexact || (surface ? !is_seen(surface, kSeenSmall) : why.may_be_wing))
       try_exact_facets(surface && !is_straight(chain) ? edges_of(*surface, chain) : chain, surface, why);
+    if (!surface && !why.left_out.empty()) return find_in_rest(chain, why.left_out);
     const bool is_bent = why.may_be_wing && !is_straight(chain);
     if (surface || !(why.is_own_nose || is_bent) || !find_lines(chain)) keep(chain, surface, why);
+  }
+
+  /// What hangs together without the edges that are none of a wing's, each by itself.
+  void find_in_rest(const std::vector<WingEdge>& chain, const std::vector<LeftOut>& left_out) {
+    std::vector<WingEdge> others = chain;
+    for (const LeftOut& own : left_out) {
+      others = without(others, own.edges);
+      rest_.push_back({own.edges, {own.why, false}});
+    }
+    for (const auto& part : trailing_chains(model_, others)) find_with_noses(part);
   }
 
   /// Each line of a chain by itself, as luff and leech of a sail, or both edges of a blade that are sharp; false: it

@@ -27,6 +27,7 @@ SPANS = {
     "box_wing": [7.45],
     "rudder": [1.99],
     "two_elements": [4, 4],
+    "diamond_wing": [4],
     "winglet": [5.68],
     "nacelle": [5.03],  # circumference at radius 0.8
     "nacelle_c": [4.19],  # 300 degrees of it
@@ -129,6 +130,17 @@ class WingShapes(ToolTest):
             subprocess.run([WING_MODELS, name, model], check=True, capture_output=True, timeout=100)
             done = must("st-import", model, "-o", self.folder / "geometry.hdf")
             self.assertRegex(done.err, f"warning: .*edges end {text}")
+
+    def test_a_cambered_plate_is_found_or_said(self):
+        for name in ("plate_sail", "thick_plate_sail"):
+            (self.folder / "geometry.hdf").unlink(missing_ok=True)
+            for preset in ("euler", "rans", "fine"):
+                done = self.raster(name, preset)
+                found = [wing["span"] for wing in done.json()["lifting_surfaces"]]
+                if not found:
+                    self.assertRegex(done.err, r"warning: .* edges? .* trailing_edge = true", name)
+                for span in found:
+                    self.assertAlmostEqual(span, 3.01, delta=0.02, msg=name)
 
     def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
         self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")

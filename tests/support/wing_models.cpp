@@ -577,6 +577,37 @@ TopoDS_Shape sail() {
   return thru.Shape();
 }
 
+/// A cambered sheet between square rims, `thickness` over the chord, which is 1 to 0.5 along a span of 3.
+TopoDS_Shape plate_sail(double thickness) {
+  constexpr int kPoints = 17;
+  BRepOffsetAPI_ThruSections thru(true, false, 1e-6);
+  for (int i = 0; i <= 3; ++i) {
+    const Frame frame = straight(gp_Pnt(0.1 * i, i, 0), i < 3 ? 1 - 0.15 * i : 0.5);
+    std::vector<TopoDS_Edge> sides;
+    for (const double side : {-1.0, 1.0}) {
+      Handle(TColgp_HArray1OfPnt) points = new TColgp_HArray1OfPnt(1, kPoints);
+      for (int k = 0; k < kPoints; ++k) {
+        const double x = k / (kPoints - 1.0), slope = std::atan(0.4 * (1 - 2 * x)), h = 0.5 * side * thickness;
+        points->SetValue(k + 1, frame(x - h * std::sin(slope), 0.4 * x * (1 - x) + h * std::cos(slope)));
+      }
+      GeomAPI_Interpolate fit(points, false, 1e-9);
+      fit.Perform();
+      sides.push_back(BRepBuilderAPI_MakeEdge(fit.Curve()).Edge());
+    }
+    const auto end = [&](int side, double x) {
+      const double slope = std::atan(0.4 * (1 - 2 * x)), h = 0.5 * side * thickness;
+      return frame(x - h * std::sin(slope), h * std::cos(slope));
+    };
+    BRepBuilderAPI_MakeWire wire(sides[0]);
+    wire.Add(line(end(-1, 1), end(1, 1)));
+    wire.Add(sides[1]);
+    wire.Add(line(end(1, 0), end(-1, 0)));
+    thru.AddWire(wire.Wire());
+  }
+  thru.Build();
+  return thru.Shape();
+}
+
 // --- trailing edges that are no line ---
 
 /// Span 4, chord 1, with the profile's tail stretched by 0.1 at every second section: sharp flanks of 34 degrees.
@@ -894,6 +925,8 @@ const Makers& wings() {
       {"vanes", vanes},
       {"rocket_fins", rocket_fins},
       {"sail", sail},
+      {"plate_sail", [] { return plate_sail(0.006); }},
+      {"thick_plate_sail", [] { return plate_sail(0.02); }},
       {"flying_wing", flying_wing},
       {"canard_and_delta", canard_and_delta},
       {"delta", [] {
