@@ -8,6 +8,7 @@
 
 #include "base/eigen.h"
 #include "sizing/length_tree.h"
+#include "sizing/symmetric_tensor.h"
 
 namespace st {
 namespace {
@@ -212,7 +213,7 @@ class BackgroundSource final : public SizeSource {
     });
     return best;
   }
-  /// The smallest along `direction` of what the tetrahedra at x, and the border by its growth, ask for.
+  /// The smallest along `direction` of what the tetrahedra at x, or else the border by its growth, ask for.
   double length_in(Vec3 direction, Vec3 x) const {
     const auto in_direction = [&](const LocalSize& s) { return s.in(direction); };
     double best = kInfinity;
@@ -220,6 +221,7 @@ class BackgroundSource final : public SizeSource {
       const std::array<double, 4> at = frames_[t].coordinates(x);
       if (is_inside(at)) best = std::min(best, interpolated(at, values_at(mesh_.tets[t], in_direction)));
     });
+    if (best < kInfinity) return best;
     border_tree_.visit_from(x, slope(), best, [&](std::int32_t b) {
       const auto triangle = static_cast<std::size_t>(b);
       const std::array<double, 3> lengths = values_at(border_[triangle], in_direction);
@@ -381,17 +383,22 @@ LocalSize uniaxial(const LocalSize& s) {
   return is_stretched ? LocalSize{s.length, s.along, normalized(s.direction)} : LocalSize{s.length, s.length, {}};
 }
 
-LocalSize size_of_metric(const std::array<double, 6>& metric) {
+LocalSize size_of_metric(const SymmetricTensor& metric) {
   const auto [xx, yy, zz, xy, yz, xz] = metric;
   if (!std::isfinite(xx + yy + zz + xy + yz + xz)) return {};
-  Eigen::Matrix3d m;
-  m << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-  const PrincipalAxes axes = principal_axes(m);
+  const PrincipalAxes axes = principal_axes(matrix_of(metric));
   if (!(axes.value[0] > 0)) return {};
   return uniaxial({1 / std::sqrt(axes.value[2]), 1 / std::sqrt(axes.value[0]), axes.axis[0]});
 }
 
+SymmetricTensor metric_of(const LocalSize& size) {
+  const Eigen::Vector3d squeeze = to_eigen(size.squeeze());
+  const Eigen::Matrix3d shape = Eigen::Matrix3d::Identity() - squeeze * squeeze.transpose();
+  return tensor_of(Eigen::Matrix3d(shape / (size.length * size.length)));
+}
+
 std::int64_t remove_stretch(BackgroundMesh& mesh) {
+  mesh.node_metric.clear();
   std::int64_t n_stretched = 0;
   for (LocalSize& s : mesh.node_size) {
     n_stretched += s.along > s.length;
@@ -430,6 +437,9 @@ void transform(const Similarity& motion, BackgroundMesh& mesh) {
   for (Vec3& p : mesh.node_xyz) p = motion(p);
   for (LocalSize& s : mesh.node_size)
     s = {motion.scale * s.length, motion.scale * s.along, motion.rotated(s.direction)};
+  Eigen::Matrix3d turn;
+  for (int row = 0; row < 3; ++row) turn.row(row) = to_eigen(motion.rotation[row]).transpose() / motion.scale;
+  for (SymmetricTensor& m : mesh.node_metric) m = tensor_of(Eigen::Matrix3d(turn * matrix_of(m) * turn.transpose()));
 }
 
 void append(const BackgroundMesh& other, BackgroundMesh& mesh) {
@@ -450,6 +460,12 @@ std::int64_t limit_growth(double slope, BackgroundMesh& mesh) {
   GrowthLimiter limiter(slope, mesh);
   limiter.limit_lengths();
   limiter.limit_along();
+  return limiter.n_lowered();
+}
+
+std::int64_t limit_shortest(double slope, BackgroundMesh& mesh) {
+  GrowthLimiter limiter(slope, mesh);
+  limiter.limit_lengths();
   return limiter.n_lowered();
 }
 

@@ -11,12 +11,16 @@
 
 namespace st {
 
+/// A symmetric tensor: xx yy zz xy yz xz.
+using SymmetricTensor = std::array<double, 6>;
+
 /// Lengths are linear in each tetrahedron. One direction may have a longer length: the one along which the nodes of the
 /// tetrahedron at a place are stretched most, by their weights there. The less they agree, the shorter it is.
 struct BackgroundMesh {
   std::vector<Vec3> node_xyz;
   std::vector<LocalSize> node_size;
-  std::vector<std::array<std::int32_t, 4>> tets;       ///< nodes, any orientation
+  std::vector<SymmetricTensor> node_metric;       ///< [nodes], of which node_size tells a part; empty: it tells all
+  std::vector<std::array<std::int32_t, 4>> tets;  ///< nodes, any orientation
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< of surfaces, from which lengths grow like from the border
 
   bool is_empty() const { return tets.empty() && triangles.empty(); }
@@ -24,11 +28,13 @@ struct BackgroundMesh {
 
 /// The lengths of a metric xx yy zz xy yz xz: its longest along its direction, the smallest in the others. Length 0
 /// where it is not positive definite.
-LocalSize size_of_metric(const std::array<double, 6>& metric);
+LocalSize size_of_metric(const SymmetricTensor& metric);
+/// The metric that asks for these lengths.
+SymmetricTensor metric_of(const LocalSize& size);
 /// Nearly equal lengths are one; a direction of any length.
 LocalSize uniaxial(const LocalSize& s);
 
-/// Takes the smallest length in all directions; the number of nodes that had a longer one.
+/// Takes the smallest length in all directions, and no metric; the number of nodes that had a longer one.
 std::int64_t remove_stretch(BackgroundMesh& mesh);
 
 /// No length below `least` (model unit); the number of nodes that had one.
@@ -48,13 +54,15 @@ void keep_only(const std::vector<std::int32_t>& kept, std::vector<Value>& values
   for (const std::int32_t n : kept) values.push_back(all[n]);
 }
 
-/// Appends the nodes and cells of another mesh.
+/// Appends the nodes and cells of another mesh. Precondition: neither has metrics.
 void append(const BackgroundMesh& other, BackgroundMesh& mesh);
 
 /// Lowers lengths of nodes until no tetrahedron has a gradient above `slope`, then longer ones until the same holds for
 /// the lengths along the direction that its nodes share, and along that of each of them. The smallest length of a
 /// tetrahedron stays. The number of nodes that were lowered.
 std::int64_t limit_growth(double slope, BackgroundMesh& mesh);
+/// Likewise the smallest lengths alone.
+std::int64_t limit_shortest(double slope, BackgroundMesh& mesh);
 
 /// In the mesh the smallest of what the tetrahedra there ask for, to rounding; flat ones are passed over. Elsewhere the
 /// lengths of its border, growing by the slope; likewise along the direction of what is closest on the border.

@@ -10,9 +10,6 @@
 
 namespace st {
 
-/// A symmetric tensor: xx yy zz xy yz xz.
-using SymmetricTensor = std::array<double, 6>;
-
 struct NodeHessians {
   std::vector<SymmetricTensor> of_node;  ///< [n_nodes] of the field over the squared model unit
   std::int64_t n_unknown = 0;            ///< nodes with too few others around them: zero

@@ -5,18 +5,12 @@
 
 #include "base/eigen.h"
 #include "base/threads.h"
+#include "sizing/symmetric_tensor.h"
 
 namespace st {
 namespace {
 
-Eigen::Matrix3d matrix_of(const SymmetricTensor& t) {
-  Eigen::Matrix3d m;
-  m << t[0], t[3], t[5], t[3], t[1], t[4], t[5], t[4], t[2];
-  return m;
-}
-SymmetricTensor tensor_of(const Eigen::Matrix3d& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)}; }
-
-SymmetricTensor tensor_of(const std::array<double, 3>& value, const std::array<Vec3, 3>& axis) {
+SymmetricTensor tensor_with(const std::array<double, 3>& value, const std::array<Vec3, 3>& axis) {
   Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < 3; ++k) m += value[k] * to_eigen(axis[k]) * to_eigen(axis[k]).transpose();
   return tensor_of(m);
@@ -89,7 +83,7 @@ bool MultiscaleMetric::add(std::span<const SymmetricTensor> hessian) {
     const double factor = std::pow(determinant, -1 / (2 * p + d));
     for (double& v : value) v *= factor;
     own_complexity += measure_[n] * std::sqrt(determinant) * std::pow(factor, d / 2);
-    metric[n] = tensor_of(value, axes[n].axis);
+    metric[n] = tensor_with(value, axes[n].axis);
   }
   const double to_one = std::pow(own_complexity, -2 / d);
   for (SymmetricTensor& m : metric)
@@ -131,7 +125,7 @@ double MultiscaleMetric::n_nodes() const { return nodes_per_complexity() * compl
 std::vector<SymmetricTensor> MultiscaleMetric::metrics() const {
   const double factor = factor_for_nodes();
   std::vector<SymmetricTensor> result;
-  for (const Axes& a : axes_) result.push_back(tensor_of(bounded(a.value, factor), a.axis));
+  for (const Axes& a : axes_) result.push_back(tensor_with(bounded(a.value, factor), a.axis));
   return result;
 }
 

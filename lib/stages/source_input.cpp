@@ -51,22 +51,21 @@ void merge(std::vector<SourceSpec>& all, const SourceFile& file, const std::stri
   }
 }
 
-void add_background(BackgroundMesh&& mesh, const Similarity& motion, bool is_stretched, SourceInput& input) {
-  if (const std::int64_t n = is_stretched ? 0 : remove_stretch(mesh))
+/// Lowered to the slope. Lengths along of metrics that a face cuts are as they are: where it turns, so do they.
+void add_background(BackgroundMesh&& mesh, const Similarity& motion, const ModelPlanes* planes, SourceInput& input) {
+  if (const std::int64_t n = planes ? 0 : remove_stretch(mesh))
     log_warning(
         fmt::format("{} nodes of the background mesh are anisotropic, and their smallest spacing is used; give "
                     "st-raster --max-aspect to keep the others",
                     n));
   transform(motion, mesh);
-  append(mesh, input.set.background);
-}
-
-/// The background to the slope.
-void limit_background(double slope, BackgroundMesh& mesh) {
-  if (const std::int64_t n = limit_growth(slope, mesh))
+  const double slope = input.set.slope;
+  const bool is_cut = planes && project_metrics(*planes, mesh);
+  if (const std::int64_t n = is_cut ? limit_shortest(slope, mesh) : limit_growth(slope, mesh))
     log_warning(
         fmt::format("the background mesh grows faster than the slope {:g}: lengths of {} of its {} nodes are lowered",
                     slope, n, mesh.node_xyz.size()));
+  append(mesh, input.set.background);
 }
 
 std::string label_of(const std::string& name, std::size_t number) {
@@ -137,13 +136,13 @@ void warn_of_places(const SourceInput& input, const OctreeView& octree, double f
 }
 
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
-                         double slope, const ModelScale& scale, bool is_stretched) {
+                         double slope, const ModelScale& scale, const ModelPlanes* planes) {
   SourceInput input;
   input.set.slope = slope;
   std::vector<SourceSpec>& specs = input.set.sources;
   const auto take = [&](SourceFile&& file, const std::string& path, const std::string& role) {
     merge(specs, file, path);
-    add_background(std::move(file.background), motion, is_stretched, input);
+    add_background(std::move(file.background), motion, planes, input);
     if (is_size_mesh(path))
       for (const std::string& part : files_of_size_mesh(path)) input.files.push_back(file_ref(role, part));
     else
@@ -154,7 +153,6 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
   else if (!background.empty())
     take(read_background_file(background), background, "background");
   for (const std::string& path : files) take(read_source_file(path, scale), path, "sources");
-  limit_background(slope, input.set.background);
   for (SourceSpec& spec : specs) {
     transform(motion, spec);
     warn_of_extent(spec, input.names.size());

@@ -5,6 +5,8 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+from adapt_table import read_mesh  # noqa: E402
 from chain import INPUT, USAGE, ToolTest, artifacts_of, must  # noqa: E402
 
 
@@ -117,6 +119,71 @@ class Metric(ToolTest):
             self.expect_error(code, "st-metric", *arguments, "-o", out, says=says, n_lines=n_lines)
         self.expect_error(USAGE, "st-metric", field, "-o", self.folder / "out.vtu", says="sizes are written as .solb")
         self.assertFalse(out.exists())
+
+
+class Shock(ToolTest):
+    """A background of tensors with one short and two long lengths, tilted by 45 degrees to the box's floor."""
+    SHORT, LONG, CELLS = 1.0, 6.0, 20
+    TRACE = (0.5 / SHORT**2 + 0.5 / LONG**2) ** -0.5  # what the floor and the walls x = const cut
+
+    def setUp(self):
+        super().setUp()
+        self.box = artifacts_of("box")
+        n = self.CELLS
+        axes = [[lo + (hi - lo) * i / n for i in range(n + 1)] for lo, hi in ((-5, 65), (-5, 45), (-5, 25))]
+        lines = ["MeshVersionFormatted 2", "Dimension 3", "Vertices", str((n + 1) ** 3)]
+        lines += [f"{x} {y} {z} 0" for z in axes[2] for y in axes[1] for x in axes[0]]
+        lines += ["Hexahedra", str(n**3)]
+        row, layer = n + 1, (n + 1) ** 2
+        for first in (1 + i + row * j + layer * k for k in range(n) for j in range(n) for i in range(n)):
+            bottom = [first, first + 1, first + 1 + row, first + row]
+            lines.append(" ".join(str(c) for c in bottom + [c + layer for c in bottom] + [0]))
+        (self.folder / "shock.mesh").write_text("\n".join(lines + ["End", ""]))
+        most, least = self.SHORT**-2, self.LONG**-2
+        mean, half = 0.5 * (most + least), 0.5 * (most - least)
+        tensor = f"{mean} 0 {least} {half} 0 {mean}"  # xx xy yy xz yz zz
+        (self.folder / "shock.sol").write_text("\n".join(
+            ["MeshVersionFormatted 2", "Dimension 3", "SolAtVertices", str((n + 1) ** 3), "1 3"]
+            + [tensor] * (n + 1) ** 3 + ["End", ""]))
+
+    def sizes(self, *raster_options):
+        must("st-raster", self.box / "geometry.hdf", "-o", self.folder / "r.hdf", "--lmin", 0.2, "--lmax", 8,
+             *raster_options)
+        return must("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf", "--only", "--background",
+                    self.folder / "shock.sol")
+
+    def at(self, place):
+        told = must("st-info", self.folder / "s.hdf", "--at", place, "--json").json()
+        return told["length"], told["along"]
+
+    def test_each_face_has_the_two_lengths_that_it_cuts(self):
+        self.sizes("--max-aspect", 16)
+        for place, short, axis in (("30,20,0", self.TRACE, 1), ("0,20,10", self.TRACE, 1), ("30,0,10", self.SHORT, 0)):
+            length, along = self.at(place)
+            self.assertAlmostEqual(length, short, delta=0.05 * short, msg=place)
+            self.assertAlmostEqual(along["length"], self.LONG, delta=0.05 * self.LONG, msg=place)
+            self.assertGreater(abs(along["direction"][axis]), 0.7, place)
+
+    def test_the_mesh_of_a_face_has_both_lengths(self):
+        self.sizes("--max-aspect", 16)
+        must("st-mesh", self.box / "geometry.hdf", self.folder / "s.hdf", "-o", self.folder / "p.hdf")
+        must("st-merge", self.folder / "p.hdf", "-o", self.folder / "m.hdf")
+        must("st-export", self.folder / "m.hdf", "-o", self.folder / "m.mesh")
+        nodes, triangles = read_mesh(self.folder / "m.mesh")
+        inside = [10 < x < 50 and 10 < y < 30 and abs(z) < 1e-9 for x, y, z in nodes]
+        sides = ((t[k], t[k - 1]) for t in triangles for k in range(3))
+        edges = [[abs(nodes[a][k] - nodes[b][k]) for k in range(2)] for a, b in sides if inside[a] and inside[b]]
+        flat = 0.3  # of both directions' lengths, so measured: an edge along one of them
+        across = [x for x, y in edges if y / self.LONG < flat * x / self.TRACE]
+        along = [y for x, y in edges if x / self.TRACE < flat * y / self.LONG]
+        self.assertAlmostEqual(sum(across) / len(across), self.TRACE, delta=0.05 * self.TRACE)
+        self.assertAlmostEqual(sum(along) / len(along), self.LONG, delta=0.05 * self.LONG)
+
+    def test_without_aspect_the_shortest_counts(self):
+        self.assertIn("nodes of the background mesh are anisotropic", self.sizes().err)
+        length, along = self.at("30,20,0")
+        self.assertAlmostEqual(length, self.SHORT, delta=1e-6)
+        self.assertAlmostEqual(along["length"], self.SHORT, delta=1e-6)
 
 
 if __name__ == "__main__":

@@ -94,10 +94,16 @@ void average_cells(const std::string& path, CellFile& file) {
 }
 
 /// Of one node; length 0: neither a positive length nor a positive definite metric.
-LocalSize size_of(const double* v, std::size_t n_components) {
-  if (n_components == 1) return v[0] > 0 && std::isfinite(v[0]) ? LocalSize{v[0], v[0], {}} : LocalSize{};
-  if (n_components == 6) return size_of_metric({v[0], v[1], v[2], v[3], v[4], v[5]});
-  return size_of_metric({v[0], v[4], v[8], 0.5 * (v[1] + v[3]), 0.5 * (v[5] + v[7]), 0.5 * (v[2] + v[6])});
+void add_size(const double* v, std::size_t n_components, BackgroundMesh& mesh) {
+  if (n_components == 1) {
+    mesh.node_size.push_back(v[0] > 0 && std::isfinite(v[0]) ? LocalSize{v[0], v[0], {}} : LocalSize{});
+    return;
+  }
+  if (n_components == 6)
+    mesh.node_metric.push_back({v[0], v[1], v[2], v[3], v[4], v[5]});
+  else
+    mesh.node_metric.push_back({v[0], v[4], v[8], 0.5 * (v[1] + v[3]), 0.5 * (v[5] + v[7]), 0.5 * (v[2] + v[6])});
+  mesh.node_size.push_back(size_of_metric(mesh.node_metric.back()));
 }
 
 void read_sizes(const std::string& path, const CellFile& file, BackgroundMesh& mesh) {
@@ -115,7 +121,7 @@ void read_sizes(const std::string& path, const CellFile& file, BackgroundMesh& m
     for (const std::int32_t n : triangle) is_used[n] = 1;
   std::size_t n_bad = 0, first = 0;
   for (std::size_t i = 0; i < n_nodes; ++i) {
-    mesh.node_size.push_back(size_of(file.value.data() + i * n_components, n_components));
+    add_size(file.value.data() + i * n_components, n_components, mesh);
     if (!is_used[i] || mesh.node_size[i].length > 0) continue;
     if (n_bad++ == 0) first = i;
   }
@@ -166,6 +172,7 @@ BackgroundMesh read_size_mesh(const std::string& file) {
   const std::vector<std::int32_t> kept = number_used_nodes(mesh);
   keep_only(kept, mesh.node_xyz);
   keep_only(kept, mesh.node_size);
+  if (!mesh.node_metric.empty()) keep_only(kept, mesh.node_metric);
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -102,20 +103,40 @@ std::array<std::int32_t, 4> tet_of(const LineReader& file, const std::map<std::i
 
 // --- FLITE .bac ---
 
+/// nullopt: the directions are not orthogonal.
+std::optional<SymmetricTensor> orthogonal_metric(const std::array<Vec3, 3>& direction,
+                                                 const std::array<double, 3>& spacing) {
+  constexpr double kOrthogonal = 1e-3;  // cosine: files have few digits
+  SymmetricTensor sum{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 d = normalized(direction[k]);
+    if (!(std::abs(dot(d, normalized(direction[(k + 1) % 3]))) < kOrthogonal) || !(norm2(d) > 0)) return std::nullopt;
+    const double w = 1 / (spacing[k] * spacing[k]);
+    const SymmetricTensor own{d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.y * d.z, d.x * d.z};
+    for (std::size_t i = 0; i < own.size(); ++i) sum[i] += w * own[i];
+  }
+  return sum;
+}
+
 void read_bac_nodes(LineReader& file, std::int64_t n_nodes, std::int64_t n_tets, BackgroundMesh& mesh) {
   std::map<std::int64_t, std::int32_t> index;
   for (std::int64_t i = 0; i < n_nodes; ++i) {
     const std::vector<double> at = file.numbers("a background node", 4);
     number_node(file, at[0], mesh, index);
     LocalSize size;
-    for (int axis = 0; axis < 3; ++axis) {
+    std::array<Vec3, 3> direction;
+    std::array<double, 3> spacing{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::vector<double> v = file.numbers("a direction and its spacing", 4);
       if (!(v[3] > 0)) file.fail("spacing must be positive");
       size.length = axis ? std::min(size.length, v[3]) : v[3];
       if (v[3] > size.along) size.along = v[3], size.direction = {v[0], v[1], v[2]};
+      direction[axis] = {v[0], v[1], v[2]};
+      spacing[axis] = v[3];
     }
     mesh.node_xyz.push_back({at[1], at[2], at[3]});
     mesh.node_size.push_back(uniaxial(size));
+    mesh.node_metric.push_back(orthogonal_metric(direction, spacing).value_or(metric_of(mesh.node_size.back())));
   }
   for (std::int64_t i = 0; i < n_tets; ++i)
     mesh.tets.push_back(tet_of(file, index, file.numbers("a tetrahedron", 5).data() + 1));
@@ -170,11 +191,10 @@ void read_msh_elements(LineReader& file, const std::map<std::int64_t, std::int32
 }
 
 /// `m`: nine components; the lengths are one over the roots of the eigenvalues.
-LocalSize read_metric(const LineReader& file, const double* m) {
-  const LocalSize size =
-      size_of_metric({m[0], m[4], m[8], 0.5 * (m[1] + m[3]), 0.5 * (m[5] + m[7]), 0.5 * (m[2] + m[6])});
-  if (!(size.length > 0)) file.fail("a metric must be positive definite");
-  return size;
+SymmetricTensor read_metric(const LineReader& file, const double* m) {
+  const SymmetricTensor metric{m[0], m[4], m[8], 0.5 * (m[1] + m[3]), 0.5 * (m[5] + m[7]), 0.5 * (m[2] + m[6])};
+  if (!(size_of_metric(metric).length > 0)) file.fail("a metric must be positive definite");
+  return metric;
 }
 
 void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
@@ -191,13 +211,15 @@ void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>&
   if (integers.size() < 3 || (integers[1] != 1 && integers[1] != 9))
     file.fail("$NodeData: a length per node expected, or the nine components of a metric");
   const bool is_metric = integers[1] == 9;
+  if (is_metric) mesh.node_metric.resize(mesh.node_xyz.size());
   const std::int64_t n = file.count(integers[2], "values");
   for (std::int64_t i = 0; i < n; ++i) {
     const std::vector<double> v = file.numbers("a node and its value", is_metric ? 10 : 2);
     const auto it = index.find(file.node_number(v[0]));
     if (it == index.end()) file.fail("$NodeData names a node that does not exist");
     if (!is_metric && !(v[1] > 0)) file.fail("length must be positive");
-    mesh.node_size[it->second] = is_metric ? read_metric(file, v.data() + 1) : LocalSize{v[1], v[1], {}};
+    if (is_metric) mesh.node_metric[it->second] = read_metric(file, v.data() + 1);
+    mesh.node_size[it->second] = is_metric ? size_of_metric(mesh.node_metric[it->second]) : LocalSize{v[1], v[1], {}};
   }
 }
 
