@@ -31,6 +31,9 @@ inline std::string missing_sizes(const std::string& array) {
 /// `array`: of the point data, else of the cell data; empty: one of kUsualSizes of the point data. All throw
 /// Error(kInput) naming file and place. `bytes`: the whole file.
 CellFile parse_vtu_cells(const std::string& path, const std::string& bytes, const std::string& array);
+/// Gmsh's parsed views (.pos), the first one: scalars or tensors at the corners of triangles, quadrilaterals and
+/// volumes, by the first time step. Corners at one place are one node with the value that stands first.
+CellFile parse_pos_cells(const std::string& path, const std::string& text);
 CellFile read_vtkhdf_cells(const std::string& path, const std::string& array);
 /// INRIA's Medit: nodes and cells of a .mesh or .meshb.
 CellFile parse_medit_mesh(const std::string& path, const std::string& bytes);

@@ -138,6 +138,7 @@ CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
   const auto [path, array] = split_name(file);
   const std::vector<std::string> files = files_of_size_mesh(file);
   CellFile cells = files.size() == 2            ? read_medit(files)
+                   : has_suffix(path, {".pos"}) ? parse_pos_cells(path, read_text_file(path))
                    : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, read_text_file(path), array)
                                                 : read_vtkhdf_cells(path, array);
   if (cells.node_xyz.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
@@ -155,7 +156,7 @@ CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
 
 bool is_size_mesh(const std::string& file) {
   const std::string path = split_name(file).first;
-  return is_medit_mesh(path) || is_medit_solution(path) || has_suffix(path, {".vtu", ".vtkhdf", ".hdf", ".h5"});
+  return is_medit_mesh(path) || is_medit_solution(path) || has_suffix(path, {".pos", ".vtu", ".vtkhdf", ".hdf", ".h5"});
 }
 
 std::vector<std::string> files_of_size_mesh(const std::string& file) {
