@@ -45,6 +45,9 @@ constexpr double kSmallPart = 0.01;            // of the reference diagonal: a s
 constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
 constexpr double kNarrowStrip = 0.05;          // width of a strip of the skin over the length of its edge, at most
 constexpr double kSameDirection = 0.998;       // cosine: 4 degrees
+constexpr double kMostCorners = 0.5;           // of the way with profiles: where these end in a square corner
+constexpr double kSquareCorner = 0.5;          // cosine: 60 to 120 degrees
+constexpr double kNoseStrip = 0.02;            // of the chord: width of the faces at such a corner, at least
 constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
 constexpr double kLens = 0.75;                 // of the way where the nose is on the edge itself: does not count
 
@@ -157,6 +160,10 @@ class SurfaceMeasurer {
     if (share < kMeasured) {
       why = {fmt::format("planes cut the profile of a wing on {:.0f} % of its length, half is needed", 100 * share)};
       return find_part(measured_edges(chain, places, profiles), chain, why);
+    }
+    if (const double way = corner_way(places, profiles); way > kMostCorners * measured_way(places, profiles)) {
+      why = {"its profiles end in a corner between plane faces, not in a nose"};
+      return std::nullopt;
     }
     drop_oblique(axis, profiles);
     try_other_cuts(places, profiles);
@@ -283,6 +290,27 @@ class SurfaceMeasurer {
   static double measured_way(std::span<const EdgePlace> places, std::span<const std::optional<Profile>> profiles) {
     double way = 0;
     for (std::size_t i = 0; i < places.size(); ++i) way += profiles[i] ? places[i].way : 0;
+    return way;
+  }
+
+  /// Where a wedge was cut off across: a corner that is about square between plane faces, which are no strips of a
+  /// nose.
+  bool ends_in_corner(const Profile& profile) const {
+    const std::vector<CutPlace>& beside = profile.beside_nose;
+    const ModelTables& t = model_.tables();
+    const auto is_plane = [&](const CutPlace& at) {
+      return t.face_type[at.face] == SurfaceType::kPlane && t.face_width[at.face] >= kNoseStrip * profile.chord;
+    };
+    return beside.size() == 2 && std::ranges::all_of(beside, is_plane) &&
+           std::abs(dot(normalized(beside[0].x - profile.nose), normalized(beside[1].x - profile.nose))) <
+               kSquareCorner;
+  }
+
+  /// How far along the edges profiles end in such a corner.
+  double corner_way(std::span<const EdgePlace> places, std::span<const std::optional<Profile>> profiles) const {
+    double way = 0;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (profiles[i] && ends_in_corner(*profiles[i])) way += places[i].way;
     return way;
   }
 

@@ -67,7 +67,7 @@ SPANS = {
     "split_winglet": [3.99, 0.85],
 }
 PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal",
-         "oval_bar", "saw")
+         "oval_bar", "saw", "door_stop", "snap_hook")
 
 
 class WingShapes(ToolTest):

@@ -826,6 +826,17 @@ TopoDS_Shape seal() {
   return BRepPrimAPI_MakeRevol(face, gp::OX()).Shape();
 }
 
+/// A wedge whose thick end is cut off across, and whose thin one is steeper.
+TopoDS_Shape door_stop() {
+  return cut(prism({{0, 0, 0}, {100, 0, 0}, {100, 0, 25}, {10, 0, 4}}, 35),
+             cylinder(gp_Pnt(80, 17, -1), gp::DZ(), 5, 50));
+}
+
+/// A strip with a barb at its end.
+TopoDS_Shape snap_hook() {
+  return fuse(box(0, 0, 0, 40, 12, 3), prism({{40, 0, 0}, {52, 0, 1.2}, {40, 0, 7}, {38, 0, 3}, {38, 0, 0}}, 12));
+}
+
 using Maker = std::function<TopoDS_Shape()>;
 using Makers = std::map<std::string, Maker>;
 
@@ -882,6 +893,8 @@ const Makers& parts() {
                           {"part_rib", tapered_rib},
                           {"part_oval_bar", oval_bar},
                           {"part_saw", saw},
+                          {"part_door_stop", door_stop},
+                          {"part_snap_hook", snap_hook},
                           {"part_seal", seal}};
   return all;
 }
