@@ -43,7 +43,7 @@ def main():
     print("| model | preset | triangles | surfaces | covered, % | held, % | nose | trailing edge | base |\n"
           "|---|---|--:|--:|--:|--:|--:|--:|--:|")
     listed = subprocess.run([arguments.wing_models], check=True, capture_output=True, text=True).stdout.split()
-    for name in arguments.models or [n for n in listed if not n.startswith("part_")]:
+    for name in arguments.models or [n for n in listed if not n.startswith(("part_", "vane_passage"))]:
         with tempfile.TemporaryDirectory() as folder:
             model = Path(folder) / f"{name}.brep"
             subprocess.run([arguments.wing_models, name, model], check=True, capture_output=True)

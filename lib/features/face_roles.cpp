@@ -62,7 +62,7 @@ bool is_material_ahead(const ModelTables& t, const FaceRoles& roles) {
   const auto has = [&](FaceRole role) {
     return std::find(roles.role.begin(), roles.role.end(), role) != roles.role.end();
   };
-  return (has(FaceRole::kFarfield) && has(FaceRole::kWall)) || (t.volume && *t.volume < 0);
+  return roles.is_passage || (has(FaceRole::kFarfield) && has(FaceRole::kWall)) || (t.volume && *t.volume < 0);
 }
 
 }  // namespace st

@@ -19,6 +19,7 @@ struct FaceRoles {
   std::vector<FaceRole> role;     ///< [n_faces]
   double reference_diagonal = 0;  ///< of the box of all walls, model unit: what default lengths and per cents refer to
   OwnAxes own;                    ///< along which extents are measured
+  bool is_passage = false;        ///< the model is taken for the air between its walls, without a role that says so
 };
 
 /// Roles from those of groups, which the import recognised or names gave; all faces are walls when none is, and
@@ -29,7 +30,8 @@ FaceRoles face_roles(const Model& model, const Executor& executor = SerialExecut
 /// Likewise, along the axes of space.
 FaceRoles face_roles(const ModelTables& tables);
 
-/// Normals of faces point into the material: the model is the domain around walls, or its solids are turned inward.
+/// Normals of faces point into the material: the model is the domain around walls or a passage, or its solids are
+/// turned inward.
 bool is_material_ahead(const ModelTables& tables, const FaceRoles& roles);
 
 }  // namespace st

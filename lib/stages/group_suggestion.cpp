@@ -13,14 +13,31 @@
 
 namespace st {
 
-std::vector<SuggestedGroup> suggest_groups_of(const Model& model) {
-  const FaceRoles roles = face_roles(model);
+namespace {
+
+std::vector<LiftingSurface> wings_of(const Model& model, const FaceRoles& roles) {
   const std::vector<Strip> strips = find_base_strips(model, find_strips(model));
   const std::vector<WingEdge> edges = find_wing_edges(model, roles, strips);
   std::vector<LiftingSurface> wings = find_lifting_surfaces(model, roles, edges);
   add_round_tails(model, roles, edges, std::vector<std::uint8_t>(static_cast<std::size_t>(model.tables().n_edges())),
                   wings);
-  return suggest_groups(model.tables(), roles, wings, find_bodies(model, roles, wings));
+  return wings;
+}
+
+}  // namespace
+
+std::vector<SuggestedGroup> suggest_groups_of(const Model& model) {
+  const ModelTables& t = model.tables();
+  FaceRoles roles = face_roles(model);
+  if (!is_material_ahead(t, roles)) {  // vanes in a passage: solids have no wing-like holes
+    FaceRoles passage = roles;
+    passage.is_passage = true;
+    const std::vector<LiftingSurface> vanes = wings_of(model, passage);
+    const Bodies none{{}, std::vector<std::int32_t>(roles.role.size(), kNone)};
+    if (!vanes.empty()) return suggest_groups(t, passage, vanes, none);
+  }
+  const std::vector<LiftingSurface> wings = wings_of(model, roles);
+  return suggest_groups(t, roles, wings, find_bodies(model, roles, wings));
 }
 
 std::string groups_file_text(const std::vector<SuggestedGroup>& groups, const ModelTables& tables,

@@ -142,6 +142,13 @@ class WingShapes(ToolTest):
                 for span in found:
                     self.assertAlmostEqual(span, 3.01, delta=0.02, msg=name)
 
+    def test_of_a_passage_only_the_vane_is_suggested_as_wing(self):
+        model, groups = self.folder / "vane_passage.brep", self.folder / "groups.toml"
+        subprocess.run([WING_MODELS, "vane_passage", model], check=True, capture_output=True, timeout=100)
+        done = must("st-import", model, "-o", self.folder / "geometry.hdf", "--suggest-groups", groups)
+        # its skin is one face, its base another; the passage has six
+        self.assertRegex(done.err, "wing 2 faces; 6 of 8 faces are in none")
+
     def test_without_an_edge_at_its_trailing_edge_is_warned_of(self):
         self.assertRegex(self.raster("sail", "rans").err, "warning: .*sheets.* free edges 1, 2, 3, 4;")
         (self.folder / "geometry.hdf").unlink()

@@ -826,6 +826,12 @@ TopoDS_Shape seal() {
   return BRepPrimAPI_MakeRevol(face, gp::OX()).Shape();
 }
 
+/// The air around a vane of chord 1 between hub and shroud, without roles.
+TopoDS_Shape vane_passage() {
+  return cut(box(-0.5, -0.4, 0, 2, 0.8, 0.4),
+             loft(kBlunt, {straight(gp_Pnt(0, 0, -0.1), 1, 90), straight(gp_Pnt(0, 0, 0.5), 1, 90)}));
+}
+
 /// A wedge whose thick end is cut off across, and whose thin one is steeper.
 TopoDS_Shape door_stop() {
   return cut(prism({{0, 0, 0}, {100, 0, 0}, {100, 0, 25}, {10, 0, 4}}, 35),
@@ -936,6 +942,7 @@ const Makers& wings() {
                      {straight(gp_Pnt(0, 0, 0), 4), straight(gp_Pnt(3.8, 2, 0), 0.2)});
        }},
       {"vanes", vanes},
+      {"vane_passage", vane_passage},
       {"rocket_fins", rocket_fins},
       {"sail", sail},
       {"plate_sail", [] { return plate_sail(0.006); }},
