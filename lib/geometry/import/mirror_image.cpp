@@ -16,8 +16,11 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
+#include <span>
 #include <tuple>
 
+#include "base/box_tree.h"
 #include "base/error.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/occt_evaluators.h"
@@ -48,11 +51,6 @@ gp_Trsf reflection_at(const SymmetryPlane& plane) {
   gp_Trsf trsf;
   trsf.SetMirror(gp_Ax2(gp_Pnt(origin), gp_Dir(normal)));
   return trsf;
-}
-
-double distance_to(const Box3& box, Vec3 p) {
-  const auto beyond = [](double x, double lo, double hi) { return std::max({lo - x, x - hi, 0.0}); };
-  return norm(Vec3{beyond(p.x, box.lo.x, box.hi.x), beyond(p.y, box.lo.y, box.hi.y), beyond(p.z, box.lo.z, box.hi.z)});
 }
 
 std::vector<Vec3> samples_of(const TopoDS_Shape& face, FaceProbe& probe) {
@@ -88,6 +86,7 @@ class Mirroring {
     reflection_.value = plane.value;
     boxes_.emplace_back();
     for (int f = 1; f <= model.faces.Extent(); ++f) boxes_.push_back(rough_box(model.faces(f)));
+    tree_ = BoxTree(std::span(boxes_).subspan(1));
   }
 
   MirrorShapes run(std::vector<ImportFinding>& findings) {
@@ -148,19 +147,22 @@ class Mirroring {
 
   /// Distance of the nearest face. Those within the tolerance get a vote each, or the nearest does.
   double vote(Vec3 p, PlaneSide on, std::map<int, int>& votes) {
-    std::pair<int, double> best{0, kInfinity};
+    std::pair<double, int> best{kInfinity, 0};
     for (const bool is_near : {true, false}) {
-      for (int f = 1; f <= n_faces(); ++f) {
-        const double least = distance_to(boxes_[f], p);
-        if (side(f) != on || (least <= tolerance_) != is_near || (!is_near && least >= best.second)) continue;
-        const double d = probe(f).distance_to(p);
-        if (d <= tolerance_) ++votes[f];
-        if (d < best.second) best = {f, d};
-      }
-      if (best.second <= tolerance_) return best.second;
+      const auto matters = [&](std::int32_t, double d2) {
+        return d2 <= (is_near ? tolerance_ * tolerance_ : best.first * best.first);
+      };
+      tree_.visit_near(p, matters, [&](std::int32_t i) {
+        const double d2 = distance2(p, boxes_[i + 1]);
+        if (side(i + 1) != on || !matters(i, d2) || (!is_near && d2 <= tolerance_ * tolerance_)) return;
+        const double d = probe(i + 1).distance_to(p);
+        if (d <= tolerance_) ++votes[i + 1];
+        best = std::min(best, {d, i + 1});
+      });
+      if (best.first <= tolerance_) return best.first;
     }
-    ++votes[best.first];
-    return best.second;
+    ++votes[best.second];
+    return best.first;
   }
 
   /// Of faces on each other, as of bodies that touch, the one that looks the same way and has the same box.
@@ -197,19 +199,22 @@ class Mirroring {
       if (m.distance > tolerance_) off.push_back({-m.distance, f});
     }
     std::sort(off.begin(), off.end());
-    for (int f = 1; f <= n_faces(); ++f)
-      if (side(f) == other() && off.empty() && !is_found(f)) off.push_back({0, f});
+    if (off.empty()) {
+      const std::set<int> found = found_faces();
+      for (int f = 1; f <= n_faces(); ++f)
+        if (side(f) == other() && !found.contains(f)) off.push_back({0, f});
+    }
     if (!off.empty()) refuse(off, matches);
   }
 
-  /// Whether a face of the other side is a partner, or a part of the same face of the file is.
-  bool is_found(int f) const {
-    for (int k = 1; k <= n_faces(); ++k)
-      if (const int p = partner_[k];
-          p == f || (p > 0 && model_.attributes[p - 1].file_face != kNone &&
-                     model_.attributes[p - 1].file_face == model_.attributes[f - 1].file_face))
-        return true;
-    return false;
+  /// Of partners, and of the faces of the file that these are parts of.
+  std::set<int> found_faces() const {
+    std::set<int> files, found;
+    for (const int p : partner_)
+      if (p > 0) found.insert(p), files.insert(model_.attributes[p - 1].file_face);
+    for (int f = 1; f <= n_faces(); ++f)
+      if (const int file = model_.attributes[f - 1].file_face; file != kNone && files.contains(file)) found.insert(f);
+    return found;
   }
 
   [[noreturn]] void refuse(const std::vector<std::pair<double, int>>& off, const std::vector<Match>& matches) const {
@@ -307,34 +312,43 @@ class Mirroring {
     TopTools_IndexedMapOfShape there;
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, there);
     model_.edge_names.clear();
+    std::vector<Box3> boxes;
+    for (const auto& [own, image] : shapes_.edges) boxes.push_back(rough_box(image));
+    const BoxTree near(boxes);
     for (const auto& [edge, name] : before.edge_names) {
       double t0, t1;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edge), t0, t1);
       if (there.Contains(edge)) {
         model_.edge_names.emplace_back(edge, name);
       } else if (!curve.IsNull()) {
-        if (const TopoDS_Shape image = image_near(vec(curve->Value(0.5 * (t0 + t1)))); !image.IsNull())
+        if (const TopoDS_Shape image = image_near(vec(curve->Value(0.5 * (t0 + t1))), near); !image.IsNull())
           model_.edge_names.emplace_back(image, name);
       }
     }
   }
 
-  TopoDS_Shape image_near(Vec3 x) const {
-    for (const auto& [own, image] : shapes_.edges) {
-      if (image.IsSame(own) || distance_to(rough_box(image), x) > tolerance_) continue;
+  /// The first image of an edge at x. `near`: over the images.
+  TopoDS_Shape image_near(Vec3 x, const BoxTree& near) const {
+    std::size_t first = shapes_.edges.size();
+    const auto matters = [&](std::int32_t, double d2) { return d2 <= tolerance_ * tolerance_; };
+    near.visit_near(x, matters, [&](std::int32_t i) {
+      const auto& [own, image] = shapes_.edges[static_cast<std::size_t>(i)];
+      if (image.IsSame(own) || static_cast<std::size_t>(i) > first) return;
       double t0, t1;
       const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(image), t0, t1);
-      if (!curve.IsNull() && closest_point(*make_curve(curve, t0, t1), x).distance <= tolerance_) return image;
-    }
-    return {};
+      if (!curve.IsNull() && closest_point(*make_curve(curve, t0, t1), x).distance <= tolerance_)
+        first = static_cast<std::size_t>(i);
+    });
+    return first < shapes_.edges.size() ? shapes_.edges[first].second : TopoDS_Shape();
   }
 
   ImportedShape& model_;
   SymmetryPlane plane_;
   double tolerance_;
   const std::string& path_;
-  Mirror reflection_;  // the plane alone
-  std::vector<Box3> boxes_;
+  Mirror reflection_;                               // the plane alone
+  std::vector<Box3> boxes_;                         // by 1-based face
+  BoxTree tree_;                                    // of these, by face from 0
   std::vector<std::unique_ptr<FaceProbe>> probes_;  // by 1-based face, made when first asked
   std::vector<PlaneSide> sides_;
   std::vector<int> partner_;  // of kept faces, 1-based
