@@ -4,6 +4,9 @@ include(CMakePackageConfigHelpers)
 
 # --- runtime ---
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION share/doc/st COMPONENT runtime)
+if(ST_HDF5_STATIC AND EXISTS /usr/share/doc/libhdf5-dev/copyright)  # of what is linked into the tools
+  install(FILES /usr/share/doc/libhdf5-dev/copyright DESTINATION share/doc/st RENAME copyright.hdf5 COMPONENT runtime)
+endif()
 install(DIRECTORY docs DESTINATION share/doc/st COMPONENT runtime FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 # Examples lie beside the scripts and the workflow that they use, as in the sources; their place in Debian is a link.
 install(DIRECTORY examples DESTINATION share/st COMPONENT runtime USE_SOURCE_PERMISSIONS

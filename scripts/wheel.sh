@@ -28,9 +28,10 @@ stubbed='^(libX11|libfontconfig|libfreetype|libfreeimage|libcurl|libcrypto)\.so'
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 package=$work/wheel/st
-mkdir -p "$package"/{bin,lib,licenses} "$out"
+mkdir -p "$package"/{bin,lib/st,licenses} "$out"
 cp "$source"/python/st/*.py "$package"
 find "$build/bin" -maxdepth 1 -name 'st-*' -type f -perm -u+x -exec cp -t "$package/bin" {} +
+cp -t "$package/lib/st" "$build"/lib/st/*.so  # readers that the import loads
 cp "$source/LICENSE" "$package/licenses/st"
 
 needed() { patchelf --print-needed "$1"; }
@@ -63,14 +64,15 @@ collect() {
   done
 }
 touch "$work/stubbed"
-for tool in "$package"/bin/*; do collect "$tool"; done
+for file in "$package"/bin/* "$package"/lib/st/*; do collect "$file"; done
 
 # A library of the same name with the functions that the copied ones ask of it.
 make_stub() {
   local name symbols version
   name=$(basename "$1")
   nm -D --defined-only "$1" | awk '{sub(/@.*/, "", $3); print $3}' | sort -u > "$work/defined"
-  symbols=$(for library in "$package"/lib/*; do nm -D --undefined-only "$library"; done | awk '{print $2}' | sort -u |
+  symbols=$(for library in "$package"/lib/*.so* "$package"/lib/st/*; do nm -D --undefined-only "$library"; done |
+    awk '{print $2}' | sort -u |
     awk -F@ 'NR == FNR {is_there[$1]; next} $1 in is_there' "$work/defined" -)
   awk -F@ '{print "void " $1 "(void) { __builtin_trap(); }"}' <<< "$symbols" > "$work/stub.c"
   awk -F@ 'NF > 1 {of[$NF] = of[$NF] " " $1 ";"} END {for (v in of) print v " {" of[v] " };"}' <<< "$symbols" \
@@ -86,8 +88,14 @@ for tool in "$package"/bin/*; do
   strip "$tool"
   patchelf --set-rpath "\$ORIGIN/../lib" "$tool"
 done
-for library in "$package"/lib/*; do patchelf --set-rpath "\$ORIGIN" "$library"; done
+for library in "$package"/lib/*.so*; do patchelf --set-rpath "\$ORIGIN" "$library"; done
+for reader in "$package"/lib/st/*; do
+  strip --strip-unneeded "$reader"
+  patchelf --set-rpath "\$ORIGIN/.." "$reader"
+done
 
+hdf5=$(sed -n 's/^ST_HDF5_STATIC:[A-Z]*=\(\/.*\)/\1/p' "$build/CMakeCache.txt")  # linked into the tools
+[ -z "$hdf5" ] || realpath "$hdf5" >> "$work/from"
 # Licences, as Debian's packages have them. A package may know its files in /lib, which is /usr/lib.
 sort -u "$work/from" | while read -r library; do
   owner=$(dpkg-query -S "$library" 2> /dev/null || dpkg-query -S "${library#/usr}") || fail "whose is $library?"

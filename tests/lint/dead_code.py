@@ -13,7 +13,7 @@ from collections import defaultdict
 import lint
 
 WORD = re.compile(r"[A-Za-z_]\w*")
-ROOTS = {"main"}
+ROOTS = {"main", "st_read_cad_file"}  # the latter: of modules that are loaded
 
 
 class Calls:

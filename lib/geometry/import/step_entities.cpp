@@ -1,0 +1,105 @@
+#include "geometry/import/step_entities.h"
+
+#include <STEPConstruct_UnitContext.hxx>
+#include <StepBasic_Product.hxx>
+#include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
+#include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <StepShape_Edge.hxx>
+#include <StepShape_EdgeLoop.hxx>
+#include <StepShape_FaceBound.hxx>
+#include <StepShape_FaceSurface.hxx>
+#include <StepShape_OrientedEdge.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TransferBRep.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/ids.h"
+
+namespace st::occt {
+namespace {
+
+bool is_beyond_ascii(const std::string& name) {
+  return !name.empty() &&
+         std::all_of(name.begin(), name.end(), [](unsigned char c) { return c >= 0x80 || c == ' '; }) &&
+         name.find_first_not_of(' ') != std::string::npos;
+}
+
+/// Whether a loop passes an edge twice.
+bool has_seam(const StepShape_FaceSurface& face) {
+  for (int b = 1; b <= face.NbBounds(); ++b) {
+    const auto loop = Handle(StepShape_EdgeLoop)::DownCast(face.BoundsValue(b)->Bound());
+    std::set<const StepShape_Edge*> seen;
+    for (int e = 1; !loop.IsNull() && e <= loop->NbEdgeList(); ++e)
+      if (!seen.insert(loop->EdgeListValue(e)->EdgeElement().get()).second) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+FacesOfEntities::FacesOfEntities(const Handle(XSControl_WorkSession) & session)
+    : process_(session->TransferReader()->TransientProcess()) {}
+
+bool FacesOfEntities::add(const Handle(Standard_Transient) & entity) {
+  const TopoDS_Shape shape = TransferBRep::ShapeResult(process_, entity);
+  if (shape.IsNull() || shape.ShapeType() != TopAbs_FACE || faces_.Contains(shape.Located({}))) return false;
+  faces_.Add(shape.Located({}));
+  return true;
+}
+
+std::int32_t FacesOfEntities::find(const TopoDS_Shape& face) const {
+  const int k = faces_.FindIndex(face.Located({}));
+  return k > 0 ? k - 1 : kNone;
+}
+
+void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& file) {
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    Handle(StepRepr_GlobalUnitAssignedContext) context;
+    if (const auto a =
+            Handle(StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx)::DownCast(model->Value(i)))
+      context = a->GlobalUnitAssignedContext();
+    else if (const auto b =
+                 Handle(StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext)::DownCast(model->Value(i)))
+      context = b->GlobalUnitAssignedContext();
+    if (context.IsNull()) continue;
+    STEPConstruct_UnitContext units;
+    units.ComputeFactors(context);
+    if (!units.LengthDone()) continue;
+    const double factor = units.LengthFactor();
+    if (!file.unit_in_mm)
+      file.unit_in_mm = factor;
+    else if (std::abs(*file.unit_in_mm - factor) > 1e-9 * factor)
+      file.has_mixed_units = true;
+  }
+  if (!file.unit_in_mm) file.unit_in_mm = 1.0;
+}
+
+void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel) & model) {
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
+        !product.IsNull() && !product->Name().IsNull() && is_beyond_ascii(product->Name()->ToCString()))
+      product->SetId(product->Name());
+}
+
+void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file) {
+  FacesOfEntities faces(session);
+  std::vector<Handle(StepShape_FaceSurface)> entities;
+  for (int i = 1; i <= session->Model()->NbEntities(); ++i)
+    if (const auto entity = Handle(StepShape_FaceSurface)::DownCast(session->Model()->Value(i));
+        !entity.IsNull() && faces.add(entity))
+      entities.push_back(entity);
+  for (CadPart& part : file.parts)
+    for (auto& face : part.faces)
+      if (const std::int32_t k = faces.find(face.face); k != kNone) {
+        face.same_sense = entities[k]->SameSense();
+        face.has_seam = has_seam(*entities[k]);
+      }
+}
+
+}  // namespace st::occt

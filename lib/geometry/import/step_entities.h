@@ -1,0 +1,38 @@
+// What entities of a STEP file say of units, names and sides, whatever reads its shapes.
+#pragma once
+
+#include <Interface_InterfaceModel.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <cstdint>
+
+#include "geometry/brep/cad_file.h"
+
+namespace st::occt {
+
+/// Faces that were made of entities of a file, wherever they stand.
+class FacesOfEntities {
+ public:
+  explicit FacesOfEntities(const Handle(XSControl_WorkSession) & session);
+
+  /// Whether an entity became a face that is not yet among them; it is its last then.
+  bool add(const Handle(Standard_Transient) & entity);
+  /// How many were added before this face; kNone where it is not among them.
+  std::int32_t find(const TopoDS_Shape& face) const;
+
+ private:
+  Handle(Transfer_TransientProcess) process_;
+  TopTools_IndexedMapOfShape faces_;
+};
+
+/// The file's unit: unit_in_mm and has_mixed_units.
+void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& file);
+
+/// XCAF takes a product's id where the name has no ASCII letter: the id becomes the name.
+void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel) & model);
+
+/// What ADVANCED_FACEs say of the side that they face, and of their seams.
+void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file);
+
+}  // namespace st::occt

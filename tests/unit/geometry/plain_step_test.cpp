@@ -1,0 +1,121 @@
+// STEP files that need no document: what the plain reader makes of them is what the module makes of them.
+#include "geometry/import/plain_step.h"
+
+#include <gtest/gtest.h>
+
+#include <BRepTools.hxx>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "geometry/import/reader_module.h"
+#include "support/shapes.h"
+#include "unit/io/temporary_directory.h"
+
+namespace st {
+namespace {
+
+using occt::CadFile;
+using occt::CadPart;
+
+/// The B-Rep as text: every curve, every surface, their order and their places.
+std::string text_of(const TopoDS_Shape& shape) {
+  std::ostringstream out;
+  BRepTools::Write(shape, out);
+  return out.str();
+}
+
+void expect_same_faces(const CadPart& a, const CadPart& b) {
+  ASSERT_EQ(a.faces.size(), b.faces.size());
+  for (std::size_t f = 0; f < a.faces.size(); ++f) {
+    EXPECT_EQ(text_of(a.faces[f].face), text_of(b.faces[f].face)) << f;
+    EXPECT_EQ(a.faces[f].name, b.faces[f].name) << f;
+    EXPECT_EQ(a.faces[f].layer, b.faces[f].layer) << f;
+    EXPECT_EQ(a.faces[f].color, b.faces[f].color) << f;
+    EXPECT_EQ(a.faces[f].body, b.faces[f].body) << f;
+    EXPECT_EQ(a.faces[f].same_sense, b.faces[f].same_sense) << f;
+    EXPECT_EQ(a.faces[f].has_seam, b.faces[f].has_seam) << f;
+  }
+}
+
+void expect_same(const CadFile& a, const CadFile& b) {
+  EXPECT_EQ(a.format, b.format);
+  EXPECT_EQ(a.unit_in_mm, b.unit_in_mm);
+  EXPECT_EQ(a.has_mixed_units, b.has_mixed_units);
+  EXPECT_EQ(a.missing_files, b.missing_files);
+  ASSERT_EQ(a.parts.size(), b.parts.size());
+  for (std::size_t p = 0; p < a.parts.size(); ++p) {
+    EXPECT_EQ(a.parts[p].name, b.parts[p].name);
+    EXPECT_EQ(a.parts[p].path, b.parts[p].path);
+    EXPECT_EQ(text_of(a.parts[p].shape), text_of(b.parts[p].shape));
+    EXPECT_EQ(a.parts[p].edges.size(), b.parts[p].edges.size());
+    expect_same_faces(a.parts[p], b.parts[p]);
+  }
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The box with `was` replaced in the file's text.
+std::optional<CadFile> read_changed_box(const std::string& was, const std::string& now) {
+  const TemporaryDirectory dir;
+  test::write_step("box", dir / "box.step", "MM");
+  std::string text = bytes_of(dir / "box.step");
+  const std::size_t at = text.find(was);
+  EXPECT_NE(at, std::string::npos) << was;
+  std::ofstream(dir / "box.step") << text.replace(at, was.size(), now);
+  return occt::read_plain_step(dir / "box.step");
+}
+
+TEST(PlainStep, reads_what_the_reader_of_documents_reads) {
+  for (const char* unit : {"MM", "INCH"})
+    for (const char* shape : {"box", "sphere", "torus", "two_boxes", "drilled_cylinder", "mirrored_cylinder",
+                              "sharp_wing", "square", "crumpled"}) {
+      const TemporaryDirectory dir;
+      test::write_step(shape, dir / "a.step", unit);
+      const std::optional<CadFile> plain = occt::read_plain_step(dir / "a.step");
+      ASSERT_TRUE(plain) << shape;
+      SCOPED_TRACE(shape);
+      expect_same(*plain, occt::read_by_module("step_document", dir / "a.step"));
+    }
+}
+
+TEST(PlainStep, numbers_the_bodies_of_a_part) {
+  const TemporaryDirectory dir;
+  test::write_step("two_boxes", dir / "a.step", "MM");
+  const std::optional<CadFile> plain = occt::read_plain_step(dir / "a.step");
+  ASSERT_TRUE(plain);
+  ASSERT_EQ(plain->parts[0].faces.size(), 12u);
+  EXPECT_EQ(plain->parts[0].faces[0].body, "body#1");
+  EXPECT_EQ(plain->parts[0].faces[11].body, "body#2");
+}
+
+TEST(PlainStep, leaves_files_with_names_colours_and_assemblies_alone) {
+  const TemporaryDirectory dir;
+  test::write_named_assembly(dir / "assembly.step");
+  test::write_named_loose_box(dir / "loose.step");
+  EXPECT_FALSE(occt::read_plain_step(dir / "assembly.step"));
+  EXPECT_FALSE(occt::read_plain_step(dir / "loose.step"));
+  EXPECT_TRUE(read_changed_box("ADVANCED_FACE(''", "ADVANCED_FACE('NONE'"));
+  EXPECT_FALSE(read_changed_box("ADVANCED_FACE(''", "ADVANCED_FACE('flap'"));
+  EXPECT_FALSE(read_changed_box("EDGE_CURVE(''", "EDGE_CURVE('nose'"));
+  EXPECT_FALSE(read_changed_box("ENDSEC;\nEND-ISO", "/* DOCUMENT_FILE */ ENDSEC;\nEND-ISO"));
+}
+
+TEST(PlainStep, says_what_it_cannot_parse) {
+  const TemporaryDirectory dir;
+  std::ofstream(dir / "a.step") << "ISO-10303-21;\nHEADER;\nnonsense\nEND-ISO-10303-21;\n";
+  EXPECT_ERROR(occt::read_plain_step(dir / "a.step"), kInput, "cannot be parsed");
+}
+
+TEST(ReaderModule, says_which_file_is_missing) {
+  EXPECT_ERROR(occt::read_by_module("no_such_reader", "a.step"), kInternal, "lib/st/no_such_reader.so: cannot be");
+}
+
+}  // namespace
+}  // namespace st
