@@ -107,7 +107,7 @@ struct Hdf5Reader::Impl {
   void read_contents();
   void read_group(const std::string& name, int depth);
   void read_attributes(hid_t group, const std::string& name);
-  void read_dataset_info(const std::string& name);
+  void read_dataset_info(hid_t dataset, const std::string& name);
   void read_header();
   std::string text(const std::string& name, bool required = true) const;
   const DatasetInfo* find(const std::string& name) const;
@@ -163,7 +163,7 @@ void Hdf5Reader::Impl::read_group(const std::string& name, int depth) {
     const Handle<H5Oclose> object(H5Oopen(group, child.c_str(), H5P_DEFAULT));
     if (!object.is_valid()) damaged(name + "/" + child + " cannot be opened");
     if (H5Iget_type(object) == H5I_GROUP) read_group(name + "/" + child, depth + 1);
-    if (H5Iget_type(object) == H5I_DATASET) read_dataset_info(name + "/" + child);
+    if (H5Iget_type(object) == H5I_DATASET) read_dataset_info(object, name + "/" + child);
   }
 }
 
@@ -182,8 +182,7 @@ void Hdf5Reader::Impl::read_attributes(hid_t group, const std::string& name) {
   }
 }
 
-void Hdf5Reader::Impl::read_dataset_info(const std::string& name) {
-  const Dataset dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT));
+void Hdf5Reader::Impl::read_dataset_info(hid_t dataset, const std::string& name) {
   const Type type(H5Dget_type(dataset));
   const Space space(H5Dget_space(dataset));
   hsize_t dims[2] = {};
