@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The whole chain on many CAD files with defaults: what is wrong, and nobody says so?
+"""st-run on many CAD files with defaults: what is wrong, and nobody says so?
 
-A line of TABLE per file has the exit codes of the stages, the verdict of st-check, that of an independent judge, and
+A line of TABLE per file has the exit code of st-run, the verdict of st-check, that of an independent judge, and
 how far area, volume and the worst face of the mesh are off those that OpenCASCADE finds in the file as it reads it
 (tests/support/cad_measure.cpp). Silent is a file that ends with code 0 and "passes" although area or volume are off by
 more than 1 % and the verdict does not say so, a face by more than 3 % that st-check does not count as below the sizes,
@@ -10,9 +10,9 @@ says that it left out or merged a face may differ. Files that TABLE has already 
 
 Exit code: 1 when a file is silent.
 
-usage: find FOLDER -name '*.st*p' | scripts/many_files.py BIN_DIR TABLE [--seconds 60] [--jobs 2] [--raster OPTIONS]
+usage: find FOLDER -name '*.st*p' | scripts/many_files.py BIN_DIR TABLE [--seconds 300] [--jobs 2] [--run OPTIONS]
            [--measure PROGRAM] [--judge PROGRAM]
---seconds: of each stage, the measure and the judge. --raster: options of st-raster. --measure: cad_measure of the
+--seconds: of st-run, the measure and the judge. --run: options of st-run. --measure: cad_measure of the
 tests, found beside BIN_DIR otherwise. --judge: gets the mesh, and --open for an open model; prints a line of JSON with
 "folds" and "self_intersections".
 """
@@ -30,15 +30,7 @@ import tempfile
 import time
 from pathlib import Path
 
-STAGES = (
-    ("import", "st-import {model} -o {at}/g.hdf"),
-    ("raster", "st-raster {at}/g.hdf -o {at}/r.hdf {raster}"),
-    ("prolong", "st-prolong {at}/r.hdf -o {at}/s.hdf"),
-    ("mesh", "st-mesh {at}/g.hdf {at}/s.hdf -o {at}/p.hdf"),
-    ("merge", "st-merge {at}/p.hdf -o {at}/m.hdf"),
-    ("check", "st-check {at}/m.hdf --geometry {at}/g.hdf --sizing {at}/s.hdf --json"),
-)
-COLUMNS = ("file", "codes", "shape", "verdict", "judge", "triangles", "area %", "volume %", "face %", "faces off",
+COLUMNS = ("file", "code", "shape", "verdict", "judge", "triangles", "area %", "volume %", "face %", "faces off",
            "below sizes", "seconds", "silent", "words")
 WHOLE_LIMIT, FACE_LIMIT = 1, 3  # per cent
 OTHER_AREA = re.compile(r"repaired: .*(left out|merged into it|without area)|: left out")  # st-import says so
@@ -52,8 +44,8 @@ def last_json(text):
         return {}
 
 
-class Chain:
-    """Runs the tools on one file; what is found goes to `row`."""
+class Run:
+    """Runs st-run on one file; what is found goes to `row`."""
 
     def __init__(self, options, model, folder):
         self.options, self.at = options, Path(folder)
@@ -76,31 +68,24 @@ class Chain:
             process.communicate()
             return "late", "", f"{Path(command[0]).name}: no end in {self.options.seconds:g} s"
 
-    def run_stages(self):
+    def mesh(self):
         """Whether there is a mesh."""
-        codes = []
-        for name, line in STAGES:
-            words = [w.format(at=self.at, model=self.row["file"]) for w in line.replace("{raster}", "").split()]
-            if name == "raster":
-                words += shlex.split(self.options.raster)
-            code, out, err = self.run([self.options.bin_dir / words[0], *words[1:]])
-            codes.append(str(code))
-            self.row["codes"] = " ".join(codes)
-            if name == "import":
-                self.has_other_area = bool(OTHER_AREA.search(err))
-                self.row["shape"] = "closed" if ", closed," in out else "open" if code == 0 else ""
-            if name == "check":
-                self.read_verdict(out)
-            if code and name != "check":
-                self.words += err.strip().splitlines()[-1:]
-            if code not in (0, 5):
-                break
-        return (self.at / "m.hdf").exists()
+        options = shlex.split(self.options.run)
+        program = self.options.bin_dir / "st-run"
+        code, out, err = self.run([program, self.row["file"], "--keep", self.at, "--json", *options])
+        self.row["code"] = str(code)
+        said = last_json(out)
+        stages = said.get("stages", {})
+        self.has_other_area = bool(OTHER_AREA.search(err))
+        if "st-import" in stages:
+            self.row["shape"] = "closed" if stages["st-import"]["closed"] else "open"
+        if "st-check" in stages:
+            self.read_verdict(stages["st-check"])
+        elif code:
+            self.words += [said.get("error") or " ".join(err.strip().splitlines()[-1:])]
+        return (self.at / "mesh.hdf").exists()
 
-    def read_verdict(self, out):
-        found = last_json(out)
-        if not found:
-            return
+    def read_verdict(self, found):
         self.row["triangles"] = found["triangles"]
         self.row["verdict"] = "passes" if found["passes"] else "fails: " + " ".join(found["failed"])
         self.row["below sizes"] = found["checks"].get("below-sizes", {}).get("count", 0)
@@ -110,7 +95,8 @@ class Chain:
                 self.words.append(f"said: {column} {self.said[column]:.2f}")
 
     def measure(self):
-        code, out, err = self.run([self.options.measure, self.row["file"], self.at / "m.hdf", self.at / "g.hdf"])
+        files = (self.row["file"], self.at / "mesh.hdf", self.at / "geometry.hdf")
+        code, out, err = self.run([self.options.measure, *files])
         found = last_json(out)
         if code or not found:
             self.words.append(f"not measured: {err.strip() or code}")
@@ -130,7 +116,7 @@ class Chain:
         if not self.options.judge:
             return
         is_open = self.row["shape"] == "open"
-        code, out, _ = self.run([self.options.judge, self.at / "m.hdf", *(["--open"] if is_open else [])])
+        code, out, _ = self.run([self.options.judge, self.at / "mesh.hdf", *(["--open"] if is_open else [])])
         found = last_json(out)
         if not found:
             self.row["judge"] = "late" if code == "late" else "no answer"
@@ -145,7 +131,7 @@ class Chain:
 
     def silent(self):
         """What is wrong although all tools say that it is right."""
-        if self.row["verdict"] != "passes" or set(self.row["codes"].split()) != {"0"}:
+        if self.row["verdict"] != "passes" or self.row["code"] != "0":
             return ""
         reasons = []
         if not self.has_other_area:
@@ -163,14 +149,14 @@ class Chain:
 def examine(options, model):
     start = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        chain = Chain(options, model, folder)
-        if chain.run_stages():
-            chain.measure()
-            chain.ask_judge()
-    chain.row["seconds"] = f"{time.monotonic() - start:.1f}"
-    chain.row["silent"] = chain.silent()
-    chain.row["words"] = " | ".join(chain.words).replace("\t", " ")
-    return chain.row
+        run = Run(options, model, folder)
+        if run.mesh():
+            run.measure()
+            run.ask_judge()
+    run.row["seconds"] = f"{time.monotonic() - start:.1f}"
+    run.row["silent"] = run.silent()
+    run.row["words"] = " | ".join(run.words).replace("\t", " ")
+    return run.row
 
 
 def read_table(path):
@@ -181,7 +167,7 @@ def read_table(path):
 
 
 def print_summary(rows):
-    kinds = collections.Counter((r["codes"], r["shape"], r["verdict"].split(":")[0],
+    kinds = collections.Counter((r["code"], r["shape"], r["verdict"].split(":")[0],
                                  "judge: " + ("sound" if r["judge"] == "sound" else "not" if r["judge"] else "-"))
                                 for r in rows)
     for kind, n in kinds.most_common():
@@ -197,9 +183,9 @@ def main():
     parser = argparse.ArgumentParser(usage=__doc__.replace("%", "%%"))
     parser.add_argument("bin_dir", type=lambda path: Path(path).resolve())
     parser.add_argument("table", type=Path)
-    parser.add_argument("--seconds", type=float, default=60)
+    parser.add_argument("--seconds", type=float, default=300)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--raster", default="")
+    parser.add_argument("--run", default="")
     parser.add_argument("--measure", type=Path)
     parser.add_argument("--judge", type=Path)
     options = parser.parse_args()
