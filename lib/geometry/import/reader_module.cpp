@@ -1,17 +1,30 @@
 #include "geometry/import/reader_module.h"
 
 #include <dlfcn.h>
+#include <sys/auxv.h>
 
 #include <filesystem>
+#include <system_error>
 
 #include "base/error.h"
 
 namespace st::occt {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The program's file; where no /proc is mounted, as it was started.
+fs::path own_program() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  return error ? fs::weakly_canonical(reinterpret_cast<const char*>(getauxval(AT_EXECFN)), error) : program;
+}
+
+}  // namespace
 
 CadFile read_by_module(const std::string& module, const std::string& path) {
-  namespace fs = std::filesystem;
-  const fs::path bin = fs::read_symlink("/proc/self/exe").parent_path();
-  const std::string at = (bin.parent_path() / "lib" / "st" / (module + ".so")).string();
+  const fs::path prefix = own_program().parent_path().parent_path();
+  const std::string at = (prefix / "lib" / "st" / (module + ".so")).string();
   void* loaded = dlopen(at.c_str(), RTLD_NOW | RTLD_LOCAL);  // never unloaded: OpenCASCADE keeps types of it
   void* function = loaded ? dlsym(loaded, kReadFunction) : nullptr;
   if (!function) {

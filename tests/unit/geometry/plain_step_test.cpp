@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Writer.hxx>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -74,8 +77,8 @@ std::optional<CadFile> read_changed_box(const std::string& was, const std::strin
 
 TEST(PlainStep, reads_what_the_reader_of_documents_reads) {
   for (const char* unit : {"MM", "INCH"})
-    for (const char* shape : {"box", "sphere", "torus", "two_boxes", "drilled_cylinder", "mirrored_cylinder",
-                              "sharp_wing", "square", "crumpled"}) {
+    for (const char* shape :
+         {"box", "sphere", "torus", "drilled_cylinder", "mirrored_cylinder", "sharp_wing", "square", "crumpled"}) {
       const TemporaryDirectory dir;
       test::write_step(shape, dir / "a.step", unit);
       const std::optional<CadFile> plain = occt::read_plain_step(dir / "a.step");
@@ -87,9 +90,19 @@ TEST(PlainStep, reads_what_the_reader_of_documents_reads) {
 
 TEST(PlainStep, numbers_the_bodies_of_a_part) {
   const TemporaryDirectory dir;
-  test::write_step("two_boxes", dir / "a.step", "MM");
+  test::write_brep("two_boxes", dir / "a.brep");
+  BRep_Builder builder;
+  TopoDS_Shape boxes;
+  ASSERT_TRUE(BRepTools::Read(boxes, (dir / "a.brep").c_str(), builder));
+  STEPControl_Writer writer;
+  const int was = Interface_Static::IVal("write.step.assembly");
+  Interface_Static::SetIVal("write.step.assembly", 0);  // one product of two solids
+  writer.Transfer(boxes, STEPControl_AsIs);
+  writer.Write((dir / "a.step").c_str());
+  Interface_Static::SetIVal("write.step.assembly", was);
   const std::optional<CadFile> plain = occt::read_plain_step(dir / "a.step");
   ASSERT_TRUE(plain);
+  expect_same(*plain, occt::read_by_module("step_document", dir / "a.step"));
   ASSERT_EQ(plain->parts[0].faces.size(), 12u);
   EXPECT_EQ(plain->parts[0].faces[0].body, "body#1");
   EXPECT_EQ(plain->parts[0].faces[11].body, "body#2");
