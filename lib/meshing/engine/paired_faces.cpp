@@ -93,10 +93,11 @@ PairedFaces::Image PairedFaces::image(std::size_t pair, const FacePatch& patch) 
   return {{}, e.what()};
 }
 
-/// A face that was closed by itself, because the first one failed, has the image of what closes that, where it can.
+/// Where the loops of both faces were closed, the second one has the image of what closes the first, if it can. A
+/// closed face whose first one failed since, on other edges, has lost its patch like any other.
 void PairedFaces::take(std::size_t pair, Image&& image) {
   const auto& [a, f, motion] = pairs_.pairs()[pair];
-  if (faces_.outcome(f).is_closed && faces_.outcome(a).cause != FailureCause::kNone) {
+  if (faces_.outcome(f).is_closed && faces_.outcome(a).is_closed) {
     if (image.error.empty()) faces_.put(f, std::move(image.patch));
     return;
   }
