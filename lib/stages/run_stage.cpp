@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <new>
@@ -24,6 +26,11 @@ namespace fs = std::filesystem;
 /// Of patches.hdf, from above: bytes per triangle (docs/design/heuristics.md).
 constexpr double kPatchBytes = 200;
 
+/// A number of triangles that was asked for: how far off a mesh may be, and how often it is made anew when it is
+/// further off (docs/design/heuristics.md).
+constexpr double kOffTarget = 0.03;
+constexpr int kMostCorrections = 2;
+
 class Run {
  public:
   Run(RunStageOptions options, const PlaceFile& place, const Communicator& comm)
@@ -34,6 +41,8 @@ class Run {
     import_model();
     size();
     mesh();
+    meet_target();
+    merge();
     check();
     report();
     return summarize();
@@ -61,9 +70,12 @@ class Run {
     do_part(RunPart::kRaster, r.output, [&] {
       return o_.run_ranks ? o_.run_ranks(RunPart::kRaster, {geometry_}, r.output) : run_raster(r, comm_);
     });
-    ProlongStageOptions& p = o_.prolong;
-    p.raster = r.output;
-    p.output = sizing_ = place("sizing.hdf", 3 * bytes_of(r.output));
+    o_.prolong.raster = r.output;
+    o_.prolong.output = sizing_ = place("sizing.hdf", 3 * bytes_of(r.output));
+    prolong(o_.prolong);
+  }
+
+  void prolong(const ProlongStageOptions& p) {
     do_part(RunPart::kProlong, p.output, [&] { return run_prolong(p); });
   }
 
@@ -75,8 +87,39 @@ class Run {
     do_part(RunPart::kMesh, o.output, [&] {
       return o_.run_ranks ? o_.run_ranks(RunPart::kMesh, {geometry_, sizing_}, o.output) : run_mesh(o, comm_);
     });
+  }
+
+  /// st-prolong can but estimate how many triangles sizes give; the mesh itself tells how far off that was. Of small
+  /// meshes, whose edges have few segments, a later one may be further off: then the nearest is made again.
+  void meet_target() {
+    if (!o_.prolong.target_triangles) return;
+    const double target = *o_.prolong.target_triangles;
+    const auto miss = [&] { return std::abs(json_["st-mesh"]["triangles"].get<double>() / target - 1); };
+    ProlongStageOptions p = o_.prolong;
+    const auto make_for = [&](int n_asked) {
+      p.target_triangles = n_asked;
+      prolong(p);
+      mesh();
+    };
+    o_.first = RunPart::kImport;  // the mesh is there, so nothing of an earlier try is left
+    int best = *p.target_triangles;
+    double least = miss();
+    for (int i = 0; i < kMostCorrections && miss() > kOffTarget; ++i) {
+      const double n = json_["st-mesh"]["triangles"].get<double>();
+      if (n == 0) return;
+      log_step(fmt::format("  {:.0f} triangles, {:.1f} % off the {:.0f} asked for: sizes and mesh are made anew", n,
+                           100 * miss(), target));
+      make_for(static_cast<int>(std::clamp(*p.target_triangles * target / n, 4.0, 2e9)));
+      if (miss() >= least) continue;
+      least = miss();
+      best = *p.target_triangles;
+    }
+    if (miss() > least) make_for(best);
+  }
+
+  void merge() {
     MergeStageOptions& m = o_.merge;
-    m.patches = {o.output};
+    m.patches = {o_.mesh.output};
     m.output = o_.output;
     do_part(RunPart::kMerge, m.output, [&] { return run_merge(m); });
   }

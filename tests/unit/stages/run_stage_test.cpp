@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -56,6 +57,17 @@ TEST_F(RunStage, begins_at_the_part_that_an_earlier_try_came_to) {
   options.first = RunPart::kMesh;
   EXPECT_EQ(run().code, ExitCode::kOk);
   EXPECT_EQ(parts, (std::vector<std::string>{"st-mesh", "st-merge", "st-check"}));
+}
+
+TEST_F(RunStage, makes_the_mesh_anew_where_the_triangles_asked_for_were_missed) {
+  test::write_brep("box", dir / "model.brep");
+  options.model = dir / "model.brep";
+  options.prolong.target_triangles = 250;  // few edges on a side: the first mesh has 224, the second 276
+  const nlohmann::json json = nlohmann::json::parse(run().json);
+  EXPECT_EQ(std::count(parts.begin(), parts.end(), "st-mesh"), 3);
+  EXPECT_EQ(std::count(parts.begin(), parts.end(), "st-prolong"), std::count(parts.begin(), parts.end(), "st-mesh"));
+  EXPECT_EQ(std::count(parts.begin(), parts.end(), "st-raster"), 1);
+  EXPECT_NEAR(json["triangles"].get<double>(), 250, 0.1 * 250);
 }
 
 TEST_F(RunStage, an_error_begins_with_the_tool_of_its_part) {
