@@ -20,11 +20,18 @@ fs::path own_program() {
   return error ? fs::weakly_canonical(reinterpret_cast<const char*>(getauxval(AT_EXECFN)), error) : program;
 }
 
+/// Beside the folder of the program, or beside the folder that this one is in: tests have folders of their own.
+fs::path place_of(const std::string& module) {
+  const fs::path file = fs::path("lib") / "st" / (module + ".so"), bin = own_program().parent_path();
+  const fs::path usual = bin.parent_path() / file, further = bin.parent_path().parent_path() / file;
+  std::error_code error;
+  return !fs::exists(usual, error) && fs::exists(further, error) ? further : usual;
+}
+
 }  // namespace
 
 CadFile read_by_module(const std::string& module, const std::string& path) {
-  const fs::path prefix = own_program().parent_path().parent_path();
-  const std::string at = (prefix / "lib" / "st" / (module + ".so")).string();
+  const std::string at = place_of(module).string();
   void* loaded = dlopen(at.c_str(), RTLD_NOW | RTLD_LOCAL);  // never unloaded: OpenCASCADE keeps types of it
   void* function = loaded ? dlsym(loaded, kReadFunction) : nullptr;
   if (!function) {
