@@ -32,27 +32,23 @@ const std::map<std::string_view, Keyword>& keywords() {
   return all;
 }
 
-struct CellKind {
-  int n_corners;
-  std::int64_t vtk_type;
-};
-/// Of a keyword that lists cells; 0 corners: none.
-CellKind cell_kind(Keyword keyword) {
+/// VTK's type, of a keyword that lists cells; 0: it lists none.
+std::int64_t type_of(Keyword keyword) {
   switch (keyword) {
     case kTriangles:
-      return {3, 5};
+      return 5;
     case kQuadrilaterals:
-      return {4, 9};
+      return 9;
     case kTetrahedra:
-      return {4, 10};
+      return 10;
     case kHexahedra:
-      return {8, 12};
+      return 12;
     case kPrisms:
-      return {6, 13};
+      return 13;
     case kPyramids:
-      return {5, 14};
+      return 14;
     default:
-      return {0, 0};
+      return 0;
   }
 }
 
@@ -153,12 +149,13 @@ void read_vertices(MeditReader& in, CellFile& file) {
   }
 }
 
-void read_cells(MeditReader& in, const CellKind& kind, CellFile& file) {
-  const std::size_t n = in.count(in.integer(), static_cast<std::size_t>(kind.n_corners) + 1, "cells");
+void read_cells(MeditReader& in, std::int64_t type, CellFile& file) {
+  const int n_corners = n_corners_of(type);
+  const std::size_t n = in.count(in.integer(), static_cast<std::size_t>(n_corners) + 1, "cells");
   for (std::size_t i = 0; i < n; ++i) {
-    for (int k = 0; k < kind.n_corners; ++k) file.node.push_back(in.integer() - 1);
+    for (int k = 0; k < n_corners; ++k) file.node.push_back(in.integer() - 1);
     in.integer();  // reference
-    file.type.push_back(kind.vtk_type);
+    file.type.push_back(type);
     file.offset.push_back(static_cast<std::int64_t>(file.node.size()));
   }
 }
@@ -193,7 +190,7 @@ CellFile parse_medit_mesh(const std::string& path, const std::string& bytes) {
   for (Keyword keyword = in.next(); keyword != kEnd; keyword = in.next()) {
     if (keyword == kDimension) require_space(in);
     if (keyword == kVertices) read_vertices(in, file);
-    if (const CellKind kind = cell_kind(keyword); kind.n_corners > 0) read_cells(in, kind, file);
+    if (const std::int64_t type = type_of(keyword); type > 0) read_cells(in, type, file);
   }
   return file;
 }

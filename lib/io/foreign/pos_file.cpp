@@ -11,28 +11,25 @@
 namespace st {
 namespace {
 
-struct PosKind {
-  std::size_t n_corners = 0;  ///< 0: points and lines, which are passed over
-  std::int64_t vtk_type = 0;
-};
+constexpr std::int64_t kVertex = 1;  ///< VTK's type of what has no corners for n_corners_of()
 
-/// Of the second letter of a cell.
-PosKind pos_kind(char letter) {
+/// VTK's type, by the second letter of a cell; kVertex for points and lines, which are passed over.
+std::int64_t type_of(char letter) {
   switch (letter) {
     case 'T':
-      return {3, 5};
+      return 5;
     case 'Q':
-      return {4, 9};
+      return 9;
     case 'S':
-      return {4, 10};
+      return 10;
     case 'H':
-      return {8, 12};
+      return 12;
     case 'I':
-      return {6, 13};
+      return 13;
     case 'Y':
-      return {5, 14};
+      return 14;
     default:
-      return {};
+      return kVertex;
   }
 }
 
@@ -103,23 +100,24 @@ class PosReader {
     const std::string_view name = word();
     if (name.empty()) fail("the name of a cell expected, such as SS");
     const bool is_cell = name.size() == 2 && std::string_view("SVT").find(name[0]) != std::string_view::npos;
-    const PosKind kind = is_cell ? pos_kind(name[1]) : PosKind{};
-    if (kind.n_corners == 0) return pass_over(name);
+    const std::int64_t type = is_cell ? type_of(name[1]) : kVertex;
+    const auto n_corners = static_cast<std::size_t>(n_corners_of(type));
+    if (n_corners == 0) return pass_over(name);
     if (name[0] == 'V') fail("vectors are no lengths: scalars (S) or metrics (T) are read");
     read_list('(', ')', place_);
     read_list('{', '}', value_);
     const std::size_t n_components = name[0] == 'S' ? 1 : 9;
     if (n_components_ == 0) n_components_ = n_components;
     if (n_components != n_components_) fail("lengths and metrics in one view");
-    if (place_.size() != 3 * kind.n_corners) fail("a cell has the wrong number of coordinates");
-    if (value_.size() < n_components * kind.n_corners) fail("a cell has too few values");
-    for (std::size_t c = 0; c < kind.n_corners; ++c) {
+    if (place_.size() != 3 * n_corners) fail("a cell has the wrong number of coordinates");
+    if (value_.size() < n_components * n_corners) fail("a cell has too few values");
+    for (std::size_t c = 0; c < n_corners; ++c) {
       file_.node.push_back(static_cast<std::int64_t>(file_.node_xyz.size()));
       file_.node_xyz.push_back({place_[3 * c], place_[3 * c + 1], place_[3 * c + 2]});
     }
-    const auto end = value_.begin() + static_cast<std::ptrdiff_t>(n_components * kind.n_corners);  // of the first step
+    const auto end = value_.begin() + static_cast<std::ptrdiff_t>(n_components * n_corners);  // of the first step
     file_.value.insert(file_.value.end(), value_.begin(), end);
-    file_.type.push_back(kind.vtk_type);
+    file_.type.push_back(type);
     file_.offset.push_back(static_cast<std::int64_t>(file_.node.size()));
   }
 
