@@ -40,19 +40,6 @@ namespace {
 
 constexpr double kLeastTile = 1000;  // triangles
 
-void require_valid(const MeshStageOptions& o) {
-  if (!o.pairs.empty() && !(o.faces.empty() && o.group.empty() && o.edges.empty()))
-    throw Error(ExitCode::kUsage, "--pairs: meshes both sides at once; leave out --faces, --group and --edges");
-  o.kEnhanceRounds.require(o.enhance_rounds);
-  o.kMergeBelow.require(o.merge_below);
-  o.kMaxTurning.require(o.max_turning_deg);
-  if (!o.tile_triangles) return;
-  o.kTile.require(*o.tile_triangles);
-  if (*o.tile_triangles > 0 && *o.tile_triangles < kLeastTile)
-    throw Error(ExitCode::kUsage, fmt::format("--tile {}: tiles below {} triangles are mostly seams; give more, or 0",
-                                              *o.tile_triangles, kLeastTile));
-}
-
 FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {
   FaceId id = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), id);
@@ -201,11 +188,24 @@ std::unique_ptr<SizeField> make_common_field(const SizeField& field, const Mirro
 
 }  // namespace
 
+void MeshStageOptions::validate() const {
+  if (!pairs.empty() && !(faces.empty() && group.empty() && edges.empty()))
+    throw Error(ExitCode::kUsage, "--pairs: meshes both sides at once; leave out --faces, --group and --edges");
+  kEnhanceRounds.require(enhance_rounds);
+  kMergeBelow.require(merge_below);
+  kMaxTurning.require(max_turning_deg);
+  if (!tile_triangles) return;
+  kTile.require(*tile_triangles);
+  if (*tile_triangles > 0 && *tile_triangles < kLeastTile)
+    throw Error(ExitCode::kUsage, fmt::format("--tile {}: tiles below {} triangles are mostly seams; give more, or 0",
+                                              *tile_triangles, kLeastTile));
+}
+
 StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   const Timer timer;
   TaskTrace trace(comm, o.trace);
   keep_freed_memory();
-  require_valid(o);
+  o.validate();
   if (comm.is_root()) {
     require_patches_outputs(o.output);
     if (!o.trace.empty()) require_writable(o.trace);

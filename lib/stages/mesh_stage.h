@@ -46,6 +46,9 @@ struct MeshStageOptions {
   static constexpr NumberOption kJournalAfter{
       "--journal-after", "SECONDS", "[0, 1e9]",
       "keep finished faces in OUTPUT.journal from then on: the same command goes on there after a sudden end"};
+
+  /// Throws Error(kUsage) for what no model could be meshed with.
+  void validate() const;
 };
 
 /// Collective. Summary code kIncomplete when a face has no patch. Throws Error.

@@ -60,27 +60,11 @@ std::vector<FamilyMember> family_members(const std::string& family) {
   return {{"coarse", *ratio}, {"fine", 1 / *ratio}};
 }
 
-void require_valid(const ProlongStageOptions& o) {
-  o.kSlope.require(o.slope);
-  o.kScale.require(o.scale);
-  o.kTargetTriangles.require(o.target_triangles);
-  o.kMaxTriangles.require(o.max_triangles);
-  family_members(o.family);
-  parse_similarity(o.transform, "--transform");
-  require_blank_side(o.blank_side);
-  if (o.no_blank && !o.blank.empty())
-    throw Error(ExitCode::kUsage, "--no-blank and --blank exclude each other: leave out one");
-  parse_slopes(o.slope_of);
-  if (o.only && o.background.empty())
-    throw Error(ExitCode::kUsage, "--only takes the lengths of --background alone: give one");
-  if (o.only && (!o.blank.empty() || !o.slope_of.empty()))
-    throw Error(ExitCode::kUsage, "--only leaves out the lengths of walls: leave out --blank and --slope-of");
+void warn_of_no_effect(const ProlongStageOptions& o) {
   if (!o.transform.empty() && o.sources.empty() && o.background.empty())
     log_warning("--transform has no effect without --sources or --background");
   if (o.blank_side != ProlongStageOptions().blank_side && o.blank.empty())
     log_warning("--blank-side has no effect without --blank");
-  if (o.target_triangles && o.scale != 1)
-    throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
 }
 
 constexpr const char* kOnly = "only_above";  // option in a sizing of --only: the smallest length, in the octree's frame
@@ -439,9 +423,29 @@ ProlongedSizes read_and_prolong(const ProlongStageOptions& o) {
 
 }  // namespace
 
+void ProlongStageOptions::validate() const {
+  kSlope.require(slope);
+  kScale.require(scale);
+  kTargetTriangles.require(target_triangles);
+  kMaxTriangles.require(max_triangles);
+  family_members(family);
+  parse_similarity(transform, "--transform");
+  require_blank_side(blank_side);
+  if (no_blank && !blank.empty())
+    throw Error(ExitCode::kUsage, "--no-blank and --blank exclude each other: leave out one");
+  parse_slopes(slope_of);
+  if (only && background.empty())
+    throw Error(ExitCode::kUsage, "--only takes the lengths of --background alone: give one");
+  if (only && (!blank.empty() || !slope_of.empty()))
+    throw Error(ExitCode::kUsage, "--only leaves out the lengths of walls: leave out --blank and --slope-of");
+  if (target_triangles && scale != 1)
+    throw Error(ExitCode::kUsage, "--target-triangles sets the scale: leave out --scale");
+}
+
 StageSummary run_prolong(const ProlongStageOptions& o) {
   const Timer timer;
-  require_valid(o);
+  o.validate();
+  warn_of_no_effect(o);
   require_writable(o.output);
   const std::vector<FamilyMember> members = family_members(o.family);
   std::vector<std::string> paths;

@@ -48,6 +48,9 @@ struct ProlongStageOptions {
   std::string sample;               ///< CSV of points at which lengths are written to `sample_output`; empty: none
   std::string sample_output = "sizes.csv";
   bool allow_incomplete = false;  ///< take a raster of which parts could not be sampled
+
+  /// Throws Error(kUsage) for what no octree could be filled with.
+  void validate() const;
 };
 
 /// Local. Throws Error.

@@ -135,22 +135,6 @@ std::optional<LengthSpec> end_size(const RasterStageOptions& o) {
   return o.end_size.empty() ? std::nullopt : std::optional(parse_length(o.end_size, "--end-size"));
 }
 
-void require_valid(const RasterStageOptions& o) {
-  option_rules(o);
-  edge_size(o);
-  end_size(o);
-  SizeOptions::kAlpha.require(o.alpha_deg);
-  SizeOptions::kGapCells.require(o.gap_cells);
-  SizeOptions::kWallCells.require(o.wall_cells);
-  SizeOptions::kEdgeCells.require(o.edge_cells);
-  o.kBaseCells.require(o.base_cells);
-  o.kChordCells.require(o.chord_cells);
-  o.kCellPerLength.require(o.cell_per_length);
-  o.kMaxCells.require(o.max_cells);
-  o.kTimeLimit.require(o.time_limit);
-  SizeOptions::kMaxAspect.require(o.max_aspect);
-}
-
 SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t, double diagonal) {
   if (!(diagonal > 0))
     throw Error(ExitCode::kGeometry, fmt::format("{}: the model has no extent; check the CAD file", o.geometry));
@@ -949,9 +933,25 @@ class RasterRun {
 
 }  // namespace
 
+void RasterStageOptions::validate() const {
+  option_rules(*this);
+  st::edge_size(*this);
+  st::end_size(*this);
+  SizeOptions::kAlpha.require(alpha_deg);
+  SizeOptions::kGapCells.require(gap_cells);
+  SizeOptions::kWallCells.require(wall_cells);
+  SizeOptions::kEdgeCells.require(edge_cells);
+  kBaseCells.require(base_cells);
+  kChordCells.require(chord_cells);
+  kCellPerLength.require(cell_per_length);
+  kMaxCells.require(max_cells);
+  kTimeLimit.require(time_limit);
+  SizeOptions::kMaxAspect.require(max_aspect);
+}
+
 StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   keep_freed_memory();
-  require_valid(o);
+  o.validate();
   if (comm.is_root()) require_writable(o.output);
   if (comm.is_root() && !o.trace.empty()) require_writable(o.trace);
   Progress progress("st-raster", 1);

@@ -46,6 +46,9 @@ struct RasterStageOptions {
   bool asks_for_wings = false;    ///< somebody set `edge_size`: trailing edges that get none of it are warned of
   bool no_surface = false;        ///< leave out the coarse surface of a closed model: st-prolong lets no length pass it
   bool allow_incomplete = false;  ///< exit code 0 although parts could not be sampled
+
+  /// Throws Error(kUsage) for what no model could be sampled with.
+  void validate() const;
 };
 
 /// Collective. Summary code kIncomplete when a part could not be sampled; the artifact is flagged then. Throws Error.

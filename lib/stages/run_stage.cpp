@@ -16,6 +16,11 @@
 #include "base/log.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
+#include "io/file/text_file.h"
+#include "io/foreign/size_mesh.h"
+#include "io/toml/groups_file.h"
+#include "io/toml/pair_file.h"
+#include "io/toml/size_rule_file.h"
 #include "stages/export_stage.h"
 
 namespace st {
@@ -221,6 +226,19 @@ const char* tool_of(RunPart part) {
       return "st-report";
   }
   return "";
+}
+
+void require_run_inputs(const RunStageOptions& o) {
+  o.raster.validate();
+  o.prolong.validate();
+  o.mesh.validate();
+  if (!o.import_options.groups.empty()) read_groups(o.import_options.groups);
+  if (!o.raster.sizes.empty()) read_size_rules(o.raster.sizes);
+  if (!o.mesh.pairs.empty() && o.mesh.pairs != "auto") read_pair_file(o.mesh.pairs);
+  std::vector<std::string> files = o.prolong.sources;
+  if (!o.prolong.blank.empty()) files.push_back(o.prolong.blank);
+  if (!o.prolong.background.empty()) files.push_back(files_of_size_mesh(o.prolong.background)[0]);
+  for (const std::string& path : files) open_to_read(path);
 }
 
 void require_run_outputs(const RunStageOptions& o) {

@@ -46,6 +46,10 @@ struct RunStageOptions {
 /// Where a file of this name is, or goes: its name, and how many bytes are expected of it.
 using PlaceFile = std::function<std::string(const std::string& name, std::uint64_t bytes)>;
 
+/// What is wrong with options and their files, as far as it shows without the model, is found before the work: a large
+/// model may take minutes before its turn comes. Throws Error(kUsage), Error(kInput).
+void require_run_inputs(const RunStageOptions& options);
+
 /// Everything that could stop the outputs is found before the work. Throws Error.
 void require_run_outputs(const RunStageOptions& options);
 

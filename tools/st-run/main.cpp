@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   std::optional<st::Campaign> campaign;
   const auto prepare = [&] {
     if (tool.n_ranks() < 1) throw st::Error(st::ExitCode::kUsage, "--np: the number of ranks must be 1 or more");
+    st::require_run_inputs(o);
     o.model = c.models[0];
     if (c.is_asked_for()) campaign.emplace(c);
     campaign ? campaign->prepare(tool) : run.prepare(tool);

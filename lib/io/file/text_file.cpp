@@ -8,6 +8,11 @@
 #include "io/file/temporary_file.h"
 
 namespace st {
+namespace {
+
+constexpr char kUnreadable[] = ": cannot be read; check name and permissions";
+
+}  // namespace
 
 void refuse_pipe(const std::string& path) {
   std::error_code none;
@@ -16,15 +21,20 @@ void refuse_pipe(const std::string& path) {
     throw Error(ExitCode::kInput, path + ": is a pipe or a device, which might never end; name a file");
 }
 
-std::string read_text_file(const std::string& path) {
+std::ifstream open_to_read(const std::string& path) {
   std::error_code none;
   if (std::filesystem::is_directory(path, none)) throw Error(ExitCode::kInput, path + ": is a directory; name a file");
   refuse_pipe(path);
   std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(ExitCode::kInput, path + kUnreadable);
+  return file;
+}
+
+std::string read_text_file(const std::string& path) {
+  std::ifstream file = open_to_read(path);
   std::stringstream text;
   text << file.rdbuf();
-  if (!file.is_open() || file.bad())
-    throw Error(ExitCode::kInput, path + ": cannot be read; check name and permissions");
+  if (file.bad()) throw Error(ExitCode::kInput, path + kUnreadable);
   return std::move(text).str();
 }
 

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
 #include "support/staged.h"
 
@@ -68,6 +70,32 @@ TEST_F(RunStage, makes_the_mesh_anew_where_the_triangles_asked_for_were_missed) 
   EXPECT_EQ(std::count(parts.begin(), parts.end(), "st-prolong"), std::count(parts.begin(), parts.end(), "st-mesh"));
   EXPECT_EQ(std::count(parts.begin(), parts.end(), "st-raster"), 1);
   EXPECT_NEAR(json["triangles"].get<double>(), 250, 0.1 * 250);
+}
+
+TEST_F(RunStage, what_is_wrong_without_the_model_is_said_before_it_is_read) {
+  const auto code = [&](const std::function<void(RunStageOptions&)>& spoil) {
+    RunStageOptions o = options;
+    spoil(o);
+    try {
+      require_run_inputs(o);
+    } catch (const Error& e) {
+      return e.code();
+    }
+    return ExitCode::kOk;
+  };
+  write_text_file(dir / "no_rules.toml", "[[size]]\nlmx = 1\n");
+  const std::string none = dir / "none", no_rules = dir / "no_rules.toml";
+  EXPECT_EQ(code([](auto&) {}), ExitCode::kOk);
+  EXPECT_EQ(code([](auto& o) { o.mesh.pairs = "auto"; }), ExitCode::kOk);
+  EXPECT_EQ(code([](auto& o) { o.raster.trailing_edges = "wide"; }), ExitCode::kUsage);
+  EXPECT_EQ(code([](auto& o) { o.prolong.slope_of = "WING"; }), ExitCode::kUsage);
+  EXPECT_EQ(code([](auto& o) { o.mesh.tile_triangles = 300; }), ExitCode::kUsage);
+  EXPECT_EQ(code([&](auto& o) { o.raster.sizes = no_rules; }), ExitCode::kUsage);
+  EXPECT_EQ(code([&](auto& o) { o.import_options.groups = none; }), ExitCode::kInput);
+  EXPECT_EQ(code([&](auto& o) { o.prolong.sources = {none}; }), ExitCode::kInput);
+  EXPECT_EQ(code([&](auto& o) { o.prolong.background = none + ".vtu:size"; }), ExitCode::kInput);
+  EXPECT_EQ(code([&](auto& o) { o.prolong.blank = none; }), ExitCode::kInput);
+  EXPECT_EQ(code([&](auto& o) { o.mesh.pairs = none; }), ExitCode::kInput);
 }
 
 TEST_F(RunStage, an_error_begins_with_the_tool_of_its_part) {
