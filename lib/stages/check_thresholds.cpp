@@ -1,0 +1,125 @@
+#include "stages/check_thresholds.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/length.h"
+#include "stages/check_cad.h"
+
+namespace st {
+namespace {
+
+/// One value of the whole mesh against its bound: one defect without a place, or none.
+Check check_value(const std::string& name, const std::string& what, bool is_good, const std::string& note) {
+  Check c{name, what, {}, true, note};
+  if (!is_good) c.defects.add({});
+  return c;
+}
+
+/// Triangles for which `is_bad(corner, corner, corner)`.
+template <class IsBad>
+Check check_triangles(const SurfaceMesh& mesh, const TriangleCorners& corners, const std::string& name,
+                      const std::string& what, const IsBad& is_bad) {
+  Check c{name, what, {}, true, ""};
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
+    const auto& n = mesh.triangles[t].n;
+    const auto [p, q, r] = corners(t);
+    if (is_bad(p, q, r))
+      c.defects.add(
+          {(mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3, mesh.triangle_face[t], kNone});
+  }
+  return c;
+}
+
+void check_quality(const SurfaceMesh& mesh, const TriangleCorners& corners, const CheckThresholds& asked, Findings& f) {
+  const QualityReport& q = f.quality;
+  if (asked.min_quality)
+    f.checks.push_back(
+        check_triangles(mesh, corners, "min-quality", fmt::format("triangles of quality below {}", *asked.min_quality),
+                        [&](Vec3 a, Vec3 b, Vec3 c) { return triangle_quality(a, b, c) < *asked.min_quality; }));
+  if (asked.min_angle_deg)
+    f.checks.push_back(check_triangles(mesh, corners, "min-angle",
+                                       fmt::format("triangles with an angle below {} deg", *asked.min_angle_deg),
+                                       [&](Vec3 a, Vec3 b, Vec3 c) {
+                                         const auto angles = triangle_angles_deg(a, b, c);
+                                         return *std::min_element(angles.begin(), angles.end()) < *asked.min_angle_deg;
+                                       }));
+  if (asked.min_mean_quality)
+    f.checks.push_back(check_value("min-mean-quality", fmt::format("mean quality below {}", *asked.min_mean_quality),
+                                   q.model.mean >= *asked.min_mean_quality, fmt::format("{:.4f}", q.model.mean)));
+  if (asked.min_p1_quality)
+    f.checks.push_back(check_value("min-p1-quality",
+                                   fmt::format("first percentile of quality below {}", *asked.min_p1_quality),
+                                   q.model.p1 >= *asked.min_p1_quality, fmt::format("{:.4f}", q.model.p1)));
+  if (asked.max_jump)
+    f.checks.push_back(check_value("max-jump", fmt::format("growth (99.9 %) above {}", *asked.max_jump),
+                                   q.jump_p999 <= *asked.max_jump, fmt::format("{:.3f}", q.jump_p999)));
+}
+
+void check_causes(const CheckThresholds& asked, Findings& f) {
+  if (!asked.max_free_sharp || !f.causes) return;
+  Check c{"max-free-sharp",
+          fmt::format("triangles with an angle below {:g} deg that the CAD does not force", f.causes->angle_deg),
+          {},
+          true,
+          ""};
+  for (const CausePlace& p : f.causes->sharp.worst[static_cast<std::size_t>(ShapeCause::kFree)])
+    c.defects.add({p.xyz, p.face, kNone});
+  c.defects.count = f.causes->sharp.free();
+  c.allowed = *asked.max_free_sharp;
+  f.checks.push_back(c);
+}
+
+void check_sizes(const CheckThresholds& asked, Findings& f) {
+  if (!asked.min_size_share || !f.conformity) return;
+  const double share = f.conformity->free.share();
+  f.checks.push_back(check_value("min-size-share",
+                                 fmt::format("share of edges of the requested length below {}", *asked.min_size_share),
+                                 share >= *asked.min_size_share, fmt::format("{:.4f}", share)));
+}
+
+void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Findings& f) {
+  const std::vector<DeviationStats>& faces = f.deviation->faces;
+  if (!asked.max_deviation.empty()) {
+    const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"),
+                                        {tables.reference_diagonal(), tables.unit_in_m}, "--max-deviation");
+    const std::vector<double> of_group = face_tolerances(tables.labels);
+    const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
+    Check c{"max-deviation",
+            fmt::format("faces with a triangle centroid off the surface by more than {:.6g}{}{}", bound,
+                        f.unit.empty() ? "" : " " + f.unit, own),
+            {},
+            true,
+            ""};
+    for (FaceId i = 0; i < static_cast<FaceId>(faces.size()); ++i) {
+      const double tolerance = group_tolerance(of_group, i);
+      if (faces[i].max_distance > (tolerance > 0 ? tolerance : bound))
+        c.defects.add({faces[i].distance_place, i, kNone});
+    }
+    f.checks.push_back(c);
+  }
+  if (!asked.max_normal_deviation_deg) return;
+  Check c{
+      "max-normal-deviation",
+      fmt::format("faces with a triangle turned from the surface by more than {} deg", *asked.max_normal_deviation_deg),
+      {},
+      true,
+      ""};
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (faces[i].max_angle_deg > *asked.max_normal_deviation_deg)
+      c.defects.add({faces[i].angle_place, static_cast<FaceId>(i), kNone});
+  f.checks.push_back(c);
+}
+
+}  // namespace
+
+void check_thresholds(const SurfaceMesh& mesh, const TriangleCorners& corners, const CheckThresholds& asked,
+                      const ModelTables* tables, Findings& f) {
+  check_quality(mesh, corners, asked, f);
+  check_causes(asked, f);
+  check_sizes(asked, f);
+  if (tables) check_deviation(asked, *tables, f);
+}
+
+}  // namespace st
