@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace st {
 namespace {
@@ -66,6 +68,12 @@ class SiteVisitor {
   const F& f_;
 };
 
+/// What tells samples apart, in their order.
+auto key_of(const LengthSample& s) {
+  return std::tuple(s.cause, s.xyz.x, s.xyz.y, s.xyz.z, s.length, s.stretch.along, s.reach.u[0], s.reach.u[1],
+                    s.reach.u[2], s.reach.v[0], s.reach.v[1], s.reach.v[2]);
+}
+
 /// Of its rectangle, a little inside.
 std::array<Vec3, 4> corners_of(const LengthSample& s) {
   constexpr double kInside = 0.9;
@@ -95,10 +103,6 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 
     samples.push_back(
         {origin + Vec3{rounded(x.x), rounded(x.y), rounded(x.z)}, b.length, b.cause, b.normal, b.stretch, b.reach});
   }
-  const auto key = [](const LengthSample& s) {
-    return std::tuple(s.cause, s.xyz.x, s.xyz.y, s.xyz.z, s.length, s.stretch.along, s.reach.u[0], s.reach.u[1],
-                      s.reach.u[2], s.reach.v[0], s.reach.v[1], s.reach.v[2]);
-  };
   struct Place {  // what tells most apart, and which sample it is
     std::int32_t cause;
     float x;
@@ -109,12 +113,22 @@ std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 
   for (const LengthSample& s : samples) order.push_back({s.cause, static_cast<float>(s.xyz.x), order.size()});
   std::sort(order.begin(), order.end(), [&](const Place& a, const Place& b) {
     if (a.cause != b.cause) return a.cause < b.cause;
-    return a.x != b.x ? a.x < b.x : key(samples[a.i]) < key(samples[b.i]);
+    return a.x != b.x ? a.x < b.x : key_of(samples[a.i]) < key_of(samples[b.i]);
   });
   std::vector<LengthSample> sorted;
   sorted.reserve(samples.size());
   for (const Place& p : order) sorted.push_back(samples[p.i]);
   return sorted;
+}
+
+std::vector<LengthSample> merged_samples(std::vector<std::vector<LengthSample>> sorted) {
+  const auto is_before = [](const LengthSample& a, const LengthSample& b) { return key_of(a) < key_of(b); };
+  for (; sorted.size() > 1; sorted.erase(sorted.begin(), sorted.begin() + 2)) {
+    std::vector<LengthSample>& both = sorted.emplace_back();
+    both.reserve(sorted[0].size() + sorted[1].size());
+    std::ranges::merge(sorted[0], sorted[1], std::back_inserter(both), is_before);
+  }
+  return sorted.empty() ? std::vector<LengthSample>() : std::move(sorted.front());
 }
 
 void forget_samples(RasterOctree& octree) {
@@ -129,7 +143,7 @@ void forget_samples(RasterOctree& octree) {
 void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
                        const std::function<void(std::int32_t, std::int32_t)>& f) {
   const OctreeView& octree = neighbours.octree();
-  const auto key_of = [&](Vec3 x) { return morton::encode(octree.grid_point(x)); };
+  const auto key_at = [&](Vec3 x) { return morton::encode(octree.grid_point(x)); };
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const auto own = [&](std::int32_t site) { f(site, static_cast<std::int32_t>(i)); };
     const auto visit = [&](const LengthSample& s, std::int32_t leaf) {
@@ -138,11 +152,11 @@ void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSampl
       else
         own(leaf);
     };
-    const std::int32_t leaf = octree.find_leaf(key_of(samples[i].xyz));
+    const std::int32_t leaf = octree.find_leaf(key_at(samples[i].xyz));
     visit(samples[i], leaf);
     if (samples[i].reach == SampleReach{}) continue;
     for (const Vec3 corner : corners_of(samples[i]))
-      if (const std::uint64_t key = key_of(corner); !octree.leaf_contains(leaf, key)) {
+      if (const std::uint64_t key = key_at(corner); !octree.leaf_contains(leaf, key)) {
         LengthSample moved = samples[i];
         moved.xyz = corner;
         visit(moved, octree.find_leaf(key));

@@ -32,6 +32,9 @@ Vec3 origin_of_places(const Box3& model);
 /// on theirs.
 std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 origin = {});
 
+/// All of some sorted_samples(), in the same order. Each sample is moved about log2 of their number times.
+std::vector<LengthSample> merged_samples(std::vector<std::vector<LengthSample>> sorted);
+
 /// Calls f(site, sample) for the sites that a sample lies in: its leaf, or the part of it on whose surface it lies; of
 /// a blanked leaf also the parts beside it, for the surface may bulge a little into what is blanked.
 void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,

@@ -85,17 +85,12 @@ RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> ow
   return unpack_octree(std::move(shape), packed);
 }
 
-std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, Vec3 origin,
-                                         const Communicator& comm) {
-  Packer packer;
-  packer.add(own_boxes);
-  std::vector<RasterBox> all;
-  for (const Bytes& bytes : comm.gather(packer.take())) {
-    std::vector<RasterBox> boxes;
-    Unpacker(bytes).get(boxes);
-    all.insert(all.end(), boxes.begin(), boxes.end());
-  }
-  return sorted_samples(all, origin);
+std::vector<std::vector<LengthSample>> gather_samples(std::span<const RasterBox> own_boxes, Vec3 origin,
+                                                      const Communicator& comm) {
+  std::vector<std::vector<LengthSample>> all = {sorted_samples(own_boxes, origin)};
+  const std::vector<Bytes> sent = comm.gather(comm.is_root() ? Bytes() : packed(all.front()));
+  for (std::size_t rank = 1; rank < sent.size(); ++rank) unpack(sent[rank], all.emplace_back());
+  return all;
 }
 
 }  // namespace st

@@ -24,8 +24,9 @@ Box3 choose_octree_box(const Box3& model, const Box3& walls, std::span<const Ras
 RasterOctree build_common_octree(const Box3& root, std::span<const RasterBox> own_boxes, std::uint64_t max_cells,
                                  const Communicator& comm);
 
-/// Collective. The samples of all ranks with their places, on rank 0; see sorted_samples.
-std::vector<LengthSample> gather_samples(const std::vector<RasterBox>& own_boxes, Vec3 origin,
-                                         const Communicator& comm);
+/// Collective. The samples of each rank with their places, see sorted_samples(); of all ranks on rank 0, of its own
+/// alone elsewhere.
+std::vector<std::vector<LengthSample>> gather_samples(std::span<const RasterBox> own_boxes, Vec3 origin,
+                                                      const Communicator& comm);
 
 }  // namespace st

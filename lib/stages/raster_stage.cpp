@@ -807,11 +807,12 @@ class RasterRun {
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
     const bool has_surface = !o_.no_surface && has_coarse_surface(model_.tables());
     std::vector<CellLength> cells;  // on rank 0
-    const auto prolong_for_surface = [&] {
+    const auto meanwhile = [&] {
+      artifact_.samples = merged_samples(std::move(samples_));
       if (has_surface) cells = prolong_openly(artifact_);
     };
-    artifact_.faces = locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, prolong_for_surface,
-                                   trace_, counts_.n_failures);
+    artifact_.faces = locate_faces(model_, artifact_.octree.shape, limits_, loops_, o_.time_limit, meanwhile, trace_,
+                                   counts_.n_failures);
     times_.end("faces");
     trace_.begin_phase("surface");
     progress_.step("surface", 0.7);
@@ -885,7 +886,7 @@ class RasterRun {
     const Box3 root = choose_octree_box(box, model_.tables().wall_box(), boxes, limits_.far_length, comm_);
     artifact_.octree = build_common_octree(root, boxes, budget_.max_cells, comm_);
     counts_.depth = gather_depth_limit(find_depth_limit(root, boxes), comm_);
-    if (o_.cell_per_length > kStoredByCellUpTo) artifact_.samples = gather_samples(boxes, origin_of_places(box), comm_);
+    if (o_.cell_per_length > kStoredByCellUpTo) samples_ = gather_samples(boxes, origin_of_places(box), comm_);
     times_.end("octree");
   }
 
@@ -928,6 +929,7 @@ class RasterRun {
   CellBudget budget_;
   FaceLoops loops_;
   SampleCounts counts_;
+  std::vector<std::vector<LengthSample>> samples_;  // by rank, on rank 0
   RasterArtifact artifact_;
 };
 

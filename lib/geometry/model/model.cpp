@@ -234,11 +234,15 @@ std::unique_ptr<Curve2d> Model::pcurve(FaceId face, CoedgeId coedge) const {
     return std::make_unique<PolylineCurve2d>(polyline_parameters(facets_.points(tables_.coedge_edge[coedge])),
                                              std::move(uv));
   }
-  const TopoDS_Face f = TopoDS::Face(impl_->faces(face + 1).Oriented(TopAbs_FORWARD));
-  const TopoDS_Shape e = impl_->edges(tables_.coedge_edge[coedge] + 1);
-  const auto orientation = tables_.coedge_is_reversed[coedge] ? TopAbs_REVERSED : TopAbs_FORWARD;
-  double t0, t1;
-  const Handle(Geom2d_Curve) c = BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Oriented(orientation)), f, t0, t1);
+  const auto find = [&]() -> Handle(Geom2d_Curve) {
+    const TopoDS_Face f = TopoDS::Face(impl_->faces(face + 1).Oriented(TopAbs_FORWARD));
+    const TopoDS_Shape e = impl_->edges(tables_.coedge_edge[coedge] + 1);
+    const auto orientation = tables_.coedge_is_reversed[coedge] ? TopAbs_REVERSED : TopAbs_FORWARD;
+    double t0, t1;
+    return BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Oriented(orientation)), f, t0, t1);
+  };
+  const bool is_projected = tables_.face_type[face] == SurfaceType::kPlane;  // by OpenCASCADE, whenever it is asked
+  const Handle(Geom2d_Curve) c = is_projected ? impl_->pcurves_on_planes.get(coedge, find) : find();
   if (c.IsNull())
     throw Error(ExitCode::kGeometry, tables_.edge_label(tables_.coedge_edge[coedge]) + " has no trimming curve on " +
                                          tables_.face_label(face) + "; repair the CAD model");
