@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <mutex>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -27,6 +31,7 @@ namespace st {
 namespace {
 
 constexpr int kStations = kPlacesPerEdge;
+constexpr std::size_t kChainsPerTask = 8;      // each task sorts the facets once
 constexpr double kDeflection = 1e-3;           // of the reference diagonal: of the facets
 constexpr double kOffSurface = 0.75;           // of the reach: a nose on facets further from the CAD is none
 constexpr double kOffBeside = 0.02;            // of the chord: likewise pieces of the cut beside a nose
@@ -89,6 +94,8 @@ bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
 struct LeftOut {
   std::vector<WingEdge> edges;
   std::string why;
+
+  static auto fields(auto& l) { return std::tie(l.edges, l.why); }
 };
 
 /// Why there is no lifting surface.
@@ -98,12 +105,32 @@ struct Reason {
   bool is_inexact = false;             // facets are too coarse to tell
   bool is_own_nose = false;            // and as sharp as a nose may be
   std::vector<LeftOut> left_out = {};  // what the rest of this is not about
+
+  static auto fields(auto& r) { return std::tie(r.text, r.may_be_wing, r.is_inexact, r.is_own_nose, r.left_out); }
 };
 
 /// Edges of a chain that are no part of a surface with noses.
 struct Rest {
   std::vector<WingEdge> edges;
   Reason why;
+
+  static auto fields(auto& r) { return std::tie(r.edges, r.why); }
+};
+
+/// Trailing edges that belong together.
+struct Chain {
+  std::vector<WingEdge> edges;
+
+  static auto fields(auto& c) { return std::tie(c.edges); }
+};
+
+/// What a search along chains finds.
+struct ChainSurfaces {
+  std::vector<LiftingSurface> surfaces;
+  std::vector<Rest> rest;
+  std::vector<CutEnd> ends;  // of cuts through the facets
+
+  static auto fields(auto& f) { return std::tie(f.surfaces, f.rest, f.ends); }
 };
 
 /// Of these, those that are not among `part`.
@@ -120,8 +147,36 @@ struct ExactSurface {
   Reason why;
 };
 
-/// By the edges of the chain: coarse facets that are added later do not change it.
-using TriedChains = std::map<std::vector<EdgeId>, ExactSurface>;
+/// What all searches of a rank need, made once. For any thread.
+class FinderMemory {
+ public:
+  FinderMemory(const Model& model, const FaceRoles& roles) : model_(model), roles_(roles) {}
+
+  const std::vector<std::uint8_t>& concave_edges() {
+    std::call_once(has_concave_, [this] { is_concave_ = find_concave_edges(model_, roles_); });
+    return is_concave_;
+  }
+
+  /// By the edges of the chain: coarse facets that are added later do not change it.
+  template <class Make>
+  const ExactSurface& exact_surface(std::vector<EdgeId> chain, const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto known = tried_.find(chain); known != tried_.end()) return known->second;
+    }
+    ExactSurface made = make();
+    const std::lock_guard lock(mutex_);
+    return tried_.try_emplace(std::move(chain), std::move(made)).first->second;
+  }
+
+ private:
+  const Model& model_;
+  const FaceRoles& roles_;
+  std::once_flag has_concave_;
+  std::vector<std::uint8_t> is_concave_;  // by edge
+  std::mutex mutex_;
+  std::map<std::vector<EdgeId>, ExactSurface> tried_;
+};
 
 /// How a chain is cut; lengths in the model unit.
 struct CutRules {
@@ -723,19 +778,28 @@ std::vector<WingEdge> possible_tails(const ModelTables& t, std::span<const WingE
   return tails;
 }
 
-/// All surfaces of a model, on rank 0.
+/// Surfaces of a model. For one thread.
 class SurfaceFinder {
  public:
   SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets,
-                std::vector<CutEnd>& ends, TriedChains& tried)
-      : model_(model), roles_(roles), edges_(edges), facets_(facets), ends_(ends), tried_(tried) {
+                FinderMemory& memory)
+      : model_(model), roles_(roles), edges_(edges), facets_(facets), memory_(memory) {
     model.tables().edge_faces(offsets_, edge_faces_);
     for (const FaceRole role : roles.role) is_wall_.push_back(role == FaceRole::kWall);
   }
 
-  std::vector<LiftingSurface> run(std::span<const WingEdge> small, Noseless noseless,
-                                  std::vector<UnusedTrailing>* unused) {
-    for (const auto& chain : trailing_chains(model_, edges_)) find_with_noses(chain);
+  /// Each chain by itself.
+  ChainSurfaces find_along(std::span<const Chain> chains) {
+    for (const Chain& chain : chains) find_with_noses(chain.edges);
+    return {std::move(surfaces_), std::move(rest_), std::move(ends_)};
+  }
+
+  /// All of the model; `found`: along all chains. `ends`: gets those of all cuts.
+  std::vector<LiftingSurface> run(ChainSurfaces&& found, std::span<const WingEdge> small, Noseless noseless,
+                                  std::vector<UnusedTrailing>* unused, std::vector<CutEnd>& ends) {
+    surfaces_ = std::move(found.surfaces);
+    rest_ = std::move(found.rest);
+    ends_ = std::move(found.ends);
     find_small(small);
     unite_surfaces();
     find_behind_noses();
@@ -747,6 +811,7 @@ class SurfaceFinder {
     if (unused)
       for (const Rest& rest : rest_)
         for (const bool is_declared : {false, true}) tell(rest, is_declared, *unused);
+    ends = std::move(ends_);
     return std::move(surfaces_);
   }
 
@@ -977,7 +1042,7 @@ class SurfaceFinder {
     std::optional<SurfaceDraft> draft = measurer.find(chain, why);
     std::optional<LiftingSurface> surface;
     if (draft) {
-      surface = measurer.finish(std::move(*draft), concave_edges(), is_wall_);
+      surface = measurer.finish(std::move(*draft), memory_.concave_edges(), is_wall_);
       if (!surface) why = {"its profiles reach into other bodies"};
     }
     why.is_inexact = measurer.is_off();
@@ -1050,7 +1115,7 @@ class SurfaceFinder {
       for (const FaceId f : faces_at(chain[k].edge))
         if (t.face_box[f].diagonal() > diagonal) return std::nullopt;  // spares the search on machine parts
     }
-    const std::vector<std::uint8_t> is_own = find_own_faces(t, concave_edges(), is_wall_, body);
+    const std::vector<std::uint8_t> is_own = find_own_faces(t, memory_.concave_edges(), is_wall_, body);
     Box3 box;
     for (std::size_t f = 0; f < is_own.size(); ++f)
       if (is_own[f]) box.add(t.face_box[f]);
@@ -1061,18 +1126,12 @@ class SurfaceFinder {
     return own;
   }
 
-  const std::vector<std::uint8_t>& concave_edges() {
-    if (is_concave_.empty()) is_concave_ = find_concave_edges(model_, roles_);
-    return is_concave_;
-  }
-
-  /// Remembered: coarse facets that are added later do not change it.
   const ExactSurface& exact_surface(const std::vector<WingEdge>& chain, const FaceRoles& roles, double extent) {
     std::vector<EdgeId> key;
     for (const WingEdge& w : chain) key.push_back(w.edge);
-    const auto [known, is_new] = tried_.try_emplace(std::move(key));
-    if (is_new) known->second = make_exact(chain, roles, kDeflection * std::min(extent, roles_.reference_diagonal));
-    return known->second;
+    return memory_.exact_surface(std::move(key), [&] {
+      return make_exact(chain, roles, kDeflection * std::min(extent, roles_.reference_diagonal));
+    });
   }
 
   ExactSurface make_exact(const std::vector<WingEdge>& chain, const FaceRoles& roles, double deflection) {
@@ -1138,17 +1197,58 @@ class SurfaceFinder {
   const FaceRoles& roles_;
   std::span<const WingEdge> edges_;
   const Facets& facets_;
-  std::vector<CutEnd>& ends_;  // of cuts through these
-  TriedChains& tried_;
+  FinderMemory& memory_;
+  std::vector<CutEnd> ends_;                // of cuts through the facets
   std::map<FaceId, Facets> whole_;          // by symmetry plane
   std::map<FaceId, ProfileCutter> cutter_;  // of these; kNone: of the facets themselves
   std::vector<std::int32_t> offsets_;       // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
-  std::vector<std::vector<FaceId>> planes_at_;      // by vertex; empty: not known yet
-  std::vector<std::uint8_t> is_concave_, is_wall_;  // by edge; by face
+  std::vector<std::vector<FaceId>> planes_at_;  // by vertex; empty: not known yet
+  std::vector<std::uint8_t> is_wall_;           // by face
   std::vector<LiftingSurface> surfaces_;
   std::vector<Rest> rest_;
 };
+
+/// Collective. Rank 0's on every rank; `elsewhere`: keeps those of other ranks.
+const Facets& share_facets(const Executor& executor, const Facets& own, Facets& elsewhere) {
+  if (!executor.has_listeners()) return own;
+  Bytes bytes;
+  if (executor.is_root()) bytes = packed(own);
+  executor.broadcast(bytes);
+  if (executor.is_root()) return own;
+  unpack(bytes, elsewhere);
+  return elsewhere;
+}
+
+/// Collective. What SurfaceFinder::find_along() finds along all chains, on rank 0. `chains`, and what the finders see:
+/// the same on every rank.
+template <class MakeFinder>
+ChainSurfaces find_along_chains(const std::vector<Chain>& chains, const MakeFinder& make_finder,
+                                const Executor& executor) {
+  std::vector<double> work;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    if (i % kChainsPerTask == 0) work.push_back(0);
+    work.back() += static_cast<double>(chains[i].edges.size());
+  }
+  std::vector<ChainSurfaces> parts(work.size());
+  executor.run_tasks(
+      static_cast<std::int32_t>(work.size()), heaviest_first(work),
+      [&](std::int32_t task) {
+        const std::span rest = std::span(chains).subspan(kChainsPerTask * static_cast<std::size_t>(task));
+        return packed(make_finder().find_along(rest.first(std::min(rest.size(), kChainsPerTask))));
+      },
+      [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
+  ChainSurfaces all;
+  const auto append = [](auto&& part, auto& to) {
+    to.insert(to.end(), std::make_move_iterator(part.begin()), std::make_move_iterator(part.end()));
+  };
+  for (ChainSurfaces& part : parts) {
+    append(part.surfaces, all.surfaces);
+    append(part.rest, all.rest);
+    append(part.ends, all.ends);
+  }
+  return all;
+}
 
 }  // namespace
 
@@ -1215,22 +1315,28 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
                                                   std::span<const WingEdge> edges, const Executor& executor,
                                                   std::vector<UnusedTrailing>* unused, Noseless noseless,
                                                   std::span<const WingEdge> small) {
+  std::vector<WingEdge> all(edges.begin(), edges.end());
+  std::vector<Chain> chains;
+  for (std::vector<WingEdge>& chain : trailing_chains(model, all)) chains.push_back({std::move(chain)});
   const std::vector<WingEdge> tails = possible_tails(model.tables(), edges);
   bool has_edges = !tails.empty() || !small.empty();
-  share(executor, has_edges);
+  share(executor, has_edges, all, chains);
   if (!has_edges) return {};
   const double deflection = kDeflection * roles.reference_diagonal;
   ProfileFacets own(model, roles, {{.deflection = deflection}, 2 * deflection});
   const bool has_all = has_wall_facets(roles, deflection);
   if (!has_all) own.add_along(tails, executor);
-  TriedChains tried;
+  FinderMemory memory(model, roles);
   while (true) {
+    Facets elsewhere;
+    const Facets& facets = share_facets(executor, has_all ? roles.own.facets : own.facets(), elsewhere);
+    const auto make_finder = [&] { return SurfaceFinder(model, roles, all, facets, memory); };
+    ChainSurfaces found = find_along_chains(chains, make_finder, executor);
     std::vector<CutEnd> ends;
     std::vector<LiftingSurface> surfaces;
     std::vector<UnusedTrailing> rest;
     if (executor.is_root())
-      surfaces = SurfaceFinder(model, roles, edges, has_all ? roles.own.facets : own.facets(), ends, tried)
-                     .run(small, noseless, unused ? &rest : nullptr);
+      surfaces = make_finder().run(std::move(found), small, noseless, unused ? &rest : nullptr, ends);
     if (!has_all && own.add_beyond(ends, executor)) continue;  // a cut between the places crosses more
     if (unused) *unused = std::move(rest);
     return surfaces;

@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "features/wing_edges.h"
@@ -30,6 +31,8 @@ struct ChordEdge {
   double base_width = 0;  ///< median, model unit
   std::vector<ChordStation> stations;
   bool is_inside = false;  ///< the trailing edge runs inside faces, where the stations are, and `edge` along the span
+
+  static auto fields(auto& e) { return std::tie(e.edge, e.base, e.is_half, e.base_width, e.stations, e.is_inside); }
 
   /// Local chord at a share of the edge's length, linear between stations, model unit.
   double chord_at(double share) const;
@@ -60,6 +63,11 @@ struct LiftingSurface {
   double span = 0;            ///< along the trailing edge, model unit
   double least_chord = 0, median_chord = 0, largest_chord = 0;  ///< model unit
 
+  static auto fields(auto& s) {
+    return std::tie(s.is_blunt, s.is_round, s.has_noses, s.is_declared, s.trailing, s.leading, s.declared_leading,
+                    s.faces, s.span, s.least_chord, s.median_chord, s.largest_chord);
+  }
+
   /// The measured station whose chord passes nearest to a place, the first of several; nullptr: none is measured. Cost:
   /// linear in stations.
   const ChordStation* nearest_station(Vec3 x) const;
@@ -89,8 +97,9 @@ struct UnusedTrailing {
 /// out. What may be a wing's and shows no nose may be thin yet (features/thin_surface.h). Profiles are cut square to an
 /// axis of the model, each edge to its own, and square to the edge where that shows none or clearly fewer. By first
 /// edge. Collective; `edges` and what is returned are of rank 0. `unused`: gets the trailing edges that belong to none.
-/// Cost: a coarse triangulation of the walls that profiles cross, as tasks, unless `roles` has one of all; the rest is
-/// rank 0's. `small`: trailing edges that are too short for these facets (find_wing_edges()); each has its own.
+/// Cost: a coarse triangulation of the walls that profiles cross, unless `roles` has one of all, and the profiles, as
+/// tasks; the rest is rank 0's. `small`: trailing edges that are too short for these facets (find_wing_edges()); each
+/// has its own.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges,
                                                   const Executor& executor = SerialExecutor(),

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/model/edit_model.h"
+#include "support/backward_executor.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -33,6 +35,28 @@ void expect_wing_of_chord_10(const LiftingSurface& wing) {
         EXPECT_NEAR(s.nose.x, 0, 0.02);
       }
     }
+}
+
+TEST(LiftingSurface, comes_in_the_order_of_edges_whichever_chains_are_done_first) {
+  constexpr std::size_t kWings = 10;  // more than one task
+  Model model = test::make_model("sharp_wing");
+  for (std::size_t i = 1; i < kWings; ++i)
+    model = append(model, transform(test::make_model(i % 2 ? "blunt_wing" : "sharp_wing"),
+                                    {.translation = {0, model.tables().box().hi.y + 20, 0}}));
+  const FaceRoles roles = face_roles(model.tables());
+  const auto edges = find_wing_edges(model, roles, find_strips(model));
+  const auto surfaces = find_lifting_surfaces(model, roles, edges),
+             backward = find_lifting_surfaces(model, roles, edges, test::BackwardExecutor());
+  ASSERT_EQ(surfaces.size(), kWings);
+  ASSERT_EQ(backward.size(), kWings);
+  for (std::size_t i = 0; i < kWings; ++i) {
+    EXPECT_EQ(surfaces[i].is_blunt, i % 2 == 1) << i;
+    EXPECT_EQ(backward[i].trailing[0].edge, surfaces[i].trailing[0].edge) << i;
+    EXPECT_EQ(backward[i].faces, surfaces[i].faces) << i;
+    if (i > 0) {
+      EXPECT_GT(surfaces[i].trailing[0].edge, surfaces[i - 1].trailing[0].edge) << i;
+    }
+  }
 }
 
 TEST(LiftingSurface, has_the_chord_and_the_span_of_a_sharp_wing) {
