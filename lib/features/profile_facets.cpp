@@ -12,6 +12,8 @@
 namespace st {
 namespace {
 
+constexpr std::size_t kMostAlone = 64;  // faces: to tell other ranks of fewer costs more than they could save
+
 /// Faces with 1, ascending.
 std::vector<FaceId> listed(std::span<const std::uint8_t> is_wanted) {
   std::vector<FaceId> faces;
@@ -43,9 +45,12 @@ void ProfileFacets::add_along(std::span<const WingEdge> edges, const Executor& e
   std::size_t n_done = 0;
   for (bool is_more = true; is_more;) {
     std::vector<std::uint8_t> next = walls_of_next(cuts, n_done);
-    const auto known = made_.find(listed(next));
+    const std::vector<FaceId> faces = listed(next);
+    const auto known = made_.find(faces);
     if (known != made_.end())
       join_facets(model_, std::move(made_.extract(known).mapped()), facets_);
+    else if (!faces.empty() && faces.size() <= kMostAlone)  // on rank 0: others wait for the next add()
+      add(std::move(next), SerialExecutor());
     else
       is_more = add(std::move(next), executor);
   }
