@@ -264,11 +264,11 @@ class TailFinder {
   TailFinder(const Model& model, const FaceRoles& roles, std::span<const std::uint8_t> is_excluded)
       : model_(model), t_(model.tables()), roles_(roles), is_excluded_(is_excluded) {}
 
-  std::vector<LiftingSurface> run(std::span<const LiftingSurface> wings) {
+  std::vector<LiftingSurface> run(std::span<const SpanEdge> along_span) {
     TailMeasurer measurer(model_, roles_);
     std::vector<Draft> drafts;
     std::vector<std::vector<Vec3>> excluded = excluded_edges();
-    for (const SpanEdge& e : find_span_edges(model_, roles_, wings)) {
+    for (const SpanEdge& e : along_span) {
       std::optional<Draft> own = measurer.run(e);
       if (own && is_excluded_[e.edge]) excluded.push_back(tail_of(*own));
       if (own && !is_excluded_[e.edge]) drafts.push_back(std::move(*own));
@@ -369,8 +369,11 @@ class TailFinder {
 }  // namespace
 
 void add_round_tails(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges,
-                     std::span<const std::uint8_t> is_excluded, std::vector<LiftingSurface>& wings) {
-  for (LiftingSurface& wing : TailFinder(model, roles, is_excluded).run(wings)) {
+                     std::span<const std::uint8_t> is_excluded, std::vector<LiftingSurface>& wings,
+                     const Executor& executor) {
+  const std::vector<SpanEdge> along_span = find_span_edges(model, roles, wings, executor);
+  if (!executor.is_root()) return;
+  for (LiftingSurface& wing : TailFinder(model, roles, is_excluded).run(along_span)) {
     add_leading(model, edges, wing);
     wings.push_back(std::move(wing));
   }

@@ -2,45 +2,54 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <map>
+#include <mutex>
 
 #include "base/boxes.h"
 #include "base/eigen.h"
+#include "base/share.h"
 #include "features/smooth_edges.h"
 
 namespace st {
 namespace {
 
-constexpr double kLeastLength = 0.005;    // of the reference diagonal: of an edge
-constexpr double kSmooth = radians(30);   // between the faces there
-constexpr double kStraight = 0.7;         // between the ends of an edge over its length, at least
-constexpr double kChordMost = 2;          // over the length of the edge
-constexpr double kSlab = 0.06;            // of the edge's length: samples are no further from the plane
-constexpr double kSlabOfRing = 0.03;      // likewise
-constexpr std::size_t kLeastSamples = 8;  // in the slab
-constexpr double kThick = 0.45;           // of the chord: samples lie in a flatter rectangle
-constexpr double kLooksAcross = 0.5;      // cosine between normals and the direction across the chord
-constexpr int kGrid = 24;                 // samples of a face along u and v
-constexpr std::size_t kPiece = 8;         // samples of a face beside each other, with a box of their own
-constexpr double kRounding = 1e-6;        // of the edge's length, about: of distances from boxes
-constexpr std::size_t kMostFaces = 12;    // around an edge
+constexpr double kLeastLength = 0.005;       // of the reference diagonal: of an edge
+constexpr double kSmooth = radians(30);      // between the faces there
+constexpr double kStraight = 0.7;            // between the ends of an edge over its length, at least
+constexpr double kChordMost = 2;             // over the length of the edge
+constexpr double kSlab = 0.06;               // of the edge's length: samples are no further from the plane
+constexpr double kSlabOfRing = 0.03;         // likewise
+constexpr std::size_t kLeastSamples = 8;     // in the slab
+constexpr double kThick = 0.45;              // of the chord: samples lie in a flatter rectangle
+constexpr double kLooksAcross = 0.5;         // cosine between normals and the direction across the chord
+constexpr int kGrid = 24;                    // samples of a face along u and v
+constexpr std::size_t kPiece = 8;            // samples of a face beside each other, with a box of their own
+constexpr double kRounding = 1e-6;           // of the edge's length, about: of distances from boxes
+constexpr std::size_t kMostFaces = 12;       // around an edge
+constexpr std::int32_t kEdgesPerTask = 128;  // ranks sample the faces beside their edges anew
 
+enum class Known : unsigned char { kNotYet, kNo, kYes };
+
+/// For any thread.
 class SpanEdgeFinder {
  public:
-  SpanEdgeFinder(const Model& model, const FaceRoles& roles, std::span<const LiftingSurface> wings)
-      : model_(model), t_(model.tables()), roles_(roles) {
+  SpanEdgeFinder(const Model& model, const FaceRoles& roles, std::span<const std::uint8_t> is_taken)
+      : model_(model),
+        t_(model.tables()),
+        roles_(roles),
+        is_taken_(is_taken),
+        is_smooth_(static_cast<std::size_t>(t_.n_edges())),
+        is_sampled_(static_cast<std::size_t>(t_.n_faces())),
+        samples_(is_sampled_.size()) {
     t_.edge_faces(offsets_, edge_faces_);
     is_turned_ = is_material_ahead(t_, roles);
-    is_taken_.assign(static_cast<std::size_t>(t_.n_faces()), 0);
-    is_smooth_.resize(static_cast<std::size_t>(t_.n_edges()));
-    for (const LiftingSurface& wing : wings)
-      for (const FaceId f : wing.faces) is_taken_[f] = 1;
   }
 
-  std::vector<SpanEdge> run() {
+  /// Among `kEdgesPerTask` edges.
+  std::vector<SpanEdge> run(std::int32_t task) {
     std::vector<SpanEdge> found;
-    for (EdgeId e = 0; e < t_.n_edges(); ++e) {
+    for (EdgeId e = task * kEdgesPerTask; e < std::min((task + 1) * kEdgesPerTask, t_.n_edges()); ++e) {
       if (!is_candidate(e)) continue;
       if (const double chord = thin_chord(e); chord > 0) found.push_back({e, chord});
     }
@@ -69,9 +78,9 @@ class SpanEdgeFinder {
   }
 
   bool is_smooth(EdgeId e) {
-    std::optional<bool>& known = is_smooth_[e];
-    if (!known) known = is_smooth_half_way(model_, e, faces_at(e), kSmooth);
-    return *known;
+    std::atomic<Known>& known = is_smooth_[static_cast<std::size_t>(e)];
+    if (known == Known::kNotYet) known = is_smooth_half_way(model_, e, faces_at(e), kSmooth) ? Known::kYes : Known::kNo;
+    return known == Known::kYes;
   }
 
   /// Its faces, and those beyond their edges, without walls that turn away there.
@@ -94,27 +103,30 @@ class SpanEdgeFinder {
   struct FaceSamples {
     std::vector<Sample> all;
     std::vector<Box3> box;  // of each piece
+    Box3 whole;
   };
 
   const FaceSamples& samples_of(FaceId f) {
-    FaceSamples& samples = samples_[f];
-    if (!samples.all.empty()) return samples;
+    FaceSamples& samples = samples_[static_cast<std::size_t>(f)];
+    std::call_once(is_sampled_[static_cast<std::size_t>(f)], [&] { samples = sample(f); });
+    return samples;
+  }
+
+  FaceSamples sample(FaceId f) const {
+    FaceSamples samples;
     const auto surface = model_.surface(f);
     const Vec2 low{surface->u_min(), surface->v_min()}, way = Vec2{surface->u_max(), surface->v_max()} - low;
-    uv_.clear();
-    for (int i = 0; i < kGrid; ++i)
-      for (int k = 0; k < kGrid; ++k)
-        uv_.push_back({low.x + way.x * (i + 0.5) / kGrid, low.y + way.y * (k + 0.5) / kGrid});
-    points_.resize(uv_.size());
-    surface->evaluate_batch(uv_, points_);
     const double sign = (t_.face_is_reversed[f] != 0) != is_turned_ ? -1 : 1;
-    samples.all.reserve(points_.size());
-    samples.box.resize((points_.size() + kPiece - 1) / kPiece);
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const SurfacePoint& p = points_[i];
-      samples.all.push_back({p.x, sign * normalized(cross(p.du, p.dv))});
-      samples.box[i / kPiece].add(p.x);
-    }
+    samples.all.reserve(kGrid * kGrid);
+    samples.box.resize((kGrid * kGrid + kPiece - 1) / kPiece);
+    for (int i = 0; i < kGrid; ++i)
+      for (int k = 0; k < kGrid; ++k) {
+        const SurfacePoint p =
+            surface->evaluate({low.x + way.x * (i + 0.5) / kGrid, low.y + way.y * (k + 0.5) / kGrid});
+        samples.whole.add(p.x);
+        samples.box[samples.all.size() / kPiece].add(p.x);
+        samples.all.push_back({p.x, sign * normalized(cross(p.du, p.dv))});
+      }
     return samples;
   }
 
@@ -151,6 +163,7 @@ class SpanEdgeFinder {
     };
     for (const FaceId f : faces_around(e)) {
       const FaceSamples& samples = samples_of(f);
+      if (!slab.may_meet(samples.whole)) continue;
       for (std::size_t k = 0; k < samples.box.size(); ++k) {
         if (!slab.may_meet(samples.box[k])) continue;
         const std::span rest = std::span(samples.all).subspan(k * kPiece);
@@ -192,18 +205,29 @@ class SpanEdgeFinder {
   bool is_turned_ = false;             // normals point into the material
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
-  std::vector<std::uint8_t> is_taken_;          // [n_faces] of a lifting surface that is known
-  std::vector<std::optional<bool>> is_smooth_;  // [n_edges] between the faces there; nothing: not asked yet
-  std::map<FaceId, FaceSamples> samples_;       // over the face's (u,v) box
-  std::vector<Vec2> uv_;                        // of the last face
-  std::vector<SurfacePoint> points_;            // likewise
+  std::span<const std::uint8_t> is_taken_;     // [n_faces] of a lifting surface that is known
+  std::vector<std::atomic<Known>> is_smooth_;  // [n_edges] between the faces there
+  std::vector<std::once_flag> is_sampled_;     // [n_faces]
+  std::vector<FaceSamples> samples_;           // [n_faces] over the face's (u,v) box
 };
 
 }  // namespace
 
-std::vector<SpanEdge> find_span_edges(const Model& model, const FaceRoles& roles,
-                                      std::span<const LiftingSurface> wings) {
-  return SpanEdgeFinder(model, roles, wings).run();
+std::vector<SpanEdge> find_span_edges(const Model& model, const FaceRoles& roles, std::span<const LiftingSurface> wings,
+                                      const Executor& executor) {
+  std::vector<std::uint8_t> is_taken(static_cast<std::size_t>(model.tables().n_faces()), 0);
+  for (const LiftingSurface& wing : wings)
+    for (const FaceId f : wing.faces) is_taken[static_cast<std::size_t>(f)] = 1;
+  share(executor, is_taken);
+  SpanEdgeFinder finder(model, roles, is_taken);
+  std::vector<std::vector<SpanEdge>> parts((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask);
+  executor.run_tasks(
+      static_cast<std::int32_t>(parts.size()), heaviest_first(std::vector<double>(parts.size(), 1)),
+      [&](std::int32_t task) { return packed(finder.run(task)); },
+      [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
+  std::vector<SpanEdge> found;
+  for (const std::vector<SpanEdge>& part : parts) found.insert(found.end(), part.begin(), part.end());
+  return found;
 }
 
 }  // namespace st

@@ -857,12 +857,12 @@ class RasterRun {
     }
     std::vector<LiftingSurface>& wings = wings_.aircraft.wings;
     wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft, small);
+    const std::vector<std::uint8_t> is_excluded = edges_without_wing(model_.tables(), declared);
+    add_round_tails(model_, roles_, wings_.edges, is_excluded, wings, trace_);
     if (comm_.is_root()) {
-      const std::vector<std::uint8_t> is_excluded = edges_without_wing(model_.tables(), declared);
-      add_round_tails(model_, roles_, wings_.edges, is_excluded, wings);
       liken_blades(model_, is_excluded, wings, wings_.unused);
+      limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
     }
-    if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
     require_places(o_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
