@@ -246,7 +246,8 @@ std::unique_ptr<Curve2d> Model::pcurve(FaceId face, CoedgeId coedge) const {
   if (c.IsNull())
     throw Error(ExitCode::kGeometry, tables_.edge_label(tables_.coedge_edge[coedge]) + " has no trimming curve on " +
                                          tables_.face_label(face) + "; repair the CAD model");
-  return occt::make_curve2d(c, t0, t1);
+  const double* range = &tables_.edge_range[2 * static_cast<std::size_t>(tables_.coedge_edge[coedge])];
+  return occt::make_curve2d(c, range[0], range[1]);
 }
 
 }  // namespace st

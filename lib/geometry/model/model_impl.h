@@ -1,6 +1,7 @@
 // The B-Rep behind a Model.
 #pragma once
 
+#include <Geom2d_Curve.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS_Shape.hxx>
 #include <cstddef>
@@ -39,11 +40,31 @@ class Originals {
   std::unordered_map<std::int32_t, std::unique_ptr<Shape>> own_;
 };
 
+/// Trimming curves that OpenCASCADE makes whenever it is asked, by coedge. For any thread.
+class MadeCurves2d {
+ public:
+  template <class Make>
+  Handle(Geom2d_Curve) get(CoedgeId id, const Make& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto own = own_.find(id); own != own_.end()) return own->second;
+    }
+    const Handle(Geom2d_Curve) made = make();  // perhaps by several threads: all of them the same
+    const std::lock_guard lock(mutex_);
+    return own_.try_emplace(id, made).first->second;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<CoedgeId, Handle(Geom2d_Curve)> own_;
+};
+
 struct Model::Impl {
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges;  ///< TopExp order of `shape`: the order of ids
   Originals<Curve> curves;
   Originals<Surface> surfaces;
+  MadeCurves2d pcurves_on_planes;
   // of a model with composites; its own shape and maps are empty then
   std::unique_ptr<const Model> cad;
   Composites composites;
