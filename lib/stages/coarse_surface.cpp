@@ -26,6 +26,16 @@ void warn_of_holes(std::vector<FaceFailure> failures) {
                           failures.size(), failures.front().face + 1));
 }
 
+/// Collective. Rank 0's cells on every rank; their lengths are constant in each, so that one number says all of a cell.
+void share_lengths(const Executor& executor, std::vector<CellLength>& cells) {
+  if (!executor.has_listeners()) return;
+  std::vector<float> lengths;
+  for (const CellLength& cell : cells) lengths.push_back(cell.length);
+  share(executor, lengths);
+  if (executor.is_root()) return;
+  for (const float length : lengths) cells.push_back({length, {0, 0, 0}, length});
+}
+
 }  // namespace
 
 bool has_coarse_surface(const ModelTables& tables) { return is_closed(tables, report_edge_uses(tables)); }
@@ -39,7 +49,7 @@ std::vector<CellLength> prolong_openly(const RasterArtifact& raster) {
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
                                  std::vector<CellLength> cells, const std::vector<Strip>& strips, double seconds,
                                  const Executor& executor) {
-  share(executor, cells);
+  share_lengths(executor, cells);
   OctreeFieldData data;
   data.octree = raster.octree.shape.view();
   data.cells = cells;
