@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <utility>
 
 #include "sizing/octree_field.h"
 #include "unit/sizing/cases.h"
@@ -34,6 +35,21 @@ TEST(SampleSeeds, keep_their_places_however_far_from_the_origin) {
   const std::vector<LengthSample> here = sorted_samples(boxes, origin_of_places(near_box)),
                                   there = sorted_samples(moved, origin_of_places(far_box));
   for (std::size_t i = 0; i < here.size(); ++i) EXPECT_LT(distance(here[i].xyz + far, there[i].xyz), 1e-6) << i;
+}
+
+TEST(SampleSeeds, merged_are_as_if_they_had_been_sorted_together) {
+  std::vector<RasterBox> boxes;
+  for (int i = 0; i < 100; ++i) boxes.push_back({{std::cos(7 * i), std::sin(i), 0.3}, 0.02F, 0.01F, i % 7});
+  std::vector<std::vector<LengthSample>> parts;
+  for (const auto& [first, n] : {std::pair<std::size_t, std::size_t>(0, 50), {50, 0}, {50, 13}, {63, 37}})
+    parts.push_back(sorted_samples(std::span(boxes).subspan(first, n)));
+  const std::vector<LengthSample> together = sorted_samples(boxes), merged = merged_samples(std::move(parts));
+  ASSERT_EQ(merged.size(), together.size());
+  for (std::size_t i = 0; i < merged.size(); ++i) {
+    EXPECT_EQ(merged[i].xyz, together[i].xyz) << i;
+    EXPECT_EQ(merged[i].cause, together[i].cause) << i;
+  }
+  EXPECT_TRUE(merged_samples({}).empty());
 }
 
 /// Samples about one length apart on a sphere of radius 0.4: `finest` at the top, growing by `growth` per distance from
