@@ -207,7 +207,8 @@ class ConeSpread {
     radix_sort(events, sorting_, [](const Event& e) { return static_cast<std::uint64_t>(e.site); });
     for (std::size_t i = 0; i < events.size(); ++i) {
       if (i + 2 * kAhead < events.size()) fetch(events[i + 2 * kAhead]);
-      if (i + kAhead < events.size()) fetch_beside(events[i + kAhead].site);
+      if (i + kAhead < events.size() && events[i + kAhead].site != events[i + kAhead - 1].site)
+        fetch_beside(events[i + kAhead].site);
       pass_on(events[i]);
     }
   }

@@ -32,8 +32,11 @@ class SiteVisitor {
     if (sheet_along(s, leaf) < -kClear && visit_own_sheet_beside(s, leaf)) return;
     visit_parts(s, leaf);
     if (blanking_.colour[leaf] != CellColour::kBlanked) return;
-    // the surface may bulge a little into what is blanked: lengths do not pass from there
-    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { visit_parts(s, other); });
+    // the surface may bulge a little into what is blanked: lengths do not pass from there. Around a leaf inside a thin
+    // wall lies its other side, too
+    neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) {
+      if (!(sheet_along(s, other) < -kClear)) visit_parts(s, other);
+    });
   }
 
  private:

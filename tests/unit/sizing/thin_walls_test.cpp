@@ -109,5 +109,14 @@ TEST(ThinWalls, keep_samples_to_the_side_that_these_look_to) {
   for (const double height : {0.0, 1.0}) EXPECT_EQ(wall.n_cones(height, true), 0) << height;
 }
 
+// Likewise one that lies in a cell that is all inside the wall: both sides lie beside it.
+TEST(ThinWalls, keep_samples_that_lie_inside_them_to_their_side) {
+  WallInCells wall({0, 0, 1}, -0.9, 0.9);
+  ASSERT_EQ(wall.blanking().colour[wall.leaf_at(wall.at(-0.45))], CellColour::kBlanked);
+  wall.add_sample(-0.45, true);
+  EXPECT_GT(wall.n_cones(-1, false), 0);
+  for (const double height : {1.0, 2.0}) EXPECT_EQ(wall.n_cones(height, true), 0) << height;
+}
+
 }  // namespace
 }  // namespace st
