@@ -35,8 +35,10 @@
 #include "geometry/import/plane_cut.h"
 #include "geometry/import/shape_repair.h"
 #include "geometry/import/shell_repair.h"
+#include "geometry/import/short_ends.h"
 #include "geometry/import/sound_geometry.h"
 #include "geometry/import/space_curves.h"
+#include "geometry/import/split_vertices.h"
 #include "geometry/import/topology_report.h"
 #include "geometry/import/wrong_sides.h"
 #include "geometry/model/group_selection.h"
@@ -287,7 +289,9 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   occt::require_sound_geometry(model.shape, path);
   progress.step("looking for faces without area and duplicates", 0.4);
   occt::remove_empty_faces(model, result.findings, path);
+  occt::split_vertices(model, result.findings);
   occt::make_space_curves(model, result.findings);
+  occt::extend_short_ends(model, result.findings);
   occt::remove_duplicate_solids(model, result.findings);
   occt::share_common_faces(model, result.findings);
   occt::remove_duplicates(model, result.findings);
