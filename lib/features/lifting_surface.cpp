@@ -45,6 +45,7 @@ constexpr double kLeastNoseWay = 0.25;         // of the way along the trailing 
 constexpr double kOnPlane = 1e-6;              // of the reference diagonal: from a plane of symmetry
 constexpr double kAcrossSpan = 0.7;            // cosine between the normal of a tip or a root and the chain
 constexpr double kParallelSides = radians(1);  // of a base, from square to it
+constexpr double kRoundCorner = radians(150);  // material at the edges of a base without corners
 constexpr double kShortest = 0.2;              // span over the median chord: pylons, blades of impellers
 constexpr double kSmallPart = 0.01;            // of the reference diagonal: a shorter one has to be half a chord long
 constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
@@ -52,6 +53,7 @@ constexpr double kNarrowStrip = 0.05;          // width of a strip of the skin o
 constexpr double kSameDirection = 0.998;       // cosine: 4 degrees
 constexpr double kMostCorners = 0.5;           // of the way with profiles: where these end in a square corner
 constexpr double kSquareCorner = 0.5;          // cosine: 60 to 120 degrees
+constexpr double kPlaneFace = 1e-3;            // radians: between normals of a plane face
 constexpr double kNoseStrip = 0.02;            // of the chord: width of the faces at such a corner, at least
 constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
 constexpr double kLens = 0.75;                 // of the way where the nose is on the edge itself: does not count
@@ -352,13 +354,29 @@ class SurfaceMeasurer {
   /// nose.
   bool ends_in_corner(const Profile& profile) const {
     const std::vector<CutPlace>& beside = profile.beside_nose;
-    const ModelTables& t = model_.tables();
-    const auto is_plane = [&](const CutPlace& at) {
-      return t.face_type[at.face] == SurfaceType::kPlane && t.face_width[at.face] >= kNoseStrip * profile.chord;
+    const auto is_side = [&](const CutPlace& at) {
+      return model_.tables().face_width[at.face] >= kNoseStrip * profile.chord && is_plane(at.face);
     };
-    return beside.size() == 2 && std::ranges::all_of(beside, is_plane) &&
+    return beside.size() == 2 &&
            std::abs(dot(normalized(beside[0].x - profile.nose), normalized(beside[1].x - profile.nose))) <
-               kSquareCorner;
+               kSquareCorner &&
+           std::ranges::all_of(beside, is_side);
+  }
+
+  /// Whatever kind of surface describes it.
+  bool is_plane(FaceId f) const {
+    const auto [known, is_new] = is_plane_.try_emplace(f, model_.tables().face_type[f] == SurfaceType::kPlane);
+    if (!is_new || known->second) return known->second;
+    const auto surface = model_.surface(f);
+    const auto normal_at = [&](int i, int j) {
+      return surface_normal(*surface, {surface->u_min() + (surface->u_max() - surface->u_min()) * i / 2,
+                                       surface->v_min() + (surface->v_max() - surface->v_min()) * j / 2});
+    };
+    const Vec3 middle = normal_at(1, 1);
+    known->second = true;
+    for (int i = 0; i <= 2; ++i)
+      for (int j = 0; j <= 2; ++j) known->second &= angle_between(middle, normal_at(i, j)) <= kPlaneFace;
+    return known->second;
   }
 
   /// How far along the edges profiles end in such a corner.
@@ -647,6 +665,7 @@ class SurfaceMeasurer {
   mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
   mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
   mutable std::map<FaceId, SurfaceGrid> grid_;           // of each face on which noses are looked for
+  mutable std::map<FaceId, bool> is_plane_;              // of faces beside a corner
 };
 
 /// What may be the trailing edge was found from both sides where the nose is sharp, or a narrow face, or a smooth edge:
@@ -884,13 +903,18 @@ class SurfaceFinder {
     unite_surfaces();
   }
 
+  /// A base with corners is no nose, however sharp the other side is, as of wedge fins; a round one may be.
   void unite_surfaces() {
+    enum Kind { kBaseWithCorners, kEdge, kRoundBase };
     unite_both_sides(surfaces_, [&](const LiftingSurface& surface) {
-      double largest = 0;
+      std::pair<Kind, double> bluntness(kEdge, 0);
       for (const ChordEdge& edge : surface.trailing)
-        for (const WingEdge& w : edges_)
-          if (w.edge == edge.edge) largest = std::max(largest, w.size);
-      return largest;
+        for (const WingEdge& w : edges_) {
+          if (w.edge != edge.edge) continue;
+          bluntness.second = std::max(bluntness.second, w.size);
+          if (w.base != kNone) bluntness.first = w.angle > kRoundCorner ? kRoundBase : kBaseWithCorners;
+        }
+      return bluntness;
     });
   }
 

@@ -65,9 +65,10 @@ SPANS = {
     "small_round_propeller": [4.59, 4.59, 2.4, 1.79, 1.76, 1.76, 0.43, 0.098, 0.098, 0.098],
     "hull_with_screw": [0.129, 0.129],
     "split_winglet": [3.99, 0.85],
+    "wedge_wing": [1.2],
 }
 PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal",
-         "oval_bar", "saw", "door_stop", "snap_hook")
+         "oval_bar", "saw", "door_stop", "snap_hook", "plow", "hole_plate")
 
 
 class WingShapes(ToolTest):
@@ -136,6 +137,13 @@ class WingShapes(ToolTest):
             done = must("st-import", model, "-o", self.folder / "geometry.hdf")
             self.assertRegex(done.err, "vertex that stood for both ends of an edge, split" + times)
             self.assertNotIn("edges end away", done.err)
+
+    def test_a_base_lies_behind_a_sharp_nose(self):
+        (wing,) = self.raster("wedge_wing", "euler").json()["lifting_surfaces"]
+        self.assertTrue(wing["is_blunt"])
+        self.assertEqual(len(wing["trailing_edges"]), 2)
+        for station in wing["stations"]:
+            self.assertLess(station["nose"][0], station["trailing"][0])
 
     def test_a_cambered_plate_is_found_or_said(self):
         for name in ("plate_sail", "thick_plate_sail"):

@@ -843,6 +843,41 @@ TopoDS_Shape snap_hook() {
   return fuse(box(0, 0, 0, 40, 12, 3), prism({{40, 0, 0}, {52, 0, 1.2}, {40, 0, 7}, {38, 0, 3}, {38, 0, 0}}, 12));
 }
 
+/// Between outlines of straight lines: its faces are splines.
+TopoDS_Shape polygon_loft(const std::vector<std::vector<gp_Pnt>>& outlines) {
+  BRepOffsetAPI_ThruSections thru(true, true, 1e-6);
+  for (const std::vector<gp_Pnt>& points : outlines) {
+    BRepBuilderAPI_MakePolygon wire;
+    for (const gp_Pnt& x : points) wire.Add(x);
+    wire.Close();
+    thru.AddWire(wire.Wire());
+  }
+  return thru.Shape();
+}
+
+/// A wedge with a thick back, twisted.
+TopoDS_Shape plow() {
+  return polygon_loft(
+      {{{0, 0, 0}, {45, 0, 12.5}, {50, 0, 12.5}, {50, 0, 0}}, {{20, 60, 0}, {65, 60, 30}, {70, 60, 30}, {70, 60, 0}}});
+}
+
+/// A fin with a sharp nose and a base.
+TopoDS_Shape wedge_wing() {
+  const auto outline_at = [](double x, double y, double chord) {
+    std::vector<gp_Pnt> points;
+    for (const auto& [dx, z] : {std::pair(0.0, 0.0), {0.35, 0.04}, {1.0, 0.012}, {1.0, -0.012}, {0.35, -0.04}})
+      points.emplace_back(x + chord * dx, y, chord * z);
+    return points;
+  };
+  return polygon_loft({outline_at(0, 0, 1.2), outline_at(0.7, 1.2, 0.5)});
+}
+
+/// With a hole of a wing's profile, a tenth of its chord deep.
+TopoDS_Shape hole_plate() {
+  return cut(box(-0.5, -0.5, 0, 2, 1, 0.1),
+             loft(kBlunt, {straight(gp_Pnt(0, 0, -0.1), 1, 90), straight(gp_Pnt(0, 0, 0.2), 1, 90)}));
+}
+
 using Maker = std::function<TopoDS_Shape()>;
 using Makers = std::map<std::string, Maker>;
 
@@ -901,6 +936,8 @@ const Makers& parts() {
                           {"part_saw", saw},
                           {"part_door_stop", door_stop},
                           {"part_snap_hook", snap_hook},
+                          {"part_plow", plow},
+                          {"part_hole_plate", hole_plate},
                           {"part_seal", seal}};
   return all;
 }
@@ -944,6 +981,7 @@ const Makers& wings() {
       {"vanes", vanes},
       {"vane_passage", vane_passage},
       {"rocket_fins", rocket_fins},
+      {"wedge_wing", wedge_wing},
       {"sail", sail},
       {"plate_sail", [] { return plate_sail(0.006); }},
       {"thick_plate_sail", [] { return plate_sail(0.02); }},
