@@ -10,6 +10,7 @@
 #include "base/packer.h"
 #include "base/share.h"
 #include "features/edge_places.h"
+#include "features/passages.h"
 #include "features/strip.h"
 
 namespace st {
@@ -73,6 +74,8 @@ class WingEdgeFinder {
 
   /// Trailing edges that the last search left out as too short.
   const std::vector<WingEdge>& small() const { return small_; }
+  /// Whether the last search saw edges that were trailing edges if the material were on the other side. On rank 0.
+  bool has_hollow() const { return has_hollow_; }
 
   void declare(std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges) const {
     std::vector<std::optional<WingEdge>> found(uses_.size());
@@ -154,6 +157,7 @@ class WingEdgeFinder {
   std::vector<WingEdge> find(const Executor& executor) {
     std::vector<std::optional<WingEdge>> found(uses_.size());
     std::vector<EdgeId> candidates;
+    has_hollow_ = false;
     if (executor.is_root()) {
       for (const Strip& strip : strips_) try_blunt(strip, found);
       for (EdgeId e = 0; e < t_.n_edges(); ++e)
@@ -172,20 +176,23 @@ class WingEdgeFinder {
 
   /// `found`: on rank 0.
   void classify_all(std::span<const EdgeId> edges, const Executor& executor,
-                    std::vector<std::optional<WingEdge>>& found) const {
+                    std::vector<std::optional<WingEdge>>& found) {
     const std::size_t n_tasks = (edges.size() + kEdgesPerTask - 1) / kEdgesPerTask;
     executor.run_tasks(
         static_cast<std::int32_t>(n_tasks), heaviest_first(std::vector<double>(n_tasks, 1)),
         [&](std::int32_t task) {
           const auto rest = edges.subspan(kEdgesPerTask * static_cast<std::size_t>(task));
           std::vector<WingEdge> own;
+          bool is_hollow = false;
           for (const EdgeId e : rest.first(std::min(rest.size(), kEdgesPerTask)))
-            if (const std::optional<WingEdge> w = classify(e)) own.push_back(*w);
-          return packed(own);
+            if (const std::optional<WingEdge> w = classify(e, is_hollow)) own.push_back(*w);
+          return packed(own, is_hollow);
         },
         [&](std::int32_t, Bytes&& bytes) {
           std::vector<WingEdge> some;
-          unpack(bytes, some);
+          bool is_hollow = false;
+          unpack(bytes, some, is_hollow);
+          has_hollow_ |= is_hollow;
           for (const WingEdge& w : some) found[w.edge] = w;
         });
   }
@@ -257,17 +264,20 @@ class WingEdgeFinder {
     return {e, kind, stations[kStations / 2].x, t_.edge_length[e], median(angles), size, base, mirror_face(e)};
   }
 
-  std::optional<WingEdge> classify(EdgeId e) const {
+  /// `is_hollow` becomes true at a sharp trailing edge of a hole.
+  std::optional<WingEdge> classify(EdgeId e, bool& is_hollow) const {
     const auto surfaces = surfaces_of(e);
     const std::vector<Station> places = stations(e, surfaces);
-    int n_sharp = 0;
+    int n_sharp = 0, n_hollow = 0;
     std::vector<double> radii;
     for (const Station& s : places) {
       n_sharp += s.angle <= kSharpest;
+      n_hollow += s.angle >= 2 * kPi - kSharpest;
       if (!is_smooth(s)) continue;
       const double radius = nose_radius(e, s, surfaces);
       if (radius > 0 && radius <= kNosePerLength * t_.edge_length[e]) radii.push_back(radius);
     }
+    is_hollow |= n_hollow >= kAgreeing;
     if (n_sharp >= kAgreeing) return make(e, WingEdgeKind::kSharpTrailing, places, 0);
     if (static_cast<int>(radii.size()) >= kAgreeing) return make(e, WingEdgeKind::kLeading, places, median(radii));
     return std::nullopt;
@@ -337,7 +347,7 @@ class WingEdgeFinder {
 
   /// Both long edges of a strip, where the faces beyond look away from each other. Where one of them lies on a symmetry
   /// plane, the strip is half a base, and the other edge is there twice.
-  void try_blunt(const Strip& strip, std::vector<std::optional<WingEdge>>& found) const {
+  void try_blunt(const Strip& strip, std::vector<std::optional<WingEdge>>& found) {
     Places places;
     for (std::size_t k = 0; k < 2; ++k) {
       if (!is_candidate(strip.edges[k])) return;
@@ -349,6 +359,7 @@ class WingEdgeFinder {
     const double width = (is_half ? 2 : 1) * median_width(strip);
     if (!is_narrow(strip, width)) return;
     if (is_half) complete(strip, places);
+    has_hollow_ = has_hollow_ || (is_hollow_base(places[0]) && is_hollow_base(places[1]));
     if (count_blunt(strip, places) < kAgreeing || is_rim(strip, places)) return;
     for (std::size_t k = 0; k < (strip.cut_side ? 1 : 2); ++k) {
       if (mirror[k] != kNone) continue;
@@ -384,6 +395,14 @@ class WingEdgeFinder {
       n_agree += is_round || (is_corner(a) && is_corner(b));
     }
     return n_agree;
+  }
+
+  /// Corners along an edge of a hole, not square as those of a groove.
+  static bool is_hollow_base(const std::vector<Station>& places) {
+    return std::ranges::count_if(places, [](const Station& s) {
+             const double angle = 2 * kPi - s.angle;  // of what fills the hole
+             return angle >= kBluntMin && angle <= kBluntMax && std::abs(angle - kPi / 2) >= kSquareRing;
+           }) >= kAgreeing;
   }
 
   /// A ring square to both sides, or hardly smaller than these: the end of a tube, the rim of a disc, a chamfer.
@@ -525,6 +544,7 @@ class WingEdgeFinder {
   bool is_turned_ = false;  // normals point into the material
   std::vector<std::vector<Use>> uses_;
   std::vector<WingEdge> small_;  // of the last search
+  bool has_hollow_ = false;      // likewise
 };
 
 }  // namespace
@@ -542,9 +562,16 @@ const char* name_of(WingEdgeKind kind) {
 
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                                       const Executor& executor, std::vector<WingEdge>* small) {
+  bool has_hollow = false;
+  return find_wing_edges(model, roles, strips, executor, small, has_hollow);
+}
+
+std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
+                                      const Executor& executor, std::vector<WingEdge>* small, bool& has_hollow) {
   WingEdgeFinder finder(model, roles, strips);
   std::vector<WingEdge> found = finder.run(executor);
   if (small) *small = finder.small();
+  has_hollow = finder.has_hollow();
   return found;
 }
 

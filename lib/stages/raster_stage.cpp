@@ -22,6 +22,7 @@
 #include "base/required_unit.h"
 #include "base/share.h"
 #include "features/base_strips.h"
+#include "features/passages.h"
 #include "features/rotor_blades.h"
 #include "features/round_tails.h"
 #include "features/smooth_edges.h"
@@ -161,6 +162,9 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
   return limits;
 }
 
+constexpr const char* kPassageLine =
+    "  taken for the air in a passage, as holes have the profile of a wing; if it is a solid, say so in a file for "
+    "--sizes: size = [{ edges = [...], trailing_edge = false }]";
 constexpr std::size_t kMostUnused = 20;  // lines about trailing edges without a lifting surface
 
 /// What detection found; on rank 0.
@@ -844,9 +848,11 @@ class RasterRun {
     return stored_model(geometry_, o_.geometry);
   }
 
-  void set_limits() {
+  /// Returns whether holes may be vanes: worth a look where no wing is found, or holes lead through.
+  bool find_wings() {
     std::vector<WingEdge> small;
-    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_, &small);
+    bool has_hollow = false;
+    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_, &small, has_hollow);
     std::vector<DeclaredEdge> declared;
     if (comm_.is_root()) {
       declared = declared_edges(rules_, model_.tables(), bases_, wings_.edges);
@@ -859,10 +865,19 @@ class RasterRun {
     wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft, small);
     const std::vector<std::uint8_t> is_excluded = edges_without_wing(model_.tables(), declared);
     add_round_tails(model_, roles_, wings_.edges, is_excluded, wings, trace_);
-    if (comm_.is_root()) {
-      liken_blades(model_, is_excluded, wings, wings_.unused);
-      limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
+    if (comm_.is_root()) liken_blades(model_, is_excluded, wings, wings_.unused);
+    bool may_be_vanes = has_hollow && (wings.empty() || has_through_holes(model_.tables()));
+    share(trace_, may_be_vanes);
+    return may_be_vanes;
+  }
+
+  void set_limits() {
+    if (find_wings() && has_vanes(model_, roles_, bases_, trace_)) {
+      roles_.is_passage = true;
+      if (comm_.is_root()) log_report(kPassageLine);
+      find_wings();
     }
+    if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
     share_limits(trace_, limits_);
     require_places(o_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
@@ -921,7 +936,7 @@ class RasterRun {
   const SizeRuleFile sizes_;
   const std::vector<SizeRule> rules_;
   const Model model_;
-  const FaceRoles roles_;
+  FaceRoles roles_;
   const SamplingLimits wall_;
   const std::vector<Strip> strips_, bases_;  // the latter on rank 0 only
   Wings wings_;                              // rank 0 only

@@ -145,6 +145,12 @@ class WingShapes(ToolTest):
         for station in wing["stations"]:
             self.assertLess(station["nose"][0], station["trailing"][0])
 
+    def test_vanes_in_a_passage_are_lifting_surfaces(self):
+        done = self.raster("vane_passage", "rans")
+        (vane,) = done.json()["lifting_surfaces"]
+        self.assertAlmostEqual(vane["span"], 0.4, delta=0.01)
+        self.assertIn("taken for the air in a passage", done.err)
+
     def test_a_cambered_plate_is_found_or_said(self):
         for name in ("plate_sail", "thick_plate_sail"):
             (self.folder / "geometry.hdf").unlink(missing_ok=True)
