@@ -22,8 +22,8 @@ done
 
 # Of the C and C++ library, which every system has.
 system='^(libc|libm|libdl|librt|libpthread|libstdc\+\+|libgcc_s|ld-linux-x86-64|linux-vdso)\.so'
-# Windows, fonts, pictures and the network.
-stubbed='^(libX11|libfontconfig|libfreetype|libfreeimage|libcurl|libcrypto)\.so'
+# What draws in windows, with their fonts and pictures, and the network.
+stubbed='^(libTKV3d|libTKService|libcurl|libcrypto)\.so'
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -35,7 +35,8 @@ cp -t "$package/lib/st" "$build"/lib/st/*.so  # readers that the import loads
 cp "$source/LICENSE" "$package/licenses/st"
 
 needed() { patchelf --print-needed "$1"; }
-path_of() { ldconfig -p | awk -v name="$1" '$1 == name && /x86-64/ && !n++ {print $NF}'; }
+ldconfig -p > "$work/libraries"
+path_of() { awk -v name="$1" '$1 == name && /x86-64/ && !n++ {print $NF}' "$work/libraries"; }
 
 # A library's folder may be none of the loader's, as that of the serial HDF5.
 found_in() {
@@ -66,15 +67,17 @@ collect() {
 touch "$work/stubbed"
 for file in "$package"/bin/* "$package"/lib/st/*; do collect "$file"; done
 
-# A library of the same name with the functions that the copied ones ask of it.
+# A library of the same name with the functions that the copied ones ask of it, and with its data as zeros.
 make_stub() {
-  local name symbols version
+  local name symbols
   name=$(basename "$1")
-  nm -D --defined-only "$1" | awk '{sub(/@.*/, "", $3); print $3}' | sort -u > "$work/defined"
-  symbols=$(for library in "$package"/lib/*.so* "$package"/lib/st/*; do nm -D --undefined-only "$library"; done |
-    awk '{print $2}' | sort -u |
-    awk -F@ 'NR == FNR {is_there[$1]; next} $1 in is_there' "$work/defined" -)
-  awk -F@ '{print "void " $1 "(void) { __builtin_trap(); }"}' <<< "$symbols" > "$work/stub.c"
+  nm -D -P --defined-only "$1" | awk '{sub(/@.*/, "", $1); print $1, $2, "0x" $4}' | sort -u > "$work/defined"
+  symbols=$(for library in "$package"/lib/*.so* "$package"/lib/st/*; do nm -D -P --undefined-only "$library"; done |
+    awk '{print $1}' | sort -u |
+    awk 'NR == FNR {is_there[$1]; next} {split($1, of, "@")} of[1] in is_there {print $1}' "$work/defined" -)
+  awk 'NR == FNR {kind[$1] = $2; size[$1] = $3; next} {split($1, of, "@")}
+    kind[of[1]] ~ /[VDBRu]/ {print "long " of[1] "[(" size[of[1]] " + 7) / 8] = {0};"; next}
+    {print "void " of[1] "(void) { __builtin_trap(); }"}' "$work/defined" - <<< "$symbols" > "$work/stub.c"
   awk -F@ 'NF > 1 {of[$NF] = of[$NF] " " $1 ";"} END {for (v in of) print v " {" of[v] " };"}' <<< "$symbols" \
     > "$work/stub.map"
   [ -s "$work/stub.map" ] || echo '{ global: *; };' > "$work/stub.map"
@@ -96,10 +99,20 @@ done
 
 hdf5=$(sed -n 's/^ST_HDF5_STATIC:[A-Z]*=\(\/.*\)/\1/p' "$build/CMakeCache.txt")  # linked into the tools
 [ -z "$hdf5" ] || realpath "$hdf5" >> "$work/from"
-# Licences, as Debian's packages have them. A package may know its files in /lib, which is /usr/lib.
+# Licences, as Debian's packages have them, and the texts that these name. A package may know its files in /lib, which
+# is /usr/lib.
 sort -u "$work/from" | while read -r library; do
   owner=$(dpkg-query -S "$library" 2> /dev/null || dpkg-query -S "${library#/usr}") || fail "whose is $library?"
-  cp -L "/usr/share/doc/${owner%%:*}/copyright" "$package/licenses/${owner%%:*}"
+  echo "${owner%%:*}"
+done > "$work/owners"
+printf '%s\n' libcli11-dev libeigen3-dev nlohmann-json3-dev >> "$work/owners"  # headers that are compiled in
+sort -u "$work/owners" | while read -r owner; do
+  cp -L "/usr/share/doc/$owner/copyright" "$package/licenses/$owner" || fail "$owner has no licence in /usr/share/doc"
+done
+texts=$(grep -ohE '/usr/share/common-licenses/[A-Za-z0-9.-]*[A-Za-z0-9]' "$package"/licenses/* | sort -u)
+mkdir "$package/licenses/common"
+for text in $texts; do
+  cp -L "$text" "$package/licenses/common" || fail "there is no $text"
 done
 
 version=$(sed -n 's/^project(st VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")

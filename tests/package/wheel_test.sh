@@ -1,17 +1,19 @@
 #!/bin/bash
-# A wheel installs into a fresh environment, meshes a file of each reader there, and its tools use no library of the
-# system beside those of C and C++.
+# A wheel installs into a fresh environment and meshes a file of each reader there. Its tools use no library of the
+# system beside those of C and C++, and all that is bundled has a licence that was read. Where mmdebstrap is, the same
+# in a bare Debian with Python alone, and with the system's MPI for several ranks.
 # Part of scripts/release.sh, not of the tests of every build.
 # usage: wheel_test.sh SOURCE_DIR BUILD_DIR WHEEL
 set -eu -o pipefail
 build=$2 wheel=$3
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+root=$work/root
+trap 'rm -rf --one-file-system "$work"' EXIT
 failed() { echo "FAILED: $*"; exit 1; }
 
 [ "$(stat -c %s "$wheel")" -le $((70 * 1024 * 1024)) ] || failed "the wheel is larger than 70 MB"
 /usr/bin/python3 -m venv --system-site-packages "$work/venv" > "$work/log" 2>&1 ||
-  { echo "SKIPPED: no python3-venv"; exit 77; }
+  { echo "SKIPPED: no python3-venv; the wheel was NOT TESTED"; exit 77; }
 "$work/venv/bin/pip" install --no-index --no-deps "$wheel" > "$work/log" || { cat "$work/log"; failed "pip"; }
 package=$(echo "$work"/venv/lib/python3*/site-packages/st)
 for tool in "$package"/bin/* "$package"/lib/st/*; do
@@ -23,21 +25,72 @@ done
 for tool in "$package"/bin/*; do
   "$work/venv/bin/$(basename "$tool")" --version > /dev/null || failed "$(basename "$tool") --version"
 done
-ls "$package/licenses/st" "$package"/licenses/libocct-* > /dev/null || failed "licences are missing"
-cd "$work"
-cat > mesh.py << 'EOF'
+[ -s "$package/licenses/common/LGPL-2.1" ] || failed "the text of a licence is missing"
+# None of these is under the GPL.
+judged='st|common|libocct-.*|libopenmpi3|libevent-.*|libhwloc15|libudev1|libtbb.*|libfmt9|zlib1g|libaec0|libsz2'
+judged+='|libhdf5-dev|libcli11-dev|libeigen3-dev|nlohmann-json3-dev'
+unknown=$(find "$package/licenses" -mindepth 1 -maxdepth 1 -printf '%f\n' | grep -vxE "$judged" || true)
+[ -z "$unknown" ] || failed "$unknown is bundled; read its licence, and add it to this test where it is not the GPL"
+
+models=$work/models
+mkdir "$models"
+cp -t "$models" "$build"/test_models/{assembly.step,box.igs,box.step} "$wheel"
+cat > "$models/mesh.py" << 'EOF'
+import shutil
 import sys
 import st
-for model in sys.argv[1:]:
+
+for model in ("assembly.step", "box.igs", "box.step"):
     st.mesh(model, "out")
-mesh = st.read("out/mesh.hdf")
+said = []
+mesh = st.mesh("box.step", preset="rans", progress=said.append)
 assert len(mesh.triangles) > 100 and mesh.quality().min() > 0.3, mesh.quality().min()
+assert any(line.startswith("st-mesh") for line in said), said
 try:
     st.mesh("nothing.step", "out2")
     sys.exit("no error for a file that is not there")
 except st.ToolError as e:
     assert e.code == 3 and "nothing.step" in e.message, e
+try:
+    ranks = st.mesh("box.step", preset="rans", ranks=2)
+    assert (ranks.points == mesh.points).all()
+except st.ToolError as e:
+    assert not shutil.which("mpirun") and "openmpi-bin" in e.message, e
+print("several ranks:", shutil.which("mpirun") or "refused, as there is no mpirun")
 EOF
-models=("$build"/test_models/{assembly.step,box.igs,box.step})
-env -i PATH=/usr/bin:/bin "$work/venv/bin/python" mesh.py "${models[@]}" || failed "st.mesh()"
-echo "$(basename "$wheel"): installs, meshes a box and an assembly"
+cat > "$models/test.sh" << 'EOF'
+set -eu
+cd "$(dirname "$0")"
+"$1/bin/python" -m st box.step
+"$1/bin/st-run" assembly.step --report assembly.html -q
+[ -s assembly.html ]
+"$1/bin/python" mesh.py
+EOF
+env -i PATH=/usr/bin:/bin bash "$models/test.sh" "$work/venv" > "$work/log" 2>&1 ||
+  { cat "$work/log"; failed "meshes"; }
+tail -n 1 "$work/log"
+echo "$(basename "$wheel"): installs, meshes boxes and an assembly"
+
+if [ "$(id -u)" != 0 ] || ! command -v mmdebstrap > /dev/null; then
+  echo "SKIPPED: NOT TESTED in a bare Debian; apt-get install mmdebstrap, and run this as root"
+  exit 0
+fi
+# shellcheck source=/dev/null
+release=$(. /etc/os-release && echo "$VERSION_CODENAME")
+mmdebstrap --quiet --variant=apt --mode=root --skip=check/empty --include=python3-numpy,python3-h5py,python3-venv \
+  "$release" "$root" > "$work/log" 2>&1 || { cat "$work/log"; failed "mmdebstrap"; }
+mkdir "$root/models"
+cp -r "$models/." "$root/models"
+# In a name space of its own, so that nothing stays mounted.
+# shellcheck disable=SC2016
+inside() {
+  unshare --mount bash -c 'mount -t proc proc "$0/proc" && mount --rbind /dev "$0/dev" && mount --rbind /sys "$0/sys" &&
+    exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root sh -c "$1"' "$root" "$1" > "$work/log" 2>&1 ||
+    { cat "$work/log"; failed "$1, in a bare Debian"; }
+}
+inside "python3 -m venv --system-site-packages /venv && /venv/bin/pip install --no-index --no-deps /models/*.whl"
+inside "bash /models/test.sh /venv"
+tail -n 1 "$work/log"
+inside "apt-get update && apt-get install -y --no-install-recommends openmpi-bin && bash /models/test.sh /venv"
+tail -n 1 "$work/log"
+echo "$(basename "$wheel"): does so in a bare Debian $release, too"
