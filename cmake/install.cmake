@@ -21,7 +21,6 @@ install(FILES Makefile.workflow DESTINATION share/st COMPONENT runtime)
 file(GLOB workflow_scripts scripts/workflow_*.sh scripts/run_stage.sh scripts/replace_if_changed.sh
      scripts/nearest_word.sh scripts/make_example.sh)
 install(PROGRAMS ${workflow_scripts} DESTINATION share/st/scripts COMPONENT runtime)
-install(PROGRAMS packaging/st-workflow DESTINATION bin COMPONENT runtime)
 install(TARGETS make_aircraft make_model RUNTIME DESTINATION bin COMPONENT runtime)
 
 # Man pages and completions say what --help says; they are made where there is a Python.
@@ -30,11 +29,9 @@ if(ST_PYTHON)
   set(pages ${CMAKE_BINARY_DIR}/command_pages)
   add_custom_command(OUTPUT ${pages}/made COMMAND ${CMAKE_COMMAND} -E rm -rf ${pages}
                      COMMAND ${ST_PYTHON} -B ${CMAKE_SOURCE_DIR}/scripts/command_pages.py ${CMAKE_BINARY_DIR}/bin ${pages}
-                             ${CMAKE_SOURCE_DIR}/packaging/st-workflow.1
                              ${CMAKE_SOURCE_DIR}/packaging/make_aircraft.1 ${CMAKE_SOURCE_DIR}/packaging/make_model.1
                      COMMAND ${CMAKE_COMMAND} -E touch ${pages}/made
-                     DEPENDS ${tools} scripts/command_pages.py packaging/st-workflow.1
-                             packaging/make_aircraft.1 packaging/make_model.1 VERBATIM)
+                     DEPENDS ${tools} scripts/command_pages.py packaging/make_aircraft.1 packaging/make_model.1 VERBATIM)
   add_custom_target(st_command_pages ALL DEPENDS ${pages}/made)
   install(DIRECTORY ${pages}/man1 DESTINATION share/man COMPONENT runtime)
   install(DIRECTORY ${pages}/bash/ DESTINATION share/bash-completion/completions COMPONENT runtime)

@@ -130,7 +130,7 @@ def write_page(path, text):
 
 
 def main(bin_folder, out, pages):
-    programs = sorted(p for p in Path(bin_folder).glob("st-*") if p.is_file() and p.name != "st-workflow")
+    programs = sorted(p for p in Path(bin_folder).glob("st-*") if p.is_file())
     if not programs:
         sys.exit(f"command_pages: error: no tools in {bin_folder}; build them first")
     for program in programs:

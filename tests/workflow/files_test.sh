@@ -115,7 +115,7 @@ expect "it is cleaned" "$status $(ls -d "$odd" 2> /dev/null || echo gone)" "0 go
 # shellcheck disable=SC2016
 prefix="$work/the tools \$HOME" here="$work/some \$x work/deep"
 mkdir -p "$prefix/bin" "$prefix/share/st/scripts" "$here"
-cp bin/* "$source/packaging/st-workflow" "$prefix/bin"
+cp bin/* "$prefix/bin"
 cp "$source/Makefile.workflow" "$prefix/share/st"
 cp "$source"/scripts/{workflow_*,run_stage,replace_if_changed,nearest_word,make_example}.sh "$prefix/share/st/scripts"
 # shellcheck disable=SC2016
@@ -124,11 +124,11 @@ chmod +x "$prefix/bin/make_aircraft"
 installed() {
   : > "$FAKE_LOG"
   status=0
-  said=$(cd "$here" && "$prefix/bin/st-workflow" "$@" 2>&1) || status=$?
+  said=$(cd "$here" && make -f "$prefix/share/st/Makefile.workflow" "$@" 2>&1) || status=$?
   ran=$(tr '\n' ' ' < "$FAKE_LOG")
 }
 installed MODEL="$work/a.step"
-expect "st-workflow works below folders with blanks and dollars" "$status $ran" "0 $all"
+expect "it works below folders with blanks and dollars" "$status $ran" "0 $all"
 installed
 expect "and meshes its example there" "$status $ran $(ls "$here/out")" "0 $all $(printf 'a\naircraft\nexample')"
 installed
