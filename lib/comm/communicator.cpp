@@ -14,6 +14,7 @@
 
 #include "base/current_work.h"
 #include "base/error.h"
+#include "base/own_program.h"
 #include "base/supervised_program.h"
 #include "base/threads.h"
 #include "comm/mpirun_needs.h"
@@ -280,12 +281,11 @@ std::optional<int> run_under_mpirun(int n, const std::vector<std::string>& argum
   if (n == 1 || launched_ranks() != 0) return std::nullopt;
   require_needs_of_mpirun(n);
   set_launch_environment();
-  char self[4096];
-  const ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-  if (length <= 0)
+  const std::string self = own_program();
+  if (self.empty())
     throw Error(ExitCode::kInternal,
                 "cannot find the path of this program; start it with mpirun -np " + std::to_string(n));
-  std::vector<std::string> words = {"mpirun", "-np", std::to_string(n), std::string(self, length)};
+  std::vector<std::string> words = {"mpirun", "-np", std::to_string(n), self};
   words.insert(words.end(), arguments_without_np.begin(), arguments_without_np.end());
   MpirunReport report;
   ProgramEnd end;

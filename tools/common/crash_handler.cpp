@@ -13,6 +13,7 @@
 
 #include "base/current_work.h"
 #include "base/error.h"
+#include "base/own_program.h"
 #include "io/file/journal.h"
 #include "io/file/temporary_file.h"
 
@@ -32,7 +33,7 @@ char g_alt_stack[kAltStack];  // of the main thread: its own may be what overflo
 
 // What the handler needs to start again, made ready ahead: it may not allocate.
 bool g_may_restart = false, g_parent_restarts = false;
-char g_program[4096];
+std::string g_program;
 std::string g_tries;  // an entry of the environment
 char** g_argv = nullptr;
 std::vector<char*> g_environment;
@@ -57,7 +58,7 @@ void start_again(const char* work, int signal) {
   sigemptyset(&crash);
   sigaddset(&crash, signal);
   pthread_sigmask(SIG_UNBLOCK, &crash, nullptr);  // the mask would stay
-  execve(g_program, g_argv, g_environment.data());
+  execve(g_program.c_str(), g_argv, g_environment.data());
 }
 
 extern "C" void end_on_crash(int signal) {
@@ -115,8 +116,8 @@ void watch_late_work() {
 }
 
 void restart_after_crashes(char** argv) {
-  const ssize_t length = readlink("/proc/self/exe", g_program, sizeof g_program - 1);
-  if (length <= 0) return;
+  g_program = own_program();
+  if (g_program.empty()) return;
   if (n_tries() >= kMostTries) return;
   const std::string name = std::string(kVariable) + "=";
   g_tries = name + std::to_string(n_tries() + 1);

@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/own_program.h"
 #include "base/threads.h"
 #include "io/file/json_text.h"
 #include "io/file/output_files.h"
@@ -29,8 +30,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The child: becomes st-run, with its output in these files. `words`: made before the fork.
-[[noreturn]] void become(std::vector<char*> words, const std::string& said, const std::string& log) {
+/// The child: becomes st-run, with its output in these files. `program`, `words`: made before the fork.
+[[noreturn]] void become(const std::string& program, std::vector<char*> words, const std::string& said,
+                         const std::string& log) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   const auto send = [](int stream, const std::string& path) {
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -38,7 +40,8 @@ namespace fs = std::filesystem;
   };
   send(STDOUT_FILENO, said);
   send(STDERR_FILENO, log);
-  execv("/proc/self/exe", words.data());
+  execv("/proc/self/exe", words.data());  // this very file, where a newer one has its name by now
+  execv(program.c_str(), words.data());
   _exit(127);
 }
 
@@ -118,11 +121,11 @@ Campaign::Job Campaign::start(std::size_t model) const {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
-  const std::string said = at + "/said.json", log = at + "/log.txt";
+  const std::string said = at + "/said.json", log = at + "/log.txt", program = own_program();
   Job job;
   job.model = model;
   job.process = fork();
-  if (job.process == 0) become(argv, said, log);
+  if (job.process == 0) become(program, argv, said, log);
   if (job.process < 0)
     throw Error(ExitCode::kInternal, std::string("fork: ") + std::strerror(errno) + "; end some processes");
   return job;

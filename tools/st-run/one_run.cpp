@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/own_program.h"
 #include "base/progress.h"
 #include "base/supervised_program.h"
 #include "common/crash_handler.h"
@@ -112,7 +113,7 @@ void OneRun::prepare(const ToolMain& tool) {
 }
 
 StageSummary OneRun::run_ranks(RunPart part, const std::vector<std::string>& inputs, const std::string& output) const {
-  std::vector<std::string> words{fs::read_symlink("/proc/self/exe").parent_path() / tool_of(part)};
+  std::vector<std::string> words{fs::path(own_program()).parent_path() / tool_of(part)};
   words.insert(words.end(), inputs.begin(), inputs.end());
   words.insert(words.end(), {"-o", output});
   words.insert(words.end(), of_ranks_.begin(), of_ranks_.end());

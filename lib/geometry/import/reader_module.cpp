@@ -1,28 +1,21 @@
 #include "geometry/import/reader_module.h"
 
 #include <dlfcn.h>
-#include <sys/auxv.h>
 
 #include <filesystem>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/own_program.h"
 
 namespace st::occt {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The program's file; where no /proc is mounted, as it was started.
-fs::path own_program() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  return error ? fs::weakly_canonical(reinterpret_cast<const char*>(getauxval(AT_EXECFN)), error) : program;
-}
-
 /// Beside the folder of the program, or beside the folder that this one is in: tests have folders of their own.
 fs::path place_of(const std::string& module) {
-  const fs::path file = fs::path("lib") / "st" / (module + ".so"), bin = own_program().parent_path();
+  const fs::path file = fs::path("lib") / "st" / (module + ".so"), bin = fs::path(own_program()).parent_path();
   const fs::path usual = bin.parent_path() / file, further = bin.parent_path().parent_path() / file;
   std::error_code error;
   return !fs::exists(usual, error) && fs::exists(further, error) ? further : usual;
