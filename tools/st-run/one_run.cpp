@@ -17,6 +17,7 @@
 #include "common/stage_options.h"
 #include "io/file/output_files.h"
 #include "io/file/text_file.h"
+#include "io/hdf5/kept_listings.h"
 
 namespace st {
 namespace {
@@ -98,6 +99,7 @@ void OneRun::prepare(const ToolMain& tool) {
     if (!tool.is_set("--output")) options.output = options.keep + "/" + options.output;
   }
   require_run_outputs(options);
+  keep_listings();
   if (options.keep.empty()) {
     const fs::path beside = fs::path(options.output).parent_path();
     folder_.emplace(beside.empty() ? "." : beside.string());

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "io/foreign/cell_file.h"
 #include "io/foreign/triangulation_file.h"
+#include "io/hdf5/hdf5_listing.h"
 #include "io/hdf5/hdf5_open.h"
 
 namespace st {
@@ -124,6 +125,7 @@ class VtkhdfParser {
 }  // namespace
 
 bool is_foreign_vtkhdf(const std::string& path) {
+  if (kept_listing(path)) return false;
   const hid_t file = open_hdf5(path);
   if (file < 0) return false;
   const bool is_foreign = H5Lexists(file, "/st", H5P_DEFAULT) <= 0 && H5Lexists(file, "/VTKHDF", H5P_DEFAULT) > 0;

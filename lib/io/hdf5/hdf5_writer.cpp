@@ -16,7 +16,7 @@
 #include "io/file/json_text.h"
 #include "io/file/row_file.h"
 #include "io/file/temporary_file.h"
-#include "io/hdf5/hdf5_handles.h"
+#include "io/hdf5/hdf5_listing.h"
 
 namespace st {
 namespace {
@@ -63,7 +63,9 @@ struct Hdf5Writer::Impl {
   TemporaryFile temporary;
   File file;
   std::map<std::string, Group> groups;
+  ArtifactHeader header;
   std::vector<DatasetInfo> datasets;
+  std::map<std::string, DatasetPlace> places;
   std::map<AttributeKey, AttributeValue> attributes;
 
   [[noreturn]] void fail(const std::string& what) const {
@@ -147,6 +149,7 @@ Dataset Hdf5Writer::Impl::create_dataset(const std::string& name, hid_t type, hi
   if (H5Tis_variable_str(type) <= 0) H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);  // refused for variable length
   Dataset dataset(H5Dcreate2(file, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT));
   require(dataset.is_valid(), name);
+  places[name] = place_of(dataset, type);
   return dataset;
 }
 
@@ -164,6 +167,7 @@ void Hdf5Writer::Impl::finish_dataset(hid_t dataset, DatasetInfo info) {
 Hdf5Writer::Hdf5Writer(const std::string& path, const ArtifactHeader& header) {
   silence_hdf5();
   impl_ = std::make_unique<Impl>(path);
+  impl_->header = header;
   const Properties creation(H5Pcreate(H5P_FILE_CREATE)), access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_obj_track_times(creation, false);
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);  // its metadata carries checksums of its own
@@ -360,6 +364,9 @@ std::string Hdf5Writer::commit() {
   impl_->require(H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) >= 0, "the file");
   impl_->require(impl_->file.reset(), "the file");
   impl_->temporary.commit(Content::kArtifact);
+  impl_->header.content_hash = hash;
+  keep_listing({impl_->temporary.path(), 0, std::move(impl_->header), std::move(impl_->datasets),
+                std::move(impl_->places), std::move(impl_->attributes)});
   return hash;
 }
 
