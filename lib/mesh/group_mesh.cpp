@@ -1,5 +1,7 @@
 #include "mesh/group_mesh.h"
 
+#include <set>
+
 namespace st {
 namespace {
 
@@ -49,6 +51,8 @@ SurfaceMesh mesh_of_triangles(const SurfaceMesh& mesh, std::span<const TriangleI
   }
   part.labels = mesh.labels;
   part.merged = mesh.merged;
+  const std::set<FaceId> faces(part.triangle_face.begin(), part.triangle_face.end());
+  std::erase_if(part.merged.pairs, [&](const FacePair& p) { return !faces.contains(p.a) || !faces.contains(p.b); });
   return part;
 }
 

@@ -12,7 +12,8 @@ namespace st {
 std::vector<std::vector<TriangleId>> triangles_by_group(const SurfaceMesh& mesh);
 
 /// Some triangles (ascending, each once) with the nodes that they use, both in their order, and the segments between
-/// these. Labels keep all they have, so that numbers of faces and groups stay. Linear time.
+/// these. Labels keep all they have, so that numbers of faces and groups stay. Periodic pairs with a face that has no
+/// triangle here are left out. n log n.
 SurfaceMesh mesh_of_triangles(const SurfaceMesh& mesh, std::span<const TriangleId> triangles);
 
 }  // namespace st

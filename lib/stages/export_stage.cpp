@@ -99,6 +99,7 @@ std::string change_unit(const ExportStageOptions& o, MeshArtifact& artifact, Add
     if (v.name == "deviation")
       for (float& value : v.of_triangle) value *= static_cast<float>(factor);
   for (double& size : artifact.mesh.node_size) size *= factor;
+  for (FacePair& pair : artifact.mesh.merged.pairs) pair.motion.translation = factor * pair.motion.translation;
   return o.unit;
 }
 

@@ -1,7 +1,8 @@
 // read_cgns FILE: what the CGNS library itself reads of a surface mesh, as JSON: unit, families with their conditions,
-// sections, boundaries, area of each section.
+// sections, boundaries, area of each section, periodic connections.
 #include <cgnslib.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -102,6 +103,48 @@ nlohmann::json boundaries(int file) {
   return all;
 }
 
+/// Largest distance of a node's image, by the motion, from its donor; nodes of each connection.
+nlohmann::json connections(int file, const std::array<std::vector<double>, 3>& x) {
+  nlohmann::json all = nlohmann::json::array();
+  int n_connections = 0;
+  require(cg_nconns(file, kBase, kZone, &n_connections));
+  for (int c = 1; c <= n_connections; ++c) {
+    char name[33], donor[33];
+    CGNS_ENUMT(GridLocation_t) location;
+    CGNS_ENUMT(GridConnectivityType_t) type;
+    CGNS_ENUMT(PointSetType_t) set, donor_set;
+    CGNS_ENUMT(ZoneType_t) zone_type;
+    CGNS_ENUMT(DataType_t) donor_type;
+    cgsize_t n, n_donors;
+    require(cg_conn_info(file, kBase, kZone, c, name, &location, &type, &set, &n, donor, &zone_type, &donor_set,
+                         &donor_type, &n_donors));
+    std::vector<cgsize_t> own(static_cast<std::size_t>(n)), other(static_cast<std::size_t>(n_donors));
+    require(cg_conn_read(file, kBase, kZone, c, own.data(), CGNS_ENUMV(LongInteger), other.data()));
+    float center[3], angle[3], translation[3];
+    require(cg_conn_periodic_read(file, kBase, kZone, c, center, angle, translation));
+    double most = 0;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      double p[3];
+      for (int k = 0; k < 3; ++k) p[k] = x[k][own[i] - 1] - center[k];
+      for (int k = 0; k < 3; ++k) {  // about x, then y, then z
+        double &u = p[(k + 1) % 3], &v = p[(k + 2) % 3];
+        const double turned = std::cos(angle[k]) * u - std::sin(angle[k]) * v;
+        v = std::sin(angle[k]) * u + std::cos(angle[k]) * v;
+        u = turned;
+      }
+      for (int k = 0; k < 3; ++k) p[k] += center[k] + translation[k] - x[k][other[i] - 1];
+      most = std::max(most, std::hypot(p[0], p[1], p[2]));
+    }
+    all.push_back({{"name", name},
+                   {"type", cg_GridConnectivityTypeName(type)},
+                   {"location", cg_GridLocationName(location)},
+                   {"nodes", n},
+                   {"donors", n_donors},
+                   {"apart", most}});
+  }
+  return all;
+}
+
 std::string unit(int file) {
   CGNS_ENUMT(MassUnits_t) mass;
   CGNS_ENUMT(LengthUnits_t) length;
@@ -122,9 +165,13 @@ int main(int argc, char** argv) {
   cgsize_t size[3];
   require(cg_zone_read(file, kBase, kZone, name, size));
   const auto x = coordinates(file, size[0]);
-  const nlohmann::json result = {
-      {"nodes", size[0]},           {"elements", size[1]},           {"unit", unit(file)},
-      {"families", families(file)}, {"sections", sections(file, x)}, {"boundaries", boundaries(file)}};
+  const nlohmann::json result = {{"nodes", size[0]},
+                                 {"elements", size[1]},
+                                 {"unit", unit(file)},
+                                 {"families", families(file)},
+                                 {"sections", sections(file, x)},
+                                 {"boundaries", boundaries(file)},
+                                 {"connections", connections(file, x)}};
   std::printf("%s\n", result.dump().c_str());
   require(cg_close(file));
 }

@@ -370,6 +370,66 @@ class Exports(unittest.TestCase):
                 self.assertGreater(int(head.split()[0]), len(self.triangles))
 
 
+class Pairs(unittest.TestCase):
+    """A passage whose sides are images of one another, 33 mm apart."""
+    STEP = 0.033
+
+    @classmethod
+    def setUpClass(cls):
+        WORK.mkdir(parents=True, exist_ok=True)
+        run("make_model", "cascade", WORK / "cascade.step")
+        run("st-import", WORK / "cascade.step", "-o", WORK / "pairs_geometry.hdf", "-q")
+        run("st-raster", WORK / "pairs_geometry.hdf", "-o", WORK / "raster.hdf", "-q")
+        run("st-prolong", WORK / "raster.hdf", "-o", WORK / "sizing.hdf", "-q", "--scale", "3")
+        run("st-mesh", WORK / "pairs_geometry.hdf", WORK / "sizing.hdf", "-o", WORK / "patches.hdf", "-q", "--pairs",
+            "auto")
+        run("st-merge", WORK / "patches.hdf", "-o", WORK / "pairs.hdf", "-q")
+
+    @unittest.skipUnless(READ_CGNS, "SKIPPED: no libcgns-dev")
+    def test_the_cgns_library_finds_each_node_on_the_other_side(self):
+        for options, unit in [((), 1), (("--unit", "mm"), 1000),
+                              (("--quadratic", "--geometry", WORK / "pairs_geometry.hdf"), 1)]:
+            with self.subTest(options):
+                path = export("cgns", *options, mesh="pairs")
+                links = read_cgns(path)["connections"]
+                self.assertEqual(len(links), 4)  # inlet and outlet are images, too
+                for link in links:
+                    self.assertEqual((link["type"], link["location"]), ("Abutting1to1", "Vertex"))
+                    self.assertGreater(link["nodes"], 10)
+                    self.assertEqual(link["nodes"], link["donors"])
+                    self.assertLess(link["apart"], 1e-5 * self.STEP * unit)
+                if shutil.which("cgnscheck"):
+                    done = subprocess.run(["cgnscheck", path], capture_output=True, text=True)
+                    self.assertEqual([line for line in done.stdout.split("\n") if "WARNING" in line or "ERROR" in line],
+                                     [])
+
+    def test_su2s_line_takes_one_marker_to_the_other(self):
+        for options, unit in [((), 1), (("--unit", "mm"), 1000)]:
+            text = export("su2", *options, mesh="pairs").read_text()
+            fields = re.match(r"% MARKER_PERIODIC= \( (.*) \)\n", text).group(1).split(", ")
+            points = re.search(r"NPOIN= \d+\n(.*?)NMARK", text, re.S).group(1).split()
+            points = numpy.array(points, dtype=float).reshape(-1, 4)[:, :3]
+            sides = []
+            for name in fields[:2]:
+                marker = re.search(rf"MARKER_TAG= {name}\nMARKER_ELEMS= \d+\n([\d \n]*)", text).group(1)
+                nodes = numpy.unique([line.split()[1:] for line in marker.strip().split("\n")])
+                sides.append(points[nodes.astype(int)])
+            self.assertEqual(fields[2:8], ["0"] * 6)
+            a, b = sides[0] + numpy.array(fields[8:], dtype=float), sides[1]
+            self.assertEqual(len(a), len(b))
+            apart = max(numpy.linalg.norm(b - x, axis=1).min() for x in a)
+            self.assertLess(apart, 1e-9 * self.STEP * unit)
+
+    @unittest.skipUnless(shutil.which("gmsh"), "SKIPPED: no gmsh; install Debian's package")
+    def test_gmsh_reads_a_side_alone(self):
+        run("st-export", WORK / "pairs.hdf", "-o", WORK / "side.msh", "-q", "--split-groups")
+        sides = list(WORK.glob("side_periodic_*.msh"))
+        self.assertEqual(len(sides), 2)
+        for side in sides:
+            self.assertNotIn("$Periodic", side.read_text())
+            through_gmsh(side)
+
+
 class ManyGroups(unittest.TestCase):
     """500 groups, with blanks, quotes, umlauts, other scripts, and names longer than CGNS has room for."""
     N = 500

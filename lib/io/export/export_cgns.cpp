@@ -6,7 +6,9 @@
 
 #include "base/face_labels.h"
 #include "io/export/export_formats.h"
+#include "io/export/periodic_motion.h"
 #include "io/hdf5/cgns_tree.h"
+#include "mesh/pair_match.h"
 
 namespace st {
 namespace {
@@ -42,7 +44,21 @@ std::string node_name(const std::string& group) {
 const char* boundary_type(const FaceLabels& labels, std::size_t group) {
   const std::string role =
       group < labels.group_role.size() ? labels.group_role[group] : role_of_name(labels.group_name[group]);
+  if (role == "periodic") return "UserDefined";  // no condition of the SIDS: the connectivity says it
   return role == "farfield" ? "BCFarfield" : role == "symmetry" ? "BCSymmetryPlane" : "BCWall";
+}
+
+/// Says that data of `node` and below have units; names of these for length and angle.
+void add_units(CgnsTree& tree, CgnsTree::Node node, const std::string& length, const std::string& angle) {
+  tree.add_text(node, "DataClass", "DataClass_t", "Dimensional");
+  std::string units;
+  for (const std::string& quantity :
+       {std::string("Null"), length, std::string("Null"), std::string("Null"), angle}) {  // mass, -, time, temperature,
+                                                                                          // -
+    units += quantity;
+    units.resize((units.size() + kMaxName - 1) / kMaxName * kMaxName, ' ');
+  }
+  tree.add_text(node, "DimensionalUnits", "DimensionalUnits_t", units, {5, kMaxName});
 }
 
 /// The unit of length, where CGNS has a name for it; false: it has not.
@@ -51,14 +67,7 @@ bool add_unit(CgnsTree& tree, CgnsTree::Node base, const std::string& unit) {
       {"m", "Meter"}, {"cm", "Centimeter"}, {"mm", "Millimeter"}, {"ft", "Foot"}, {"in", "Inch"}};
   const auto name = names.find(unit);
   if (name == names.end()) return false;
-  tree.add_text(base, "DataClass", "DataClass_t", "Dimensional");
-  std::string units;
-  for (const std::string& quantity : {std::string("Null"), name->second, std::string("Null"), std::string("Null"),
-                                      std::string("Null")}) {  // mass, length, time, temperature, angle
-    units += quantity;
-    units.resize((units.size() + kMaxName - 1) / kMaxName * kMaxName, ' ');
-  }
-  tree.add_text(base, "DimensionalUnits", "DimensionalUnits_t", units, {5, kMaxName});
+  add_units(tree, base, name->second, "Null");
   return true;
 }
 
@@ -76,7 +85,7 @@ void add_coordinates(CgnsTree& tree, CgnsTree::Node zone, const ExportTask& task
 /// Names of what belongs to each group.
 struct GroupNames {
   std::vector<std::string> family;
-  std::set<std::string> used_in_zone = {"ZoneType", "GridCoordinates", "ZoneBC"};
+  std::set<std::string> used_in_zone = {"ZoneType", "GridCoordinates", "ZoneBC", "ZoneGridConnectivity"};
 };
 
 /// The elements of one kind of one group as a section, numbered on from `next`.
@@ -101,6 +110,80 @@ void add_families(CgnsTree& tree, CgnsTree::Node base, const FaceLabels& labels,
     tree.add_text(family, "FamBC", "FamilyBC_t", boundary_type(labels, g));
     if (names.family[g] != labels.group_name[g])
       tree.add_text(family, "FullName", "Descriptor_t", labels.group_name[g]);
+  }
+}
+
+using NodePairs = std::vector<std::pair<std::int32_t, std::int32_t>>;
+
+/// Nodes of both faces from 1, those on the sides of curved elements too: of face a, of face b.
+NodePairs paired_nodes(const ExportTask& task, const FacePair& pair) {
+  const SurfaceMesh& m = task.mesh;
+  std::map<std::int64_t, std::int64_t> partner;
+  for (const auto& [a, b] : match_pair(m, pair, pair_tolerance(m)).nodes) partner[a] = b;
+  const std::map<std::int64_t, std::int64_t> corners = partner;
+  const auto image = [&](std::int64_t n) { return static_cast<NodeId>(corners.contains(n) ? corners.at(n) : kNone); };
+  for (std::int64_t i = 0; !task.mid_nodes.empty() && i < task.n_elements(); ++i) {
+    if (m.triangle_face[task.triangle_of(i)] != pair.a) continue;
+    const std::vector<std::int64_t> nodes = task.nodes_of(i);
+    const std::size_t n = nodes.size() / 2;
+    for (std::size_t k = 0; k < n; ++k) {
+      const NodeId from = image(nodes[k]), to = image(nodes[(k + 1) % n]);
+      const std::int64_t middle =
+          from == kNone || to == kNone ? task.mid_nodes.size() : task.mid_nodes.between(from, to);
+      if (middle < task.mid_nodes.size() &&
+          task.mid_nodes.ends[middle] == std::array{std::min(from, to), std::max(from, to)})
+        partner[nodes[n + k]] = m.n_nodes() + middle;
+    }
+  }
+  NodePairs all;
+  for (const auto& [a, b] : partner)
+    all.emplace_back(static_cast<std::int32_t>(a) + 1, static_cast<std::int32_t>(b) + 1);
+  return all;
+}
+
+/// From the current interface to the connecting one, as the SIDS have it. R4: the CGNS library opens no file with R8.
+void add_motion(CgnsTree& tree, CgnsTree::Node link, const Similarity& motion, bool has_unit) {
+  const CgnsTree::Node periodic =
+      tree.add(tree.add(link, "GridConnectivityProperty", "GridConnectivityProperty_t"), "Periodic", "Periodic_t");
+  const auto add = [&](const char* name, Vec3 v) {
+    const std::vector<float> values{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+    return tree.add_single_reals(periodic, name, "DataArray_t", values);
+  };
+  const PeriodicMotion p = periodic_motion(motion);
+  const CgnsTree::Node center = add("RotationCenter", p.center), angle = add("RotationAngle", p.turns),
+                       translation = add("Translation", p.translation);
+  add_units(tree, angle, "Null", "Radian");
+  tree.add_reals(angle, "DimensionalExponents", "DimensionalExponents_t", {0, 0, 0, 0, 1});
+  if (!has_unit) return;
+  for (const CgnsTree::Node length : {center, translation})
+    tree.add_reals(length, "DimensionalExponents", "DimensionalExponents_t", {0, 1, 0, 0, 0});
+}
+
+/// Both ways of each periodic pair that is in the mesh: the nodes of one face, their images on the other, the motion.
+void add_pairs(CgnsTree& tree, CgnsTree::Node zone, const ExportTask& task, bool has_unit) {
+  if (task.mesh.merged.pairs.empty()) return;
+  const CgnsTree::Node all = tree.add(zone, "ZoneGridConnectivity", "ZoneGridConnectivity_t");
+  const auto add = [&](const FacePair& pair, const NodePairs& nodes) {
+    const std::string name = "face " + std::to_string(pair.a + 1) + " to " + std::to_string(pair.b + 1);
+    const CgnsTree::Node link = tree.add_text(all, name, "GridConnectivity_t", "Zone");
+    tree.add_text(link, "GridConnectivityType", "GridConnectivityType_t", "Abutting1to1");
+    tree.add_text(link, "GridLocation", "GridLocation_t", "Vertex");
+    std::vector<std::int32_t> own, donor;
+    for (const auto& [a, b] : nodes) {
+      own.push_back(a);
+      donor.push_back(b);
+    }
+    tree.add_integers(link, "PointList", "IndexArray_t", own, {own.size(), 1});
+    tree.add_integers(link, "PointListDonor", "IndexArray_t", donor, {donor.size(), 1});
+    add_motion(tree, link, pair.motion, has_unit);
+  };
+  for (const FacePair& pair : task.mesh.merged.pairs) {
+    NodePairs nodes = paired_nodes(task, pair);
+    if (nodes.empty()) continue;
+    add(pair, nodes);
+    for (auto& [a, b] : nodes) std::swap(a, b);
+    std::sort(nodes.begin(), nodes.end());
+    add({pair.b, pair.a, pair.motion.inverse()}, nodes);
   }
 }
 
@@ -142,6 +225,7 @@ void export_cgns(Output& out, const ExportTask& task) {
     tree.add_integers(boundary, "PointRange", "IndexRange_t", {range[g][0], range[g][1]}, {2, 1});
     tree.add_text(boundary, "GridLocation", "GridLocation_t", "CellCenter");
   }
+  add_pairs(tree, zone, task, has_unit);
   const std::string bytes = tree.bytes();
   out.bytes(bytes.data(), bytes.size());
 }

@@ -3,12 +3,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "base/face_labels.h"
 #include "base/log.h"
 #include "io/export/export.h"
 #include "io/export/export_formats.h"
 #include "io/export/hole_points.h"
+#include "io/export/periodic_motion.h"
+#include "mesh/pair_match.h"
 
 namespace st {
 namespace {
@@ -101,18 +106,85 @@ void export_mapbc(Output& out, const ExportTask& task) {
   text.flush();
 }
 
+namespace {
+
+/// Pairs of faces by group of face a, of face b; all pairs of the same two groups go the way of the first.
+using PairsOfGroups = std::map<std::pair<std::int32_t, std::int32_t>, std::vector<FacePair>>;
+
+/// Group of each face that has triangles.
+std::map<FaceId, std::int32_t> groups_of_faces(const SurfaceMesh& m) {
+  std::map<FaceId, std::int32_t> group;
+  for (std::size_t t = 0; t < m.triangles.size(); ++t) group[m.triangle_face[t]] = m.triangle_group[t];
+  return group;
+}
+
+PairsOfGroups pairs_of_groups(const SurfaceMesh& m, const std::map<FaceId, std::int32_t>& group_of) {
+  PairsOfGroups all;
+  for (const FacePair& p : m.merged.pairs) {
+    if (!group_of.contains(p.a) || !group_of.contains(p.b)) continue;
+    const std::int32_t from = group_of.at(p.a), to = group_of.at(p.b);
+    if (from != to && all.contains({to, from}))
+      all[{to, from}].push_back({p.b, p.a, p.motion.inverse()});
+    else
+      all[{from, to}].push_back(p);
+  }
+  return all;
+}
+
+/// Why the groups of these pairs are no periodic markers of SU2, which are whole groups with one motion; empty: they
+/// are.
+std::string why_no_markers(const SurfaceMesh& m, const std::map<FaceId, std::int32_t>& group_of,
+                           const std::vector<FacePair>& pairs) {
+  const std::int32_t from = group_of.at(pairs[0].a), to = group_of.at(pairs[0].b);
+  const auto has_others = [&](std::int32_t group) {
+    const auto n = std::count_if(group_of.begin(), group_of.end(), [&](const auto& f) { return f.second == group; });
+    return static_cast<std::size_t>(n) != pairs.size();
+  };
+  if (from == to || has_others(from) || has_others(to)) return "other faces are in them";
+  Box3 box;
+  for (const Vec3& x : m.node_xyz) box.add(x);
+  for (const FacePair& p : pairs)
+    for (const Vec3 x : {box.lo, Vec3{box.hi.x, box.lo.y, box.lo.z}, Vec3{box.lo.x, box.hi.y, box.lo.z}, box.hi})
+      if (distance(p.motion(x), pairs[0].motion(x)) > pair_tolerance(box)) return "their faces move in several ways";
+  // SU2 goes back with opposite turns in the same order.
+  return periodic_motion(pairs[0].motion).has_own_axis ? "" : "their axis is not along x, y or z";
+}
+
+/// The lines that SU2's configuration needs for periodic pairs, as comments: a mesh has no place for them. Angles in
+/// degrees; each line from the first marker to the second, SU2 goes back by itself.
+void write_periodic_markers(TextBuffer& text, const SurfaceMesh& m, const std::vector<std::string>& words) {
+  if (m.merged.pairs.empty()) return;
+  const std::map<FaceId, std::int32_t> group_of = groups_of_faces(m);
+  for (const auto& [groups, pairs] : pairs_of_groups(m, group_of)) {
+    const auto [from, to] = groups;
+    if (const std::string why = why_no_markers(m, group_of, pairs); !why.empty()) {
+      text << "% " << words[from] << " and " << words[to] << " are no periodic markers: " << why << "\n";
+      continue;
+    }
+    text << "% MARKER_PERIODIC= ( " << words[from] << ", " << words[to];
+    const PeriodicMotion p = periodic_motion(pairs[0].motion);
+    const Vec3 turns{degrees(p.turns.x), degrees(p.turns.y), degrees(p.turns.z)};
+    for (const Vec3 v : {p.center, turns, p.translation})
+      for (const double x : {v.x, v.y, v.z}) text << ", " << x + 0.0;  // no -0
+    text << " )\n";
+  }
+}
+
+}  // namespace
+
 /// SU2: the elements, and again as boundary elements in the marker of their group.
 void export_su2(Output& out, const ExportTask& task) {
   TextBuffer text(out);
   const auto element = [&](std::int64_t i) -> TextBuffer& {  // VTK's numbers of the two kinds
     return write_corners(text << (i < task.n_triangles() ? "5 " : "9 "), task, i, 0);
   };
+  const std::vector<std::string> words = group_words(task.mesh);
+  write_periodic_markers(text, task.mesh, words);
   text << "NDIME= 3\nNELEM= " << task.n_elements() << "\n";
   for (std::int64_t i = 0; i < task.n_elements(); ++i) element(i) << " " << i << "\n";
   text << "NPOIN= " << task.n_nodes() << "\n";
   std::int64_t number = 0;
   for (const Vec3& p : task.mesh.node_xyz) text << p.x << " " << p.y << " " << p.z << " " << number++ << "\n";
-  const std::vector<std::string> words = group_words(task.mesh);
   const std::vector<std::vector<std::int64_t>> of_group = elements_by_group(task);
   text << "NMARK= " << static_cast<std::int64_t>(words.size()) << "\n";
   for (std::size_t g = 0; g < words.size(); ++g) {

@@ -148,6 +148,13 @@ CgnsTree::Node CgnsTree::add_reals(Node parent, const std::string& name, const s
   return node;
 }
 
+CgnsTree::Node CgnsTree::add_single_reals(Node parent, const std::string& name, const std::string& label,
+                                          const std::vector<float>& values) {
+  const Node node = impl_->create(parent, name, label, "R4");
+  write_data(impl_->groups[static_cast<std::size_t>(node)], " data", H5T_IEEE_F32LE, values.data(), {values.size()});
+  return node;
+}
+
 std::string CgnsTree::bytes() {
   if (H5Fflush(impl_->file, H5F_SCOPE_GLOBAL) < 0) fail("the file");
   const ssize_t size = H5Fget_file_image(impl_->file, nullptr, 0);

@@ -29,6 +29,9 @@ class CgnsTree {
   Node add_integers(Node parent, const std::string& name, const std::string& label,
                     const std::vector<std::int32_t>& values, std::vector<std::uint64_t> shape = {});
   Node add_reals(Node parent, const std::string& name, const std::string& label, const std::vector<double>& values);
+  /// In single precision (R4), where the mapping takes no other.
+  Node add_single_reals(Node parent, const std::string& name, const std::string& label,
+                        const std::vector<float>& values);
 
   /// The bytes of the file. Nothing may be added afterwards.
   std::string bytes();

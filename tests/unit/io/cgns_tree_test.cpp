@@ -22,6 +22,19 @@ TEST(CgnsTree, is_an_hdf5_file_of_equal_bytes_for_equal_nodes) {
   EXPECT_NE(small_tree(1), small_tree(3));
 }
 
+TEST(CgnsTree, says_that_single_reals_are_such) {
+  const auto bytes_with = [](bool is_single) {
+    CgnsTree tree;
+    if (is_single)
+      tree.add_single_reals(tree.root(), "X", "DataArray_t", {1, 2});
+    else
+      tree.add_reals(tree.root(), "X", "DataArray_t", {1, 2});
+    return tree.bytes();
+  };
+  EXPECT_EQ(bytes_with(true).find("R8"), std::string::npos);
+  EXPECT_NE(bytes_with(false).find("R8"), std::string::npos);
+}
+
 TEST(CgnsTree, refuses_two_siblings_of_one_name) {
   CgnsTree tree;
   tree.add(tree.root(), "Base", "CGNSBase_t");

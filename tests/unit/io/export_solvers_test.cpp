@@ -52,6 +52,56 @@ TEST(ExportSolvers, binary_ugrid_has_both_byte_orders) {
   EXPECT_EQ(little.substr(0, 8), std::string("\5\0\0\0\3\0\0\0", 8));
 }
 
+/// Faces 0 and 1 are a periodic pair.
+SurfaceMesh with_pair(const Similarity& motion) {
+  SurfaceMesh m = three_triangles();
+  m.merged.pairs = {{0, 1, motion}};
+  return m;
+}
+
+TEST(ExportSolvers, su2_has_lines_for_periodic_markers) {
+  TemporaryDirectory dir;
+  const auto first_line = [&](const SurfaceMesh& m) {
+    export_mesh(dir / "m.su2", m);
+    return read_bytes(dir / "m.su2").substr(0, read_bytes(dir / "m.su2").find('\n'));
+  };
+  SurfaceMesh m = with_pair(rotation_about({1, 0, 0}, kPi / 2).about({7, 2, 1}));
+  const std::string start = "% MARKER_PERIODIC= ( a_b, a_b_2, ", turned = first_line(m);
+  ASSERT_TRUE(turned.starts_with(start)) << turned;
+  std::istringstream numbers(turned.substr(start.size()));
+  for (const double expected : {0, 2, 1, 90, 0, 0, 0, 0, 0}) {  // centre on the axis, degrees, along the axis
+    double value = 1e9;
+    char comma = 0;
+    numbers >> value >> comma;
+    EXPECT_NEAR(value, expected, 1e-12) << turned;
+  }
+  std::swap(m.merged.pairs[0].a, m.merged.pairs[0].b);
+  EXPECT_TRUE(first_line(m).starts_with("% MARKER_PERIODIC= ( a_b_2, a_b, ")) << "the other way";
+  m.merged.pairs = {{0, 1, {.translation = {0, 0, 1}}}};
+  EXPECT_EQ(first_line(m), "% MARKER_PERIODIC= ( a_b, a_b_2, 0, 0, 0, 0, 0, 0, 0, 0, 1 )");
+  m.triangle_group[2] = 0;
+  EXPECT_EQ(first_line(m), "% a_b and a_b_2 are no periodic markers: other faces are in them");
+  EXPECT_EQ(first_line(with_pair(rotation_about({0, 0.6, 0.8}, 1))),
+            "% a_b and a_b_2 are no periodic markers: their axis is not along x, y or z");
+  EXPECT_EQ(first_line(three_triangles()), "NDIME= 3");
+}
+
+TEST(ExportSolvers, su2_has_one_line_for_two_groups_of_several_faces) {
+  TemporaryDirectory dir;
+  SurfaceMesh m = three_triangles();
+  m.triangles.push_back({{1, 3, 4}});
+  m.triangle_face = {0, 1, 2, 3};
+  m.triangle_group = {0, 1, 0, 1};
+  const Similarity up{.translation = {0, 0, 1}};
+  m.merged.pairs = {{0, 1, up}, {3, 2, up.inverse()}};  // the second is found the other way round
+  export_mesh(dir / "m.su2", m);
+  EXPECT_TRUE(read_bytes(dir / "m.su2")
+                  .starts_with("% MARKER_PERIODIC= ( a_b, a_b_2, 0, 0, 0, 0, 0, 0, 0, 0, 1 )\nNDIME= 3\n"));
+  m.merged.pairs[1].motion = up;
+  export_mesh(dir / "m.su2", m);
+  EXPECT_TRUE(read_bytes(dir / "m.su2").starts_with("% a_b and a_b_2 are no periodic markers: their faces move"));
+}
+
 TEST(ExportSolvers, su2_names_its_markers) {
   TemporaryDirectory dir;
   export_mesh(dir / "m.su2", three_triangles());

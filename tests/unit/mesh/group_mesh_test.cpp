@@ -31,5 +31,13 @@ TEST(GroupMesh, has_the_nodes_of_its_triangles_in_their_order_and_the_segments_b
   EXPECT_EQ(part.labels, m.labels);
 }
 
+TEST(GroupMesh, keeps_pairs_of_faces_that_are_both_in_it) {
+  SurfaceMesh m = sample_mesh().mesh;
+  m.triangle_face = {0, 1, 2, 3};
+  m.merged.pairs = {{0, 1, {}}, {1, 2, {}}};
+  EXPECT_EQ(mesh_of_triangles(m, std::vector<TriangleId>{0, 1}).merged.pairs, (std::vector<FacePair>{{0, 1, {}}}));
+  EXPECT_EQ(mesh_of_triangles(m, std::vector<TriangleId>{0, 1, 2}).merged.pairs, m.merged.pairs);
+}
+
 }  // namespace
 }  // namespace st
