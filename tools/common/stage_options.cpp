@@ -76,8 +76,8 @@ void declare(OptionSet& set, ProlongStageOptions& o) {
   set.number(o.kMaxTriangles, o.max_triangles);
   set.optional_inputs("--sources", o.sources, "file with sources: TOML, .bac or .ba3; repeatable");
   set.optional_array("--background", o.background,
-                     "mesh with edge lengths or metrics at its nodes: .bac, .ba3, .msh (version 2.2), .sol, .solb with "
-                     "its mesh, .vtu or .vtkhdf with an ARRAY");
+                     "mesh with edge lengths or metrics at its nodes: .bac, .ba3, .pos, .msh, .sol or .solb with its "
+                     "mesh, .vtu or .vtkhdf with an ARRAY");
   set.flag("--only", o.only, "take the lengths of the background alone, between the raster's lmin and lmax");
   set.text("--transform", o.transform, "STEPS",
            "move sources and background: 'rotate X Y Z DEG; mirror X Y Z; scale F; translate X Y Z'");

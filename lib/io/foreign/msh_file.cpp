@@ -1,8 +1,11 @@
-// Gmsh's MSH 2.2 and 4.1, text and binary.
+// Gmsh's MSH 2.2 and 4.1, text and binary: surfaces, and meshes with values at their nodes.
 #include <algorithm>
-#include <map>
+#include <limits>
+#include <optional>
+#include <span>
 
 #include "io/file/byte_cursor.h"
+#include "io/foreign/cell_file.h"
 #include "io/foreign/triangulation_file.h"
 
 namespace st {
@@ -23,11 +26,30 @@ bool is_other_surface_element(int type) {
   return std::find(std::begin(types), std::end(types), type) != std::end(types);
 }
 
+/// VTK's type of the straight cell with the same corners; 0: points, lines and what else has no such cell.
+std::int64_t vtk_type_of(int type) {
+  static constexpr int types[] = {0, 0,  5,  9,  10, 12, 13, 14, 0, 5, 9, 10, 12, 13, 14, 0,
+                                  9, 12, 13, 14, 5,  5,  5,  5,  5, 5, 0, 0,  0,  10, 10, 10};
+  return type > 0 && type < static_cast<int>(std::size(types)) ? types[type] : 0;
+}
+
+/// The sections that all readers need. What becomes of elements and values is for them to say.
 class MshParser {
  public:
   MshParser(const std::string& path, const std::string& bytes) : in_(path, bytes) {}
+  MshParser(const MshParser&) = delete;
+  MshParser& operator=(const MshParser&) = delete;
 
-  TriangulationFile run() {
+ protected:
+  virtual ~MshParser() = default;
+  /// Fails for types that cannot be read.
+  virtual void require_readable(int) {}
+  virtual bool keeps(int type) const = 0;
+  /// `nodes`: numbers in the file.
+  virtual void add(int type, std::int64_t entity, std::span<const std::int64_t> nodes) = 0;
+  virtual void read_node_data() {}
+
+  void read() {
     read_format();
     while (!in_.is_at_end()) {
       const std::string section(in_.word());
@@ -38,13 +60,36 @@ class MshParser {
         version_ < 4 ? read_nodes_2() : read_nodes_4();
       else if (section == "$Elements")
         version_ < 4 ? read_elements_2() : read_elements_4();
+      else if (section == "$NodeData")
+        read_node_data();
       skip_to_end_of(section);
     }
     if (tags_.empty()) in_.fail("cut off: there is no $Nodes section");
     if (!has_elements_) in_.fail("cut off: there is no $Elements section");
-    number_nodes();
-    return std::move(result_);
+    sort_numbers();
   }
+
+  /// Place in node_xyz_ of a number in the file, from read() on. Nearly all are without gaps.
+  std::int64_t place_of(std::int64_t number, const char* what) const {
+    const std::int64_t last = static_cast<std::int64_t>(place_.size()) - 1;
+    auto at = place_.begin() + std::clamp<std::int64_t>(number - place_.front().first, 0, last);
+    if (at->first != number) at = std::lower_bound(place_.begin(), place_.end(), std::pair(number, std::int64_t{0}));
+    if (at == place_.end() || at->first != number)
+      in_.fail(std::string(what) + " names node " + std::to_string(number) + ", which does not exist");
+    return at->second;
+  }
+
+  std::int32_t int_value() { return is_binary_ ? in_.value<std::int32_t>() : static_cast<std::int32_t>(in_.integer()); }
+  double real_value() { return is_binary_ ? in_.value<double>() : in_.real(); }
+  std::int64_t count_line() {
+    const std::int64_t n = in_.integer();
+    in_.line();
+    return n;
+  }
+  bool is_binary() const { return is_binary_; }
+
+  ByteCursor in_;
+  std::vector<Vec3> node_xyz_;
 
  private:
   void read_format() {
@@ -69,27 +114,19 @@ class MshParser {
     in_.seek(at + end.size());
   }
 
-  std::int32_t int_value() { return is_binary_ ? in_.value<std::int32_t>() : static_cast<std::int32_t>(in_.integer()); }
   std::int64_t size_value() {
     return is_binary_ ? static_cast<std::int64_t>(in_.value<std::uint64_t>()) : in_.integer();
   }
-  double real_value() { return is_binary_ ? in_.value<double>() : in_.real(); }
   Vec3 point() {
     const double x = real_value(), y = real_value(), z = real_value();
     return {x, y, z};
-  }
-
-  std::int64_t count_line() {
-    const std::int64_t n = in_.integer();
-    in_.line();
-    return n;
   }
 
   void read_nodes_2() {
     const std::size_t n = in_.count(count_line(), is_binary_ ? 28 : 8, "nodes");
     for (std::size_t i = 0; i < n; ++i) {
       tags_.push_back(int_value());
-      result_.node_xyz.push_back(point());
+      node_xyz_.push_back(point());
     }
   }
 
@@ -103,30 +140,25 @@ class MshParser {
       const std::size_t n = in_.count(size_value(), is_binary_ ? 32 : 8, "nodes");
       for (std::size_t i = 0; i < n; ++i) tags_.push_back(size_value());
       for (std::size_t i = 0; i < n; ++i) {
-        result_.node_xyz.push_back(point());
+        node_xyz_.push_back(point());
         for (int k = 0; is_parametric && k < dim; ++k) real_value();
       }
     }
   }
 
   int require_known(int type) {
-    if (is_other_surface_element(type)) in_.fail("has quadrangles or curved triangles; write triangles of first order");
+    require_readable(type);
     const int n = n_nodes_of(type);
     if (n == 0) in_.fail("has elements of the unknown type " + std::to_string(type) + "; write triangles only");
     return n;
   }
 
-  /// Nodes of one element; kept when it is a triangle.
+  /// Nodes of one element; kept where the reader wants it.
   template <class Read>
-  void read_element_nodes(int type, int n, std::int64_t surface, const Read& read) {
-    std::array<std::int64_t, 3> t{};
-    for (int k = 0; k < n; ++k) {
-      const std::int64_t node = read();
-      if (type == kTriangle) t[k] = node;
-    }
-    if (type != kTriangle) return;
-    result_.triangles.push_back(t);
-    result_.surface.push_back(surface);
+  void read_element_nodes(int type, int n, std::int64_t entity, const Read& read) {
+    element_.clear();
+    for (int k = 0; k < n; ++k) element_.push_back(read());
+    if (keeps(type)) add(type, entity, element_);
   }
 
   void read_elements_2() {
@@ -168,35 +200,123 @@ class MshParser {
     }
   }
 
-  /// From the file's own numbers to places in the arrays.
-  void number_nodes() {
-    std::vector<std::pair<std::int64_t, std::int64_t>> place;
-    for (std::size_t i = 0; i < tags_.size(); ++i) place.push_back({tags_[i], static_cast<std::int64_t>(i)});
-    std::sort(place.begin(), place.end());
-    for (std::size_t i = 1; i < place.size(); ++i)
-      if (place[i].first == place[i - 1].first)
-        in_.fail("has two nodes of the number " + std::to_string(place[i].first));
-    const std::int64_t first = place.front().first;
-    for (auto& t : result_.triangles)
-      for (std::int64_t& n : t) {
-        const std::int64_t tag = n;
-        auto at = place.begin() + std::clamp<std::int64_t>(tag - first, 0, static_cast<std::int64_t>(place.size()) - 1);
-        if (at->first != tag) at = std::lower_bound(place.begin(), place.end(), std::pair(tag, std::int64_t{0}));
-        if (at == place.end() || at->first != tag)
-          in_.fail("a triangle names node " + std::to_string(tag) + ", which does not exist");
-        n = at->second;
-      }
+  void sort_numbers() {
+    for (std::size_t i = 0; i < tags_.size(); ++i) place_.push_back({tags_[i], static_cast<std::int64_t>(i)});
+    std::sort(place_.begin(), place_.end());
+    for (std::size_t i = 1; i < place_.size(); ++i)
+      if (place_[i].first == place_[i - 1].first)
+        in_.fail("has two nodes of the number " + std::to_string(place_[i].first));
   }
 
-  ByteCursor in_;
   double version_ = 0;
   bool is_binary_ = false, has_elements_ = false;
-  std::vector<std::int64_t> tags_;
+  std::vector<std::int64_t> tags_, element_;
+  std::vector<std::pair<std::int64_t, std::int64_t>> place_;  // [n_nodes] number in the file, place; ascending
+};
+
+class TriangleParser final : public MshParser {
+ public:
+  using MshParser::MshParser;
+
+  TriangulationFile run() {
+    read();
+    for (auto& t : result_.triangles)
+      for (std::int64_t& n : t) n = place_of(n, "a triangle");
+    result_.node_xyz = std::move(node_xyz_);
+    return std::move(result_);
+  }
+
+ private:
+  void require_readable(int type) override {
+    if (is_other_surface_element(type)) in_.fail("has quadrangles or curved triangles; write triangles of first order");
+  }
+  bool keeps(int type) const override { return type == kTriangle; }
+  void add(int, std::int64_t entity, std::span<const std::int64_t> nodes) override {
+    result_.triangles.push_back({nodes[0], nodes[1], nodes[2]});
+    result_.surface.push_back(entity);
+  }
+
   TriangulationFile result_;
+};
+
+/// Cells and one of the views at their nodes.
+class ViewParser final : public MshParser {
+ public:
+  ViewParser(const std::string& path, const std::string& bytes, const std::string& view)
+      : MshParser(path, bytes), view_(view) {}
+
+  CellFile run() {
+    file_.offset = {0};
+    read();
+    if (n_components_ == 0) in_.fail(missing_view());
+    for (std::int64_t& n : file_.node) n = place_of(n, "an element");
+    file_.value.assign(n_components_ * node_xyz_.size(), std::numeric_limits<double>::quiet_NaN());
+    for (std::size_t i = 0; i < tags_.size(); ++i) {
+      const auto to = static_cast<std::size_t>(place_of(tags_[i], "$NodeData")) * n_components_;
+      std::copy_n(values_.data() + i * n_components_, n_components_, file_.value.data() + to);
+    }
+    file_.node_xyz = std::move(node_xyz_);
+    return std::move(file_);
+  }
+
+ private:
+  bool keeps(int type) const override { return vtk_type_of(type) != 0; }
+  /// The corners stand first.
+  void add(int type, std::int64_t, std::span<const std::int64_t> nodes) override {
+    file_.type.push_back(vtk_type_of(type));
+    const int n = n_corners_of(file_.type.back());
+    file_.node.insert(file_.node.end(), nodes.begin(), nodes.begin() + n);
+    file_.offset.push_back(static_cast<std::int64_t>(file_.node.size()));
+  }
+
+  /// Names, times, then step, number of components, number of nodes: a count, then as many lines.
+  void read_node_data() override {
+    std::string name;
+    for (std::int64_t i = 0, n = count_line(); i < n; ++i) {
+      std::string text(in_.line());
+      std::erase_if(text, [](char c) { return c == '"' || c == '\r'; });
+      if (i == 0) name = text;
+    }
+    for (std::int64_t i = 0, n = count_line(); i < n; ++i) in_.line();
+    std::array<std::int64_t, 3> numbers{};
+    for (std::int64_t i = 0, n = count_line(); i < n; ++i) {
+      const std::int64_t value = count_line();
+      if (i < 3) numbers[static_cast<std::size_t>(i)] = value;
+    }
+    names_ += (names_.empty() ? "'" : ", '") + name + "'";
+    if (n_components_ > 0 || (!view_.empty() && name != view_)) return;
+    if (numbers[1] != 1 && numbers[1] != 9)
+      in_.fail("$NodeData '" + name + "' has " + std::to_string(numbers[1]) +
+               " components; a length per node, or the nine components of a metric are expected");
+    n_components_ = static_cast<std::size_t>(numbers[1]);
+    const std::size_t n = in_.count(numbers[2], is_binary() ? 4 + 8 * n_components_ : 2 + 2 * n_components_, "values");
+    for (std::size_t i = 0; i < n; ++i) {
+      tags_.push_back(int_value());
+      for (std::size_t k = 0; k < n_components_; ++k) values_.push_back(real_value());
+    }
+  }
+
+  std::string missing_view() const {
+    if (names_.empty()) return "has no $NodeData; write a view of lengths or metrics at nodes";
+    return "has no $NodeData '" + view_ + "'; there are " + names_;
+  }
+
+  const std::string& view_;
+  std::string names_;  // of all views, for messages
+  std::size_t n_components_ = 0;
+  std::vector<std::int64_t> tags_;
+  std::vector<double> values_;  // [tags][n_components]
+  CellFile file_;
 };
 
 }  // namespace
 
-TriangulationFile parse_msh(const std::string& path, const std::string& bytes) { return MshParser(path, bytes).run(); }
+TriangulationFile parse_msh(const std::string& path, const std::string& bytes) {
+  return TriangleParser(path, bytes).run();
+}
+
+CellFile parse_msh_cells(const std::string& path, const std::string& bytes, const std::string& view) {
+  return ViewParser(path, bytes, view).run();
+}
 
 }  // namespace st

@@ -29,6 +29,7 @@ bool has_suffix(const std::string& path, std::initializer_list<const char*> suff
   return std::find(suffixes.begin(), suffixes.end(), own) != suffixes.end();
 }
 bool is_medit_mesh(const std::string& path) { return has_suffix(path, {".mesh", ".meshb"}); }
+bool is_msh(const std::string& path) { return has_suffix(path, {".msh", ".msh2"}); }
 bool is_medit_solution(const std::string& path) { return has_suffix(path, {".sol", ".solb"}); }
 
 /// The file of the same name with one of these suffixes.
@@ -139,6 +140,7 @@ CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
   const std::vector<std::string> files = files_of_size_mesh(file);
   CellFile cells = files.size() == 2            ? read_medit(files)
                    : has_suffix(path, {".pos"}) ? parse_pos_cells(path, read_text_file(path))
+                   : is_msh(path)               ? parse_msh_cells(path, read_text_file(path), array)
                    : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, read_text_file(path), array)
                                                 : read_vtkhdf_cells(path, array);
   if (cells.node_xyz.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
@@ -156,7 +158,8 @@ CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
 
 bool is_size_mesh(const std::string& file) {
   const std::string path = split_name(file).first;
-  return is_medit_mesh(path) || is_medit_solution(path) || has_suffix(path, {".pos", ".vtu", ".vtkhdf", ".hdf", ".h5"});
+  return is_medit_mesh(path) || is_medit_solution(path) || is_msh(path) ||
+         has_suffix(path, {".pos", ".vtu", ".vtkhdf", ".hdf", ".h5"});
 }
 
 std::vector<std::string> files_of_size_mesh(const std::string& file) {

@@ -175,93 +175,6 @@ SourceFile read_bac(const std::string& path) {
   return result;
 }
 
-// --- MSH 2.2 ---
-
-constexpr int kMshTet = 4;
-
-void read_msh_elements(LineReader& file, const std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
-  const std::int64_t n = file.count(file.numbers("the number of elements", 1)[0], "elements");
-  for (std::int64_t i = 0; i < n; ++i) {
-    const std::vector<double> e = file.numbers("an element", 3);
-    if (e[1] != kMshTet) continue;
-    const std::size_t first = 3 + static_cast<std::size_t>(file.count(e[2], "tags"));
-    if (e.size() < first + 4) file.fail("a tetrahedron: four nodes expected");
-    mesh.tets.push_back(tet_of(file, index, e.data() + first));
-  }
-}
-
-/// `m`: nine components; the lengths are one over the roots of the eigenvalues.
-SymmetricTensor read_metric(const LineReader& file, const double* m) {
-  const SymmetricTensor metric{m[0], m[4], m[8], 0.5 * (m[1] + m[3]), 0.5 * (m[5] + m[7]), 0.5 * (m[2] + m[6])};
-  if (!(size_of_metric(metric).length > 0)) file.fail("a metric must be positive definite");
-  return metric;
-}
-
-void read_msh_data(LineReader& file, const std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
-  std::vector<double> integers;
-  for (int block = 0; block < 3; ++block) {  // strings, reals, integers: a count, then as many lines
-    const std::int64_t n = file.count(file.numbers("a number of tags", 1)[0], "tags");
-    for (std::int64_t i = 0; i < n; ++i) {
-      if (block == 2)
-        integers.push_back(file.numbers("an integer tag", 1)[0]);
-      else
-        file.line("a tag");
-    }
-  }
-  if (integers.size() < 3 || (integers[1] != 1 && integers[1] != 9))
-    file.fail("$NodeData: a length per node expected, or the nine components of a metric");
-  const bool is_metric = integers[1] == 9;
-  if (is_metric) mesh.node_metric.resize(mesh.node_xyz.size());
-  const std::int64_t n = file.count(integers[2], "values");
-  for (std::int64_t i = 0; i < n; ++i) {
-    const std::vector<double> v = file.numbers("a node and its value", is_metric ? 10 : 2);
-    const auto it = index.find(file.node_number(v[0]));
-    if (it == index.end()) file.fail("$NodeData names a node that does not exist");
-    if (!is_metric && !(v[1] > 0)) file.fail("length must be positive");
-    if (is_metric) mesh.node_metric[it->second] = read_metric(file, v.data() + 1);
-    mesh.node_size[it->second] = is_metric ? size_of_metric(mesh.node_metric[it->second]) : LocalSize{v[1], v[1], {}};
-  }
-}
-
-void read_msh_nodes(LineReader& file, std::map<std::int64_t, std::int32_t>& index, BackgroundMesh& mesh) {
-  const std::int64_t n = file.count(file.numbers("the number of nodes", 1)[0], "nodes");
-  for (std::int64_t i = 0; i < n; ++i) {
-    const std::vector<double> v = file.numbers("a node", 4);
-    number_node(file, v[0], mesh, index);
-    mesh.node_xyz.push_back({v[1], v[2], v[3]});
-  }
-  mesh.node_size.resize(mesh.node_xyz.size());
-}
-
-SourceFile read_msh(const std::string& path) {
-  LineReader file(path);
-  SourceFile result;
-  BackgroundMesh& mesh = result.background;
-  std::map<std::int64_t, std::int32_t> index;
-  bool has_data = false;
-  for (std::string line; file.next_line(line);) {
-    const std::string section = trimmed(line);
-    if (section == "$MeshFormat") {
-      const std::vector<double> format = file.numbers("the format", 3);
-      if (std::floor(format[0]) != 2 || format[1] != 0)
-        file.fail("only MSH 2.2 as text is read (gmsh -format msh22); this is version " +
-                  std::to_string(format[0]).substr(0, 3));
-    }
-    if (section == "$Nodes") read_msh_nodes(file, index, mesh);
-    if (section == "$Elements") read_msh_elements(file, index, mesh);
-    if (section == "$NodeData" && !has_data) {
-      read_msh_data(file, index, mesh);
-      has_data = true;
-    }
-  }
-  if (mesh.tets.empty()) file.fail("no tetrahedra");
-  if (!has_data) file.fail("no $NodeData with lengths");
-  for (const auto& tet : mesh.tets)
-    for (const std::int32_t node : tet)
-      if (!(mesh.node_size[node].length > 0)) file.fail("a tetrahedron has a node without a length");
-  return result;
-}
-
 // --- TOML ---
 
 /// One [[source]] table; every access names file and line on failure.
@@ -459,7 +372,11 @@ SourceFile read_source_file(const std::string& path, const ModelScale& scale) {
 }
 
 SourceFile read_background_file(const std::string& path) {
-  SourceFile file = is_flite(path) ? read_bac(path) : read_msh(path);
+  if (!is_flite(path))
+    throw Error(ExitCode::kInput, path +
+                                      ": no background mesh; give .bac, .ba3, .sol, .solb, .msh, .pos, .vtu or "
+                                      ".vtkhdf");
+  SourceFile file = read_bac(path);
   if (file.background.tets.empty()) throw Error(ExitCode::kInput, path + ": has no tetrahedra; give a background mesh");
   return file;
 }

@@ -1,4 +1,4 @@
-// Sources and background meshes from files: TOML, FLITE .bac/.ba3, Gmsh MSH 2.2.
+// Sources and background meshes from files: TOML, FLITE .bac/.ba3.
 #pragma once
 
 #include <optional>
@@ -39,8 +39,8 @@ struct SourceFile {
 /// Throws Error with file and line: kUsage for TOML, kInput for the others and for what cannot be read.
 SourceFile read_source_file(const std::string& path, const ModelScale& scale);
 
-/// Reads a background mesh: .bac/.ba3 (its sources, too), or .msh of version 2.2 in text form with tetrahedra and node
-/// data: a length, or the nine components of a metric. Throws Error(kInput) with file and line.
+/// Reads FLITE's background mesh, .bac or .ba3, with its sources; read_size_mesh() reads others. Throws Error(kInput)
+/// with file and line.
 SourceFile read_background_file(const std::string& path);
 
 }  // namespace st

@@ -251,67 +251,8 @@ TEST_F(SourceFiles, bac_without_tetrahedra_has_sources_but_is_no_background) {
   EXPECT_ERROR(read_background_file(path), kInput, "s.bac: has no tetrahedra; give a background mesh");
 }
 
-const char* const kMsh = R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$Nodes
-4
-1 0 0 0
-2 1 0 0
-5 0 1 0
-7 0 0 1
-$EndNodes
-$Elements
-2
-1 2 2 0 1 1 2 5
-2 4 2 0 1 1 2 5 7
-$EndElements
-$NodeData
-1
-"length"
-1
-0
-3
-0
-1
-4
-1 0.1
-2 0.2
-5 0.3
-7 0.4
-$EndNodeData
-)";
-
-TEST_F(SourceFiles, msh_has_lengths_at_the_nodes_of_tetrahedra) {
-  const SourceFile f = read_background_file(write("m.msh", kMsh));
-  ASSERT_EQ(f.background.tets.size(), 1u);
-  EXPECT_EQ(f.background.tets[0], (std::array<std::int32_t, 4>{0, 1, 2, 3}));
-  EXPECT_EQ(lengths_of(f.background), (std::vector<double>{0.1, 0.2, 0.3, 0.4}));
-  EXPECT_EQ(f.background.node_size[2].direction, Vec3{});
-}
-
-TEST_F(SourceFiles, msh_may_have_metrics_at_the_nodes) {
-  std::string text = kMsh;
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    text.replace(text.find(from), from.size(), to);
-  };
-  replace("0\n1\n4\n", "0\n9\n4\n");
-  replace("1 0.1\n", "1 100 0 0 0 100 0 0 0 100\n");
-  replace("2 0.2\n", "2 25 0 0 0 6.25 0 0 0 25\n");
-  replace("5 0.3\n", "5 2.5 1.5 0 1.5 2.5 0 0 0 4\n");  // lengths 1, 0.5, 0.5; the long one along (1, -1, 0)
-  replace("7 0.4\n", "7 4 0 0 0 4 0 0 0 4\n");
-  const BackgroundMesh mesh = read_background_file(write("m.msh", text)).background;
-  ASSERT_EQ(mesh.node_size.size(), 4u);
-  const double length[] = {0.1, 0.2, 0.5, 0.5}, along[] = {0.1, 0.4, 1, 0.5};
-  const Vec3 direction[] = {{}, {0, 1, 0}, normalized(Vec3{1, -1, 0}), {}};
-  for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_NEAR(mesh.node_size[k].length, length[k], 1e-12);
-    EXPECT_NEAR(mesh.node_size[k].along, along[k], 1e-12);
-    EXPECT_NEAR(norm(cross(mesh.node_size[k].direction, direction[k])), 0, 1e-12);
-    EXPECT_NEAR(norm(mesh.node_size[k].direction), norm(direction[k]), 1e-12);
-  }
-  replace("2 25 0", "2 -25 0");
-  EXPECT_ERROR(read_background_file(write("m.msh", text)), kInput, "positive definite");
+TEST_F(SourceFiles, other_files_are_no_background) {
+  EXPECT_ERROR(read_background_file(write("m.txt", "1 2 3")), kInput, "m.txt: no background mesh; give .bac");
 }
 
 TEST_F(SourceFiles, sources_may_be_stretched) {
@@ -332,25 +273,6 @@ TEST_F(SourceFiles, sources_may_be_stretched) {
   refused("aspect = 4\ndirection = [0, 0, 0]", "needs direction");
   refused("aspect = 0.5\ndirection = [0, 0, 1]", "s.toml:5: aspect: a number from 1 to 100");
   refused("aspect = \"4\"\ndirection = [0, 0, 1]", "a number from 1 to 100");
-}
-
-TEST_F(SourceFiles, damaged_msh_files_are_refused_with_the_line) {
-  expect_refusals("bad.msh", kMsh,
-                  {{"2.2 0", "4.1 0", ":2: only MSH 2.2 as text is read"},
-                   {"2.2 0", "2.2 1", ":2: only MSH 2.2 as text is read"},
-                   {"5 0 1 0\n", "2 0 1 0\n", ":8: has two nodes of the number 2"},
-                   {"$EndNodes", "$Nodes\n1\n1 9 9 9\n$EndNodes", ":12: has two nodes of the number 1"},
-                   {"2 4 2 0 1", "2 4 -1 0 1", ":14: tags: not a count"},
-                   {"1 2 5 7\n", "1 2 5\n", ":14: a tetrahedron: four nodes expected"},
-                   {"1 2 5 7\n", "1 2 5 8\n", ":14: tetrahedron names a node that does not exist"},
-                   {"2 4 2 0 1", "2 2 2 0 1", ":29: no tetrahedra; check the file"},
-                   {"$NodeData", "$ElementData", ":29: no $NodeData with lengths"},
-                   {"3\n0\n1\n4\n", "2\n0\n1\n4\n", ":23: $NodeData: a length per node expected"},
-                   {"0\n1\n4\n", "0\n3\n4\n", ":24: $NodeData: a length per node expected"},
-                   {"7 0.4", "8 0.4", ":28: $NodeData names a node that does not exist"},
-                   {"7 0.4", "7.5 0.4", ":28: not the number of a node"},
-                   {"7 0.4", "7 0", ":28: length must be positive"},
-                   {"4\n1 0.1", "3\n1 0.1", ":29: a tetrahedron has a node without a length"}});
 }
 
 TEST_F(SourceFiles, missing_empty_and_directory_are_refused) {
