@@ -8,6 +8,7 @@
 
 #include "base/eigen.h"
 #include "sizing/length_tree.h"
+#include "sizing/mean_stretch.h"
 #include "sizing/symmetric_tensor.h"
 
 namespace st {
@@ -52,25 +53,16 @@ std::array<double, 4> lengths_of(const BackgroundMesh& mesh, const std::array<st
   return {s[tet[0]].length, s[tet[1]].length, s[tet[2]].length, s[tet[3]].length};
 }
 
-/// The direction that the squeezes of some nodes share, and how clearly: 1 where all are along it, 0 where another has
-/// as much.
-struct SharedSqueeze {
-  Vec3 direction;
-  double share = 0;
-};
+/// Of the nodes of a tetrahedron, alike.
+MeanStretch mean_of_nodes(const BackgroundMesh& mesh, const std::array<std::int32_t, 4>& tet) {
+  std::array<Vec3, 4> stretches;
+  for (std::size_t k = 0; k < 4; ++k) stretches[k] = log_stretch(mesh.node_size[tet[k]]);
+  return mean_stretch(stretches, std::array{0.25, 0.25, 0.25, 0.25});
+}
 
-/// By their weights at a place, so that it does not jump from tetrahedron to tetrahedron.
-template <std::size_t N>
-SharedSqueeze shared_squeeze(const BackgroundMesh& mesh, const std::array<std::int32_t, N>& nodes,
-                             const std::array<double, N>& weight) {
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (std::size_t k = 0; k < N; ++k) {
-    const Eigen::Vector3d squeeze = to_eigen(mesh.node_size[nodes[k]].squeeze());
-    sum += std::max(0.0, weight[k]) * squeeze * squeeze.transpose();
-  }
-  if (!(sum.trace() > 0)) return {};
-  const PrincipalAxes axes = principal_axes(sum);
-  return {axes.axis[2], 1 - std::max(0.0, axes.value[1]) / axes.value[2]};
+template <std::size_t N, std::size_t M>
+bool have_common_node(const std::array<std::int32_t, N>& a, const std::array<std::int32_t, M>& b) {
+  return std::find_first_of(a.begin(), a.end(), b.begin(), b.end()) != a.end();
 }
 
 /// Barycentric coordinates of the place on a triangle that is closest to x.
@@ -118,6 +110,8 @@ class BackgroundSource final : public SizeSource {
       min_size_ = std::min(min_size_, s.length);
       max_aspect_ = std::max(max_aspect_, s.along / s.length);
     }
+    if (max_aspect_ > 1)
+      for (const LocalSize& s : mesh_.node_size) log_stretch_.push_back(log_stretch(s));
     border_ = border_of(mesh_);
     border_.insert(border_.end(), mesh_.triangles.begin(), mesh_.triangles.end());
     leave_out_flat();
@@ -134,13 +128,8 @@ class BackgroundSource final : public SizeSource {
   LocalSize local(Vec3 x, int&) const override {
     std::size_t tet = kNowhere, border = kNowhere;
     const double length = least_outside(x, least_inside(x, kInfinity, tet), border);
-    if (max_aspect_ <= 1 || (border == kNowhere && tet == kNowhere)) return {length, length, {}};
-    const SharedSqueeze shared =
-        border == kNowhere ? shared_squeeze(mesh_, mesh_.tets[tet], frames_[tet].coordinates(x))
-                           : shared_squeeze(mesh_, border_[border], closest_on_triangle(corners_of(border), x));
-    if (!(shared.share > 0)) return {length, length, {}};
-    const double along = length_in(shared.direction, x);
-    return {length, length + shared.share * std::max(0.0, along - length), shared.direction};
+    if (log_stretch_.empty() || (border == kNowhere && tet == kNowhere)) return {length, length, {}};
+    return border == kNowhere ? stretched_in(tet, length, x) : stretched_from(border, length, x);
   }
   /// Of the cell that tells the length at x.
   Vec3 gradient(Vec3 x) const override {
@@ -213,19 +202,47 @@ class BackgroundSource final : public SizeSource {
     });
     return best;
   }
-  /// The smallest along `direction` of what the tetrahedra at x, or else the border by its growth, ask for.
-  double length_in(Vec3 direction, Vec3 x) const {
-    const auto in_direction = [&](const LocalSize& s) { return s.in(direction); };
+  /// With the mean of the metrics of a tetrahedron's nodes, by their weights at x.
+  LocalSize stretched_in(std::size_t t, double length, Vec3 x) const {
+    const auto& nodes = mesh_.tets[t];
+    const std::array<double, 4> at = frames_[t].coordinates(x);
+    const MeanStretch mean = mean_stretch(stretches_of(nodes), at);
+    const double along = mean.kept * interpolated(at, values_at(nodes, [](const LocalSize& s) { return s.along; }));
+    return longer_along(mean.direction, length, std::min(along, least_of_other_tets(nodes, mean.direction, x)));
+  }
+  /// Likewise where a triangle of the border asks for least at x. The length along grows by the slope, too.
+  LocalSize stretched_from(std::size_t b, double length, Vec3 x) const {
+    const auto& nodes = border_[b];
+    const MeanStretch mean = mean_stretch(stretches_of(nodes), closest_on_triangle(corners_of(b), x));
+    const double inside = least_of_other_tets(nodes, mean.direction, x);
+    return longer_along(mean.direction, length, inside < kInfinity ? inside : least_of_border(nodes, mean, x));
+  }
+  static LocalSize longer_along(Vec3 direction, double length, double along) {
+    return along > length && !(direction == Vec3{}) ? LocalSize{length, along, direction}
+                                                    : LocalSize{length, length, {}};
+  }
+  /// The smallest along `direction` of what tetrahedra at x ask for that have none of `nodes`: meshes may overlap.
+  template <std::size_t N>
+  double least_of_other_tets(const std::array<std::int32_t, N>& nodes, Vec3 direction, Vec3 x) const {
     double best = kInfinity;
     tet_tree_.visit_at(x, best, [&](std::int32_t t) {
+      const auto& tet = mesh_.tets[t];
       const std::array<double, 4> at = frames_[t].coordinates(x);
-      if (is_inside(at)) best = std::min(best, interpolated(at, values_at(mesh_.tets[t], in_direction)));
+      if (!is_inside(at) || have_common_node(tet, nodes)) return;
+      best = std::min(best, interpolated(at, values_at(tet, [&](const LocalSize& s) { return s.in(direction); })));
     });
-    if (best < kInfinity) return best;
+    return best;
+  }
+  /// Likewise of the growth from the border. Triangles beside `nodes` are stretched as these.
+  double least_of_border(const std::array<std::int32_t, 3>& nodes, const MeanStretch& mean, Vec3 x) const {
+    double best = kInfinity;
     border_tree_.visit_from(x, slope(), best, [&](std::int32_t b) {
-      const auto triangle = static_cast<std::size_t>(b);
-      const std::array<double, 3> lengths = values_at(border_[triangle], in_direction);
-      best = std::min(best, least_over_triangle(x, corners_of(triangle), lengths, slope()));
+      const auto& triangle = border_[static_cast<std::size_t>(b)];
+      const bool is_beside = have_common_node(triangle, nodes);
+      const std::array<double, 3> lengths = values_at(triangle, [&](const LocalSize& s) {
+        return is_beside ? std::max(s.length, mean.kept * s.along) : s.in(mean.direction);
+      });
+      best = std::min(best, least_over_triangle(x, corners_of(static_cast<std::size_t>(b)), lengths, slope()));
     });
     return best;
   }
@@ -240,8 +257,16 @@ class BackgroundSource final : public SizeSource {
     return values;
   }
 
+  template <std::size_t N>
+  std::array<Vec3, N> stretches_of(const std::array<std::int32_t, N>& nodes) const {
+    std::array<Vec3, N> stretches;
+    for (std::size_t k = 0; k < N; ++k) stretches[k] = log_stretch_[nodes[k]];
+    return stretches;
+  }
+
   static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
   BackgroundMesh mesh_;
+  std::vector<Vec3> log_stretch_;                    // [nodes]; empty where none is stretched
   std::vector<TetFrame> frames_;                     // [tets]
   std::vector<std::array<std::int32_t, 3>> border_;  // nodes
   LengthTree tet_tree_, border_tree_;
@@ -320,7 +345,7 @@ class GrowthLimiter {
   void limit_along() {
     if (std::none_of(mesh_.node_size.begin(), mesh_.node_size.end(), is_stretched)) return;
     lower_all([&](const std::array<std::int32_t, 4>& tet, const auto& lowered) {
-      limit_in(tet, shared_squeeze(mesh_, tet, {1, 1, 1, 1}).direction, lowered);
+      limit_in(tet, mean_of_nodes(mesh_, tet).direction, lowered);
       for (const std::int32_t node : tet)
         if (is_stretched(mesh_.node_size[node])) limit_in(tet, mesh_.node_size[node].direction, lowered);
     });

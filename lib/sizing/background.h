@@ -14,8 +14,8 @@ namespace st {
 /// A symmetric tensor: xx yy zz xy yz xz.
 using SymmetricTensor = std::array<double, 6>;
 
-/// Lengths are linear in each tetrahedron. One direction may have a longer length: the one along which the nodes of the
-/// tetrahedron at a place are stretched most, by their weights there. The less they agree, the shorter it is.
+/// Lengths are linear in each tetrahedron. One direction may have a longer one: that of the log-Euclidean mean of its
+/// nodes' metrics, by their weights at a place. The less their directions agree, the shorter it is: MeanStretch.
 struct BackgroundMesh {
   std::vector<Vec3> node_xyz;
   std::vector<LocalSize> node_size;
