@@ -98,10 +98,13 @@ SymmetricTensor in_plane(const SymmetricTensor& t, Vec3 normal, std::size_t acro
   return tensor_of(Eigen::Matrix3d(own + principal_axes(own).value[across] * n * n.transpose()));
 }
 
-SymmetricTensor as_seen_from(const TangentPlanes::Nearest& faces, const SymmetricTensor& metric) {
+LocalSize as_seen_from(const TangentPlanes::Nearest& faces, const SymmetricTensor& metric) {
   constexpr std::size_t kLong = 1, kShort = 2;
-  if (!faces.beyond_edge) return in_plane(metric, faces.normal, kShort);
-  return intersection(in_plane(metric, faces.normal, kLong), in_plane(metric, *faces.beyond_edge, kLong));
+  if (!faces.beyond_edge) return size_of_metric(in_plane(metric, faces.normal, kShort));
+  const LocalSize both =
+      size_of_metric(intersection(in_plane(metric, faces.normal, kLong), in_plane(metric, *faces.beyond_edge, kLong)));
+  const double least = size_of_metric(metric).length;  // in space: no plane cuts less
+  return uniaxial({std::max(both.length, least), std::max(both.along, least), both.direction});
 }
 
 /// Those with a corner further from the faces than its longest edge.
@@ -138,7 +141,7 @@ bool project_metrics(const ModelPlanes& model, BackgroundMesh& mesh) {
       const auto nearest = planes.nearest_to(mesh.node_xyz[n]);
       if (!nearest) continue;
       distance_of[n] = nearest->distance;
-      mesh.node_size[n] = size_of_metric(as_seen_from(*nearest, mesh.node_metric[n]));
+      mesh.node_size[n] = as_seen_from(*nearest, mesh.node_metric[n]);
     }
   });
   mesh.node_metric.clear();

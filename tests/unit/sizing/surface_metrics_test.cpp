@@ -86,6 +86,13 @@ TEST(SurfaceMetrics, ask_for_no_more_than_either_face_at_a_sharp_edge) {
   EXPECT_NEAR(aside.in({1, -1, 0}), 2, 1e-5);
 }
 
+TEST(SurfaceMetrics, are_no_shorter_at_a_sharp_edge_than_in_space) {
+  const PlanesOfCorner edge({{0, 0, 1}, {0, 1, 0}});
+  const LocalSize size = edge.size_at({1, 1, 1}, metric_of_shock(normalized(Vec3{1, 0, 1}), 1, 6));
+  EXPECT_NEAR(size.length, 1, 1e-9) << "0.895 by the intersection";
+  EXPECT_NEAR(size.in({0, 1, 0}), 6, 1e-6);
+}
+
 TEST(SurfaceMetrics, of_one_long_length_stay_as_they_are) {
   const Vec3 t = normalized(Vec3{1, 2, 3});
   const LocalSize own{0.1, 0.7, t}, size = PlanesOfCorner({{0, 0, 1}}).size_at({1, 1, 1}, metric_of(own));
