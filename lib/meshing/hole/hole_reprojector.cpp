@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "base/boxes.h"
+#include "base/eigen.h"
 #include "base/error.h"
 #include "meshing/topology/mesh_topology.h"
 #include "meshing/topology/small_features.h"
@@ -29,6 +31,35 @@ double stretched(double x, double from_lo, double from_hi, double to_lo, double 
   const double span = from_hi - from_lo;
   if (!(span > 0) || std::abs(to_lo - from_lo) + std::abs(to_hi - from_hi) <= 1e-9 * span) return x;
   return to_lo + (to_hi - to_lo) * (x - from_lo) / span;
+}
+
+/// (u,v) -> map (u,v) + offset.
+struct AffineMap {
+  Eigen::Matrix2d map;
+  Eigen::Vector2d offset;
+
+  Vec2 operator()(Vec2 uv) const { return to_vec2(Eigen::Vector2d(map * to_eigen(uv) + offset)); }
+  bool is_mirrored() const { return map.determinant() < 0; }
+};
+
+/// Closest to the places, by least squares. nullopt: they are on a line.
+std::optional<AffineMap> closest_map(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
+  const auto middle_of = [](const std::vector<Vec2>& all) {
+    Vec2 sum;
+    for (const Vec2 p : all) sum = sum + p;
+    return (1.0 / static_cast<double>(all.size())) * sum;
+  };
+  if (from.empty()) return std::nullopt;
+  const Vec2 p0 = middle_of(from), q0 = middle_of(to);
+  Eigen::Matrix2d own = Eigen::Matrix2d::Zero(), both = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    const Eigen::Vector2d p = to_eigen(from[i] - p0), q = to_eigen(to[i] - q0);
+    own += p * p.transpose();
+    both += q * p.transpose();
+  }
+  if (!(own.determinant() > 1e-12 * own.trace() * own.trace())) return std::nullopt;
+  const Eigen::Matrix2d map = both * adjugate(own) / own.determinant();
+  return AffineMap{map, to_eigen(q0) - map * to_eigen(p0)};
 }
 
 double quality(Vec3 a, Vec3 b, Vec3 c) {
@@ -216,28 +247,50 @@ class Mover {
     return {before, after};
   }
 
-  /// Do the old (u,v) of the nodes on the boundary give their new places?
-  bool fits(const Surface& surface, std::size_t begin, std::size_t end, double tolerance) const {
+  /// Do the old (u,v) of the nodes on the boundary, so mapped, give their new places?
+  template <class Map>
+  bool fits(const Surface& surface, std::size_t begin, std::size_t end, const Map& map) const {
+    const double tolerance = kSameParameters * t_.reference_diagonal();
     for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
       const NodeId n = old_.triangles[c / 3].n[c % 3];
       if (old_.node_entity_dim[n] != kInFace &&
-          distance(surface.point(old_.corner_uv[c]), result_.mesh.node_xyz[n]) > tolerance)
+          distance(surface.point(map(old_.corner_uv[c])), result_.mesh.node_xyz[n]) > tolerance)
         return false;
     }
     return true;
+  }
+
+  /// Of the old (u,v) of a plane, whose axes in it are anyone's choice, by its boundary.
+  std::optional<AffineMap> map_of_plane(const Surface& plane, std::size_t begin, std::size_t end, Vec2 guess) const {
+    std::vector<Vec2> from, to;
+    for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+      const NodeId n = old_.triangles[c / 3].n[c % 3];
+      if (old_.node_entity_dim[n] == kInFace) continue;
+      const auto there = project_near(plane, result_.mesh.node_xyz[n], guess);
+      if (!there) return std::nullopt;
+      from.push_back(old_.corner_uv[c]);
+      to.push_back(*there);
+    }
+    return closest_map(from, to);
   }
 
   void move_face(FaceId f, std::size_t begin, std::size_t end) {
     const auto surface = model_.surface(f);
     const double tolerance = kOnPoint * t_.reference_diagonal();
     auto [before, after] = boundary_boxes(f, begin, end);
-    if (fits(*surface, begin, end, kSameParameters * t_.reference_diagonal())) after = before;
+    if (fits(*surface, begin, end, [](Vec2 uv) { return uv; })) after = before;
+    const auto by_box = [&, from = before, to = after](Vec2 uv) {
+      return Vec2{stretched(uv.x, from.lo.x, from.hi.x, to.lo.x, to.hi.x),
+                  stretched(uv.y, from.lo.y, from.hi.y, to.lo.y, to.hi.y)};
+    };
+    std::optional<AffineMap> turned;
+    if (t_.face_type[f] == SurfaceType::kPlane && !fits(*surface, begin, end, by_box))
+      turned = map_of_plane(*surface, begin, end, 0.5 * (after.lo + after.hi));
     SurfaceMesh& m = result_.mesh;
     for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
       const NodeId n = old_.triangles[c / 3].n[c % 3];
       Vec2& uv = m.corner_uv[c];
-      uv = {stretched(uv.x, before.lo.x, before.hi.x, after.lo.x, after.hi.x),
-            stretched(uv.y, before.lo.y, before.hi.y, after.lo.y, after.hi.y)};
+      uv = turned ? (*turned)(uv) : by_box(uv);
       if (old_.node_entity_dim[n] == kInFace) {
         m.node_xyz[n] = surface->point(uv);
         continue;
@@ -245,7 +298,7 @@ class Mover {
       if (distance(surface->point(uv), m.node_xyz[n]) <= tolerance) continue;
       if (const auto there = project_near(*surface, m.node_xyz[n], uv)) uv = *there;
     }
-    note_spoilt(begin, end);
+    note_spoilt(begin, end, turned && turned->is_mirrored() ? -1 : 1);
   }
 
   double uv_area(const SurfaceMesh& m, std::size_t i) const {
@@ -253,13 +306,14 @@ class Mover {
     return cross(m.corner_uv[3 * i + 1] - a, m.corner_uv[3 * i + 2] - a);
   }
 
-  void note_spoilt(std::size_t begin, std::size_t end) {
+  /// `side`: -1 where areas in (u,v) change their signs.
+  void note_spoilt(std::size_t begin, std::size_t end, double side) {
     const SurfaceMesh& m = result_.mesh;
     for (std::size_t i = begin; i < end; ++i) {
       const auto& n = old_.triangles[i].n;
       const double q = quality(m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]);
       const double q_before = quality(old_.node_xyz[n[0]], old_.node_xyz[n[1]], old_.node_xyz[n[2]]);
-      const bool turned = uv_area(m, i) * uv_area(old_, i) <= 0;
+      const bool turned = side * uv_area(m, i) * uv_area(old_, i) <= 0;
       if (turned || (q < kSpoiltQuality && q < q_before)) result_.spoilt.push_back(static_cast<TriangleId>(i));
     }
   }

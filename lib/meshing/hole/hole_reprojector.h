@@ -15,10 +15,10 @@ struct MovedMesh {
 };
 
 /// Nodes on vertices take these; nodes on edges keep their parameter, or their share of the edge's length where the
-/// edge's range is another one; (u,v) inside a face are stretched as those of its boundary. Nothing is projected
-/// globally, so that the geometry may move as far as it likes. Throws Error(kMismatch) when the mesh lies on other
-/// faces, edges or vertices than the model has (where triangles of a face have nodes on edges that are not near it).
-/// Local, linear.
+/// edge's range is another one; (u,v) inside a face are stretched as those of its boundary, in planes also turned and
+/// mirrored, as axes in these may be others. Nothing is projected globally, so that the geometry may move as far as it
+/// likes. Throws Error(kMismatch) when the mesh lies on other faces, edges or vertices than the model has (where
+/// triangles of a face have nodes on edges that are not near it). Local, linear.
 MovedMesh move_mesh(const SurfaceMesh& old, const Model& model);
 
 }  // namespace st

@@ -40,6 +40,22 @@ TEST_P(MovedSolid, takes_all_its_nodes_along) {
 INSTANTIATE_TEST_SUITE_P(, MovedSolid, testing::ValuesIn(kSolids),
                          [](const auto& info) { return std::string(info.param); });
 
+TEST(MoveMesh, follows_planes_whose_axes_are_others) {
+  const BoxMesh box;
+  for (const bool is_mirrored : {false, true}) {
+    SurfaceMesh old = box.mesh;  // of a model whose planes have (u,v) turned by 30 degrees
+    const double c = std::cos(radians(30)), s = is_mirrored ? -std::sin(radians(30)) : std::sin(radians(30));
+    for (Vec2& uv : old.corner_uv)
+      uv = {c * uv.x - s * uv.y + 5, is_mirrored ? s * uv.x - c * uv.y : s * uv.x + c * uv.y};
+    const MovedMesh moved = move_mesh(old, box.model);
+    EXPECT_TRUE(moved.spoilt.empty());
+    for (NodeId n = 0; n < old.n_nodes(); ++n)
+      ASSERT_LE(distance(moved.mesh.node_xyz[n], old.node_xyz[n]), 1e-9 * box.model.tables().reference_diagonal());
+    for (std::size_t i = 0; i < old.corner_uv.size(); ++i)
+      ASSERT_LE(norm(moved.mesh.corner_uv[i] - box.mesh.corner_uv[i]), 1e-9 * box.model.tables().reference_diagonal());
+  }
+}
+
 TEST(MoveMesh, lists_what_the_move_distorts) {
   const ShapeMesh thick("cylinder");
   const Model thin = make_model("thin_cylinder");
