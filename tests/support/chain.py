@@ -65,7 +65,8 @@ def artifacts_of(name):
     """The chain of a test model, made once for all tests."""
     folder = WORK / "artifacts" / name
     if not (folder / "done").exists():
-        model = next(MODELS.glob(name + ".*"))
+        # several formats of one model: STEP, whatever the order in the folder
+        model = min(MODELS.glob(name + ".*"), key=lambda p: (p.suffix != ".step", p.name))
         with tempfile.TemporaryDirectory(dir=WORK) as fresh:
             make_chain(model, Path(fresh) / name)
             (Path(fresh) / name / "done").touch()
