@@ -11,7 +11,8 @@ Comments before a block say what it needs; readers of the page do not see them:
   <!-- run: fails 4, says NO FACE -->   must end with this exit code, and print this text
   <!-- run: never, reason -->           not run
   <!-- model: wing.step = box.step -->  a file that the page only names: taken from the test models or the corpus
-A block ```toml or ```text below <!-- file: NAME --> is written to that file.
+A block ```toml or ```text below <!-- file: NAME --> is written to that file. Of a block without a language below
+<!-- run: shown --> each line must be in what was printed so far: words alike, numbers within 10 %, up to a "…".
 """
 import os
 import re
@@ -23,8 +24,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 SOURCE = Path(__file__).resolve().parents[2]
-PIECE = re.compile(r"^<!-- (run|model|file): (.*?) -->$|^```(\w+)\n(.*?)^```$", re.M | re.S)
+PIECE = re.compile(r"^<!-- (run|model|file): (.*?) -->$|^```(\w*)\n(.*?)^```$", re.M | re.S)
+NUMBER = re.compile(r"-?\d[\d.]*")
 SECONDS = 600  # for one block
+ALIKE = 0.1    # of a number that a page shows
 
 
 class Block(NamedTuple):
@@ -34,7 +37,7 @@ class Block(NamedTuple):
 
 
 def pieces(text):
-    """(kind, line, content): model, file and block, in their order."""
+    """(kind, line, content): model, file, block and shown, in their order."""
     notes, name = "", None
     for match in PIECE.finditer(text):
         kind, content, language, body = match.groups()
@@ -50,6 +53,9 @@ def pieces(text):
             name = None
         elif language == "sh":
             yield "block", line, Block(line, body, notes)
+            notes = ""
+        elif notes == "shown":
+            yield "shown", line, body
             notes = ""
 
 
@@ -67,17 +73,33 @@ def find_model(name, folders):
     return None
 
 
-def run_block(block, folder, environment):
-    """None, or what went wrong."""
+def is_alike(shown, said):
+    """Whether a line was said like one that a page shows."""
+    is_whole = "…" not in shown
+    numbers = [[float(n.rstrip(".")) for n in NUMBER.findall(text)] for text in (shown.partition("…")[0], said)]
+    words = [" ".join(NUMBER.sub("#", text).split()) for text in (shown.partition("…")[0], said)]
+    is_same = words[0] == words[1] if is_whole else words[1].startswith(words[0])
+    return is_same and all(abs(a - b) <= ALIKE * abs(b) for a, b in zip(*numbers))
+
+
+def unlike(shown, said):
+    """The first line that is shown and was not said, or None."""
+    lines = said.splitlines()
+    return next((s for s in shown.splitlines() if s.strip("… ") and not any(is_alike(s, own) for own in lines)), None)
+
+
+def run_block(block, folder, environment, said):
+    """None, or what went wrong; what is printed goes to the end of `said`."""
     done = subprocess.run(["bash", "-eu", "-o", "pipefail", "-c", block.text], cwd=folder, env=environment, text=True,
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=SECONDS)
+    said.append(done.stdout)
     expected = re.search(r"fails (\d+)", block.notes)
     wanted = int(expected.group(1)) if expected else 0
-    said = re.search(r"says (.+)$", block.notes)
+    text = re.search(r"says (.+)$", block.notes)
     if done.returncode != wanted:
         return f"exit code {done.returncode}, not {wanted}\n{block.text}{done.stdout[-3000:]}"
-    if said and said.group(1) not in done.stdout:
-        return f"does not say '{said.group(1)}'\n{block.text}{done.stdout[-3000:]}"
+    if text and text.group(1) not in done.stdout:
+        return f"does not say '{text.group(1)}'\n{block.text}{done.stdout[-3000:]}"
     return None
 
 
@@ -90,10 +112,14 @@ def run_page(page, folder, long=False):
         (folder / name).unlink(missing_ok=True)
         (folder / name).symlink_to(SOURCE / name)
     n_run = n_left = 0
+    said = []
     for kind, line, content in pieces(page.read_text(encoding="utf-8")):
         where = f"{page.name}:{line}"
         if kind == "file":
             (folder / content[0]).write_text(content[1], encoding="utf-8")
+        elif kind == "shown":
+            if n_left == 0 and (line_shown := unlike(content, "".join(said))):
+                return n_run, n_left, f"{where}: shown, but not said: {line_shown}\n{''.join(said)[-3000:]}"
         elif kind == "model":
             source = find_model(content[1], [models, corpus])
             if source:
@@ -106,7 +132,7 @@ def run_page(page, folder, long=False):
             print(f"SKIPPED: {where}: not here: {', '.join(lacking)}; these commands were not run:\n{content.text}")
             n_left += 1
         else:
-            failure = run_block(content, folder, environment)
+            failure = run_block(content, folder, environment, said)
             n_run += 1
             if failure:
                 return n_run, n_left, f"{where}: {failure}"
@@ -126,6 +152,9 @@ PLANTS = {  # a page: what its failure must contain; None: it passes
     "<!-- run: needs no_such_program -->\n```sh\nfalse\n```\n": None,
     "<!-- run: long -->\n```sh\nfalse\n```\n": None,
     "<!-- file: a.toml -->\n```toml\nx = 1\n```\n\n```sh\ngrep -q 'x = 2' a.toml\n```\n": "exit code 1",
+    "```sh\necho 3 faces, 95 edges\n```\n\n<!-- run: shown -->\n```\n  3 faces, 100 …\n…\n```\n": None,
+    "```sh\necho 3 faces, 95 edges\n```\n\n<!-- run: shown -->\n```\n3 faces, 110 edges\n```\n": "not said: 3 faces",
+    "```sh\necho 3 faces, 95 edges\n```\n\n<!-- run: shown -->\n```\n3 faces\n```\n": "not said: 3 faces",
     "```sh\ntouch a\n```\n\n```sh\ntest -f a\ntest -d examples/openfoam\n```\n": None,
 }
 
