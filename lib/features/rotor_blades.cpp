@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "base/boxes.h"
 #include "base/eigen.h"
 #include "base/similarity.h"
 #include "base/sort_once.h"
@@ -19,6 +20,7 @@ namespace {
 constexpr std::size_t kPlaces = 5;         // along an edge, its ends included
 constexpr double kSameLength = 1e-3;       // of an edge's length: to that of its image
 constexpr double kOff = 2e-3;              // of an edge's length: a place from that of its image
+constexpr double kOffNose = 0.02;          // of the chord: a nose from the box of its face
 constexpr double kLeastTurn = radians(1);  // between two blades: copies in one place are none
 constexpr double kUp = 1e-6;               // of unit vectors across an edge: too short for a direction
 constexpr double kNearlyAll = 0.9;         // of the way of the best: others have too few chords to compare
@@ -229,7 +231,7 @@ class BladeFinder {
     return most == n_edges.end() ? kNone : most->first;
   }
 
-  /// The surface where a turn takes it; none where the model has not all of its edges there.
+  /// The surface where a turn takes it; none where the model lacks one of its edges, or the face that a nose comes to.
   std::optional<LiftingSurface> image_of_wing(const LiftingSurface& wing, const Similarity& turn) {
     const double reach = kOff * t_.edge_length[longest_edge(wing)];
     std::map<FaceId, FaceId> faces{{kNone, kNone}};
@@ -247,14 +249,12 @@ class BladeFinder {
       for (ChordStation& s : edge.stations) {
         if (s.is_measured && (image(s.nose_face) == kNone || (edge.is_inside && image(s.tail_face) == kNone)))
           return std::nullopt;
-        s = {way > 0 ? s.share : 1 - s.share,
-             turn(s.trailing),
-             s.chord,
-             s.is_measured,
-             s.is_hidden,
-             turn(s.nose),
-             image(s.nose_face),
-             image(s.tail_face)};
+        if (way < 0) s.share = 1 - s.share;
+        s.trailing = turn(s.trailing);
+        s.nose = turn(s.nose);
+        s.nose_face = image(s.nose_face);
+        s.tail_face = image(s.tail_face);
+        if (s.is_measured && !contains(t_.face_box[s.nose_face], s.nose, kOffNose * s.chord)) return std::nullopt;
       }
       if (way < 0) std::ranges::reverse(edge.stations);
     }

@@ -697,6 +697,10 @@ const std::map<std::string, Factory>& factories() {
       {"wing_on_body", wing_on_body},
       {"fan", fan},
       {"three_blades", three_blades},
+      {"two_wings_in_line",
+       [] {
+         return occt::compound_of({moved(wing(0.1036), 0, 0, 5), moved(wing(0.1036), 0, 0, -35)});
+       }},
       {"two_tapering_wings",
        [] {
          return occt::compound_of({tapering_wing(), moved(tapering_wing(), 0, 0, 200)});

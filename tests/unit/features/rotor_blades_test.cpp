@@ -119,5 +119,19 @@ TEST(OtherBlades, are_none_that_do_not_turn_into_each_other) {
   EXPECT_EQ(wings[0].trailing[0].stations[3].chord, 7);
 }
 
+TEST(OtherBlades, have_their_noses_before_their_edges_where_only_these_turn_into_each_other) {
+  const Model model = test::make_model("two_wings_in_line");
+  const FaceRoles roles = face_roles(model.tables());
+  std::vector<LiftingSurface> wings =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)));
+  ASSERT_EQ(wings.size(), 2u);
+  std::vector<UnusedTrailing> unused;
+  liken_blades(model, std::vector<std::uint8_t>(static_cast<std::size_t>(model.tables().n_edges()), 0), wings, unused);
+  ASSERT_EQ(wings.size(), 2u);
+  for (const LiftingSurface& wing : wings)
+    for (const ChordStation& s : wing.trailing.at(0).stations)
+      EXPECT_TRUE(!s.is_measured || std::abs(s.nose.x) < 0.02) << s.nose.x << " at " << s.trailing.z;
+}
+
 }  // namespace
 }  // namespace st
