@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace st {
@@ -21,6 +23,13 @@ FaceRole role_of(const ModelTables& t, FaceId f) {
                                : FaceRole::kWall;
 }
 
+/// Whether a face is in a group of one of these roles.
+bool has_group_of(const ModelTables& t, std::initializer_list<std::string_view> roles) {
+  return std::ranges::any_of(t.labels.face_group, [&](std::int32_t group) {
+    return group >= 0 && std::ranges::find(roles, t.labels.group_role[group]) != roles.end();
+  });
+}
+
 FaceRoles roles_along(OwnAxes own, const ModelTables& t) {
   FaceRoles roles;
   roles.own = std::move(own);
@@ -28,6 +37,7 @@ FaceRoles roles_along(OwnAxes own, const ModelTables& t) {
   const auto has = [&](FaceRole role) {
     return std::find(roles.role.begin(), roles.role.end(), role) != roles.role.end();
   };
+  roles.is_passage = !has(FaceRole::kFarfield) && has_group_of(t, {"periodic"}) && has_group_of(t, {"inlet", "outlet"});
   if (!has(FaceRole::kFarfield))
     std::replace(roles.role.begin(), roles.role.end(), FaceRole::kInterface, FaceRole::kWall);
   if (!has(FaceRole::kWall)) std::fill(roles.role.begin(), roles.role.end(), FaceRole::kWall);

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace st {
 namespace {
@@ -53,6 +55,20 @@ TEST(FaceRoles, of_a_model_without_a_wall_are_walls_all) {
   const FaceRoles roles = face_roles(t);
   EXPECT_EQ(roles.role, std::vector<FaceRole>(4, FaceRole::kWall));
   EXPECT_GT(roles.reference_diagonal, 100);
+}
+
+TEST(FaceRoles, of_a_passage_are_periodic_faces_with_an_inlet_or_an_outlet) {
+  ModelTables t = body_in_domain(2);
+  t.labels.group_role = {"wall", "periodic", "inlet", "outlet", "farfield"};
+  for (const auto& [groups, is_passage] : {std::pair{std::vector<std::int32_t>{0, 1, 1, 2}, true},
+                                           {{0, 1, 1, 3}, true},
+                                           {{0, 1, 1, 0}, false},     // a sector of a machine part
+                                           {{0, 0, 2, 3}, false},     // a body with an engine
+                                           {{0, 1, 2, 4}, false}}) {  // a far field says it already
+    t.labels.face_group = groups;
+    EXPECT_EQ(face_roles(t).is_passage, is_passage) << groups[1] << groups[2] << groups[3];
+    EXPECT_EQ(is_material_ahead(t, face_roles(t)), is_passage || groups[3] == 4);
+  }
 }
 
 }  // namespace
