@@ -27,6 +27,11 @@ bool GapPatch::is_inside(double s, double t) const {
   return (inside >> (3 * index(t, t_lo, t_hi) + index(s, s_lo, s_hi))) & 1;
 }
 
+double GapPatch::sagging() const {
+  const auto of_circle = [](double k, double half) { return std::abs(k * k * k) * half * half * half * half / 8; };
+  return of_circle(k_ss, std::max(-s_lo, s_hi)) + of_circle(k_tt, std::max(-t_lo, t_hi));
+}
+
 Box3 GapPatch::box() const {
   Box3 box;
   const double h = 0.5 * (std::abs(k_ss) * std::max(s_lo * s_lo, s_hi * s_hi) +

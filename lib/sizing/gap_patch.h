@@ -23,10 +23,13 @@ struct GapPatch {
   std::optional<int> gap_cells;         ///< lengths across gaps, ahead; nullopt: these do not matter
   std::optional<int> wall_cells;        ///< lengths across walls, behind; nullopt: these do not matter
   std::int32_t cause = 0;               ///< packed
+  std::int32_t solid = -1;              ///< that the face bounds; -1: none
   std::uint32_t inside = 0x1ff;         ///< bit 3 * row + column: that probe lies inside the loops
 
   /// Turns the normal round.
   void flip() { normal = -normal, k_ss = -k_ss, k_st = -k_st, k_tt = -k_tt; }
+  /// How far a round surface is off the paraboloid at its rim, model unit.
+  double sagging() const;
   double height(double s, double t) const { return 0.5 * (k_ss * s * s + k_tt * t * t) + k_st * s * t; }
   Vec3 point(double s, double t) const { return x + s * axis_s + t * axis_t + height(s, t) * normal; }
   /// Unit normal of the paraboloid, to the same side as `normal`.

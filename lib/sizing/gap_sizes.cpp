@@ -8,6 +8,7 @@ namespace st {
 namespace {
 
 constexpr double kTouching = 1e-3;  // of the smallest length: nearer surfaces touch
+constexpr double kSagging = 2;      // times that of both patches: nearer patches of two solids touch
 constexpr double kFill = 0.9;       // largest side of a tile over the edge of its raster box
 constexpr double kLarge = 2.5;      // times this patch: its corners may miss this one
 constexpr int kMaxDepth = 8;        // of tiles in tiles
@@ -66,10 +67,18 @@ class GapTiler {
           norm2(to) - along * along > f.radius * f.radius)
         continue;
       const std::optional<double> d = f.patch->facing_distance(x, n);
-      if (d && std::abs(*d) > kTouching * patch_.min_length && std::abs(*d) < cells_to(patch_, *d) * sight.length)
+      if (d && !is_contact(*f.patch, *d) && std::abs(*d) < cells_to(patch_, *d) * sight.length)
         sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n};
     }
     return sight;
+  }
+
+  /// Nothing lies between the patches. Material ends with its solid: behind it no other one makes a wall. A shaft in
+  /// its bore lies on it as far as paraboloids can tell.
+  bool is_contact(const GapPatch& other, double d) const {
+    if (std::abs(d) <= kTouching * patch_.min_length) return true;
+    if (patch_.solid < 0 || other.solid < 0 || other.solid == patch_.solid) return false;
+    return d < kSagging * (patch_.sagging() + other.sagging());
   }
 
   double length_at(double s, double t) const { return std::max(look(s, t).length, patch_.min_length); }

@@ -18,8 +18,8 @@ class GapFinder {
   /// Appends raster boxes with 1/gap_cells of the distance along the patch's normal, 1/wall_cells against it, to the
   /// next patch that faces it (normals opposed by more than 135 degrees), where that is less than the patch asks for;
   /// never below its min_length. Patches are paraboloids, so that distances between curved walls are those of the
-  /// surfaces. The boxes cover the part of the patch that sees a gap. Surfaces that touch make no gap. Nothing to a
-  /// side whose cells are not given.
+  /// surfaces. The boxes cover the part of the patch that sees a gap. Surfaces that touch make no gap, and walls end
+  /// with their solid. Nothing to a side whose cells are not given.
   void add_boxes(std::size_t patch, std::vector<RasterBox>& boxes) const;
 
  private:

@@ -421,8 +421,10 @@ class RasterTasks {
                 chord ? &*chord : nullptr);
     if (is_reversed)
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
-    if (is_reversed != limits_.is_material_ahead)
-      for (GapPatch& patch : patches) patch.flip();
+    for (GapPatch& patch : patches) {
+      patch.solid = model_.tables().face_solid[f];
+      if (is_reversed != limits_.is_material_ahead) patch.flip();
+    }
     if (strip && !limits_.edge_is_ruled[strip->edges[0]] && !limits_.edge_is_ruled[strip->edges[1]] &&
         !(limits_.is_mere_split(strip->edges[0]) && limits_.is_mere_split(strip->edges[1])))
       raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);

@@ -31,6 +31,14 @@ TEST(GapPatch, fits_a_paraboloid_by_itself) {
   EXPECT_LE(distance(p.point(0.05, -0.05), {0.05, -0.05, 0.5 * (2 * 0.0025 - 3 * 0.0025) - 0.7 * 0.0025}), 1e-6);
 }
 
+TEST(GapPatch, sags_as_a_circle_does) {
+  GapPatch p;
+  p.s_lo = -0.1, p.s_hi = 0.2, p.k_ss = -1;
+  EXPECT_NEAR(p.sagging(), (1 - std::sqrt(1 - 0.04)) - 0.02, 1e-5);
+  p.flip();
+  EXPECT_NEAR(p.sagging(), 0.0002, 1e-6);
+}
+
 TEST(GapPatch, fits_a_plane_and_a_point_without_curvature) {
   const GapPatch plane = fit_patch(grid([](double, double) { return 0.0; }), {0, 0, 1});
   EXPECT_EQ(plane.k_ss, 0);

@@ -76,6 +76,27 @@ TEST(GapSizes, tell_gaps_in_the_flow_from_walls) {
     }
 }
 
+TEST(GapSizes, see_no_wall_between_two_solids_and_no_gap_where_a_shaft_fills_its_bore) {
+  const auto cylinder = [](double radius, double turned) {
+    return AxialSurface(SurfaceType::kCylinder, kGapFrame, radius, 0, turned, turned + 2 * kPi, 0, 1);
+  };
+  for (const double bore : {1.0, 1.02}) {
+    std::vector<GapPatch> patches;
+    const SamplingLimits own = limits(0.5, 1e-4, 2);
+    add_patches(cylinder(1, 0), Normals::kAlong, own, patches, 0);
+    const std::size_t n_shaft = patches.size();
+    add_patches(cylinder(bore, 0.1), Normals::kAgainst, own, patches, 1);
+    for (std::size_t i = 0; i < patches.size(); ++i) patches[i].solid = i < n_shaft ? 0 : 1;
+    double least = 1;
+    for (const RasterBox& b : gaps(patches)) least = std::min(least, static_cast<double>(b.length));
+    if (bore > 1) {
+      EXPECT_NEAR(least, 0.01, 0.001);
+    } else {
+      EXPECT_GT(least, 0.1) << "the shaft itself is 2 thick";
+    }
+  }
+}
+
 TEST(GapSizes, take_the_smaller_length_of_a_gap_and_a_wall) {
   SamplingLimits own = limits(1, 0.01);
   own.gap_cells = 2;
