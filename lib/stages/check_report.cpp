@@ -408,10 +408,10 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
 std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
                              CheckText detail) {
   std::string text;
-  std::int64_t n_notes = 0;
+  std::vector<std::string> notes;
   for (const Check& c : f.checks) {
     if (c.fails()) text += check_line(mesh, c);
-    n_notes += !c.fails() && c.defects.count > 0;
+    if (!c.fails() && c.defects.count > 0) notes.emplace_back(c.name);
   }
   const QualityStats& q = f.quality.model;
   std::string worst;
@@ -432,7 +432,9 @@ std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, c
         fmt::format("  {:<20} {} off the CAD at most{}\n", "deviation",
                     length_text(f.deviation->model.max_distance, f.unit), in_face(mesh, f.deviation->worst_distance));
   if (detail == CheckText::kWithWings) text += wing_lines(f.wings);
-  if (n_notes > 0) text += fmt::format("  {:<20} of {} more checks: st-check -v\n", "notes", n_notes);
+  if (!notes.empty())
+    text += fmt::format("  {:<20} {}: see st-check -v, with --geometry and --sizing, or st-report\n", "notes",
+                        fmt::join(notes, ", "));
   return text + verdict_line(path, mesh, f, seconds);
 }
 

@@ -678,12 +678,14 @@ std::string wing_options(const RasterStageOptions& o) {
   return set;
 }
 
+bool asks_for_wings(const RasterStageOptions& o) { return o.asks_for_wings || !wing_options(o).empty(); }
+
 /// Who asks for lengths at trailing edges is told of those without; with -v they are all listed.
 void report_unused(const RasterStageOptions& o, const Model& model, const FaceRoles& roles, const Wings& wings) {
   const std::string& unit = model.tables().unit;
   for (const UnusedTrailing& u : wings.unused)
     if (u.is_declared) log_warning(declared_warning(u));
-  const bool is_asked = o.asks_for_wings || !wing_options(o).empty();
+  const bool is_asked = asks_for_wings(o);
   for (const std::string& line : unused_lines(wings.unused, kMostUnused, unit))
     is_asked ? log_report(line) : log_info(line);
   if (!is_asked) return;
@@ -704,7 +706,8 @@ void report_wings(const RasterStageOptions& o, const Wings& wings, const std::st
   for (std::size_t i = 0; i < std::min(n, kMostGroups); ++i)
     log_report(wing_line(wings.aircraft.wings[i], o.edge_size, unit));
   if (n > kMostGroups) log_report(fmt::format("  and {} more lifting surfaces", n - kMostGroups));
-  if (const std::string used = used_line(n, wings.unused); n > 0 && !used.empty()) log_report(used);
+  if (const std::string used = used_line(n, wings.unused); n > 0 && !used.empty())
+    log_report(used + (asks_for_wings(o) ? "" : "; -v names them"));
 }
 
 /// [n_edges] 1: a rule says that it is no trailing edge.

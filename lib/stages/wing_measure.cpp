@@ -288,6 +288,19 @@ void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Sp
   if (span > 0) own.held = held / span;
 }
 
+/// The group that most triangles of these faces are in; empty: none, or one without a name of its own.
+std::string main_group(const SurfaceMesh& mesh, std::span<const FaceId> faces) {
+  std::vector<std::int64_t> count(mesh.labels.group_name.size());
+  for (std::size_t t = 0; t < mesh.triangle_group.size(); ++t) {
+    const auto group = static_cast<std::size_t>(mesh.triangle_group[t]);
+    if (group < count.size() && std::ranges::binary_search(faces, mesh.triangle_face[t])) ++count[group];
+  }
+  const auto most = std::ranges::max_element(count);
+  if (most == count.end() || *most == 0) return "";
+  const std::string& name = mesh.labels.group_name[static_cast<std::size_t>(most - count.begin())];
+  return name == "default" ? "" : name;
+}
+
 }  // namespace
 
 std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const WingRecord> wings) {
@@ -300,6 +313,7 @@ std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const 
     const WingMesh triangles(mesh, wing);
     const Spanwise spanwise(wing);
     if (!wing.faces.empty()) own.n_triangles = triangles.n_triangles();
+    own.group = main_group(mesh, wing.faces);
     std::vector<std::size_t> chosen;
     if (!triangles.is_empty() && !spanwise.station.empty()) {
       for (const double share : kShares) chosen.push_back(spanwise.nearest(share));

@@ -50,6 +50,7 @@ struct WingMeasure {
   std::optional<WingMiss> worst = std::nullopt;    ///< of all stations; nullopt: nothing is asked for
   std::int64_t n_triangles = 0;                    ///< on its faces
   std::vector<WingStationMeasure> stations = {};   ///< nearest to 10, 30, 50, 70 and 90 per cent of the span, each once
+  std::string group = {};                          ///< that most of its triangles are in; empty: none that has a name
   std::optional<double> deviation = std::nullopt;  ///< largest distance of a triangle's midpoint from the CAD over the
                                                    ///< chord
 };

@@ -87,7 +87,7 @@ std::string used_line(std::size_t n_wings, std::span<const UnusedTrailing> unuse
   for (const UnusedTrailing& u : unused) ++reasons[u.why];
   std::string why;
   for (const auto& [reason, n] : reasons) why += fmt::format("{}{} because {}", why.empty() ? "" : ", ", n, reason);
-  return fmt::format("  trailing edges: of {} sets found, {} used as lifting surfaces; left out are {}; -v names them",
+  return fmt::format("  trailing edges: of {} sets found, {} used as lifting surfaces; left out are {}",
                      n_wings + unused.size(), n_wings, why);
 }
 

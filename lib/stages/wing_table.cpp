@@ -83,8 +83,8 @@ std::string wing_lines(std::span<const WingMeasure> wings) {
     };
     text +=
         fmt::format("  {:<20} nose {} % of the chord, trailing edge {} %; asked {} %, held on {:.0f} % of the span\n",
-                    fmt::format("wing at edge {}", w.first_edge + 1), of_chord(&WingStationMeasure::nose),
-                    of_chord(&WingStationMeasure::trailing),
+                    fmt::format("wing at edge {}{}", w.first_edge + 1, w.group.empty() ? "" : ", " + w.group),
+                    of_chord(&WingStationMeasure::nose), of_chord(&WingStationMeasure::trailing),
                     at_stations(w, "{:.2g}", [](const auto& s) { return 100 * s.asked / s.chord; }), 100 * w.held);
   }
   if (wings.size() > kMostLines) text += fmt::format("  and {} more lifting surfaces\n", wings.size() - kMostLines);

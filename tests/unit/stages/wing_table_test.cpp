@@ -28,5 +28,17 @@ TEST(WingTable, has_a_line_for_each_surface) {
   EXPECT_NEAR(json[1]["stations"][0]["nose"]["normal"].get<double>(), 0.05, 1e-9);
 }
 
+TEST(WingTable, names_the_group_that_most_triangles_are_in) {
+  SurfaceMesh mesh = plank();
+  mesh.labels.group_name = {"default", "fin", "wing"};
+  const std::vector<WingRecord> wings = {record(0.05)};
+  for (const auto& [lower, expected] : {std::pair{2, ", wing"}, {1, ", fin"}, {0, ""}}) {
+    mesh.triangle_group.assign(static_cast<std::size_t>(mesh.n_triangles()), lower);
+    mesh.triangle_group[0] = 1;
+    const std::string text = wing_lines(measure_wings(mesh, wings));
+    EXPECT_EQ(text.find("  wing at edge 5" + std::string(expected) + " "), 0u) << text;
+  }
+}
+
 }  // namespace
 }  // namespace st
