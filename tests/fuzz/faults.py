@@ -347,7 +347,7 @@ def main():
     signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in background jobs of a shell
     if args.resumed:
         return kill_and_resume(args)
-    model = next(Path(os.environ.get("ST_MODELS") or args.bin_dir.parent / "test_models").glob(args.model + ".*"))
+    model = min(Path(os.environ.get("ST_MODELS") or args.bin_dir.parent / "test_models").glob(args.model + ".*"))
     counts, failed = collections.Counter(), 0
     with tempfile.TemporaryDirectory() as top:
         good = Path(top) / "good"

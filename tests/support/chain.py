@@ -65,8 +65,7 @@ def artifacts_of(name):
     """The chain of a test model, made once for all tests."""
     folder = WORK / "artifacts" / name
     if not (folder / "done").exists():
-        # several formats of one model: STEP, whatever the order in the folder
-        model = min(MODELS.glob(name + ".*"), key=lambda p: (p.suffix != ".step", p.name))
+        model = min(MODELS.glob(name + ".*"))  # of several formats BREP, which has no names
         with tempfile.TemporaryDirectory(dir=WORK) as fresh:
             make_chain(model, Path(fresh) / name)
             (Path(fresh) / name / "done").touch()
