@@ -5,12 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <utility>
 
 #include "base/eigen.h"
 #include "base/error.h"
-#include "base/threads.h"
 #include "geometry/shape/flatten.h"
 
 namespace st {
@@ -197,54 +195,27 @@ class Cutter {
       open.push_back(static_cast<std::int32_t>(chart_.size()));
       for (const std::int32_t t : patch.triangles) mesh_.face[t] = open.back();
       members_.push_back(patch.triangles);
-      tries_.emplace_back();
       chart_.push_back(kNone);
     }
   }
 
-  /// What becomes of a piece as it is.
-  struct Try {
-    FacetPatch patch;
-    std::optional<std::vector<Vec2>> uv;  ///< [nodes of the patch] where it can be laid into a plane
-    std::vector<double> height;           ///< otherwise: of its nodes above the best cut
-  };
-
-  Try try_piece(std::int32_t piece) const {
-    Try t;
-    t.patch = std::move(find_patches(mesh_, members_[piece]).front());
-    const PatchTopology topology = find_topology(t.patch.x, t.patch.corners);
-    t.uv = flatten(t.patch.x, t.patch.corners, topology);
-    if (!t.uv) t.height = best_cut(t.patch, topology);
-    return t;
-  }
-
-  /// The piece, and with it, on all threads, the others that are open: small ones, whose work a cut of a neighbour
-  /// beforehand will rarely undo.
-  void try_all(std::int32_t piece, const std::vector<std::int32_t>& open) {
-    std::vector<std::int32_t> due{piece};
-    for (const std::int32_t o : open)
-      if (thread_count() > 1 && !tries_[o] && members_[o].size() <= kLarge) due.push_back(o);
-    parallel_for(due.size(), 1, [&](std::size_t i, std::size_t) { tries_[due[i]] = try_piece(due[i]); });
-  }
-
   void work_on(std::int32_t piece, std::vector<std::int32_t>& open) {
-    if (!tries_[piece]) try_all(piece, open);
-    const Try t = *std::exchange(tries_[piece], std::nullopt);
-    std::vector<std::int32_t> own = std::exchange(members_[piece], {});
-    if (t.uv) {
-      for (std::size_t i = 0; i < t.patch.triangles.size(); ++i)
-        for (int k = 0; k < 3; ++k) mesh_.uv[t.patch.triangles[i]][k] = (*t.uv)[t.patch.corners[i][k]];
+    const std::vector<std::int32_t> triangles = std::exchange(members_[piece], {});
+    const FacetPatch patch = std::move(find_patches(mesh_, triangles).front());
+    const PatchTopology topology = find_topology(patch.x, patch.corners);
+    if (const auto uv = flatten(patch.x, patch.corners, topology)) {
+      for (std::size_t i = 0; i < patch.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k) mesh_.uv[patch.triangles[i]][k] = (*uv)[patch.corners[i][k]];
       chart_[piece] = n_charts_++;
       return;
     }
-    if (t.height.empty()) fail(t.patch);
+    const std::vector<double> height = best_cut(patch, topology);
+    if (height.empty()) fail(patch);
     const std::int32_t n_before = mesh_.n_triangles();
-    divide(mesh_, t.patch, t.height);
-    for (std::int32_t i = n_before; i < mesh_.n_triangles(); ++i) {
-      const std::int32_t of = mesh_.face[i];
-      (of == piece ? own : members_[of]).push_back(i);
-      tries_[of].reset();
-    }
+    divide(mesh_, patch, height);
+    std::vector<std::int32_t> own = triangles;
+    for (std::int32_t t = n_before; t < mesh_.n_triangles(); ++t)
+      (mesh_.face[t] == piece ? own : members_[mesh_.face[t]]).push_back(t);
     add_pieces(own, open);
   }
 
@@ -258,7 +229,6 @@ class Cutter {
 
   FacetMesh& mesh_;
   std::vector<std::vector<std::int32_t>> members_;  // triangles of pieces that are open
-  std::vector<std::optional<Try>> tries_;           // of each piece that is open and has not changed since
   std::vector<std::int32_t> chart_;                 // number of each piece that is done
   std::int32_t n_charts_ = 0;
 };
