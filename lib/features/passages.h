@@ -12,11 +12,6 @@
 
 namespace st {
 
-/// As in features/wing_edges.h, and whether there are edges that were trailing ones if the material were on the other
-/// side: of holes. On rank 0.
-std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
-                                      const Executor& executor, std::vector<WingEdge>* small, bool& has_hollow);
-
 /// Whether holes lead through a closed model, as where a vane reaches from wall to wall; by Euler's formula. Cheap.
 bool has_through_holes(const ModelTables& tables);
 

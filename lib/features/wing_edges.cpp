@@ -10,7 +10,6 @@
 #include "base/packer.h"
 #include "base/share.h"
 #include "features/edge_places.h"
-#include "features/passages.h"
 #include "features/strip.h"
 
 namespace st {
@@ -561,17 +560,11 @@ const char* name_of(WingEdgeKind kind) {
 }
 
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
-                                      const Executor& executor, std::vector<WingEdge>* small) {
-  bool has_hollow = false;
-  return find_wing_edges(model, roles, strips, executor, small, has_hollow);
-}
-
-std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
-                                      const Executor& executor, std::vector<WingEdge>* small, bool& has_hollow) {
+                                      const Executor& executor, std::vector<WingEdge>* small, bool* has_hollow) {
   WingEdgeFinder finder(model, roles, strips);
   std::vector<WingEdge> found = finder.run(executor);
   if (small) *small = finder.small();
-  has_hollow = finder.has_hollow();
+  if (has_hollow) *has_hollow = finder.has_hollow();
   return found;
 }
 

@@ -49,11 +49,12 @@ struct DeclaredEdge {
 /// normals point away from, except in a model with a far field, where it is outside of the domain. Where a plane of
 /// symmetry cuts a fin in two, the other half counts as if it were there; other edges of symmetry planes and those of
 /// far fields are left out. `strips`: those of the model, by find_strips(). Collective: some edges are a task; complete
-/// on rank 0, empty elsewhere. `small`: gets the trailing edges that are too short, down to a tenth of that. Cost: some
-/// hundred evaluations per edge of a nose.
+/// on rank 0, empty elsewhere. `small`: gets the trailing edges that are too short, down to a tenth of that.
+/// `has_hollow`: gets, on rank 0, whether there are edges that were trailing ones if the material were on the other
+/// side: of holes. Cost: some hundred evaluations per edge of a nose.
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                                       const Executor& executor = SerialExecutor(),
-                                      std::vector<WingEdge>* small = nullptr);
+                                      std::vector<WingEdge>* small = nullptr, bool* has_hollow = nullptr);
 
 /// Sets what the user says, the later of two winning: adds edges, marks them as declared, or takes them out. Both long
 /// edges of a base belong together: of one that is named, or of a narrow face with corners along both of them. Local.

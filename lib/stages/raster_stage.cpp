@@ -857,7 +857,7 @@ class RasterRun {
   bool find_wings() {
     std::vector<WingEdge> small;
     bool has_hollow = false;
-    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_, &small, has_hollow);
+    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_, &small, &has_hollow);
     std::vector<DeclaredEdge> declared;
     if (comm_.is_root()) {
       declared = declared_edges(rules_, model_.tables(), bases_, wings_.edges);

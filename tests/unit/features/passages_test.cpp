@@ -45,7 +45,7 @@ TEST(Passages, are_looked_for_where_edges_of_holes_are_sharp) {
   const auto has_hollow = [](const std::string& shape) {
     const Model model = test::make_model(shape);
     bool is_hollow = true;
-    find_wing_edges(model, walls_alone(model), find_strips(model), SerialExecutor(), nullptr, is_hollow);
+    find_wing_edges(model, walls_alone(model), find_strips(model), SerialExecutor(), nullptr, &is_hollow);
     return is_hollow;
   };
   EXPECT_TRUE(has_hollow("wing_in_box"));
