@@ -24,7 +24,7 @@ class Sources(ToolTest):
 
     def prolong(self, text, *options, name="s.toml"):
         (self.folder / name).write_text(text)
-        return Run("st-prolong", artifacts_of("box") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources",
+        return Run("st-prolong", artifacts_of("box.step") / "raster.hdf", "-o", self.folder / "s.hdf", "--sources",
                    self.folder / name, *options)
 
     def test_outside_the_octree_are_named(self):
@@ -58,7 +58,7 @@ class Sources(ToolTest):
 
 class Blank(ToolTest):
     def test_a_mesh_from_somewhere_else_is_asked_about(self):
-        box, block, sphere = (artifacts_of(name) for name in ("box", "block_with_hole", "sphere"))
+        box, block, sphere = (artifacts_of(name) for name in ("box.step", "block_with_hole", "sphere"))
         meshes = {box / "mesh.hdf": "", sphere / "mesh.hdf": "near the model's faces", self.folder / "cm.stl": "unit?"}
         for name, steps in (("moved", "translate 20 10 5"), ("large", "scale 3")):
             there, mesh = self.folder / "there.hdf", self.folder / f"{name}.hdf"
@@ -134,8 +134,8 @@ class Names(ToolTest):
 
     def test_a_group_that_only_one_input_has_joins_nothing(self):
         geometry = artifacts_of("wing_with_flap") / "geometry.hdf"
-        run = must("st-edit", geometry, artifacts_of("box") / "geometry.hdf", "-o", self.folder / "o.hdf", "--join",
-                   "wing")
+        run = must("st-edit", geometry, artifacts_of("box.step") / "geometry.hdf", "-o", self.folder / "o.hdf",
+                   "--join", "wing")
         self.assertIn("warning: --join 'wing': only one input has such a group; nothing is joined", run.err)
 
     def test_keys_intersect_and_lists_unite_in_rules_as_in_groups(self):

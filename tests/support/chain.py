@@ -62,10 +62,10 @@ def make_chain(model, folder, n_ranks=1, import_options=(), raster_options=(), p
 
 
 def artifacts_of(name):
-    """The chain of a test model, made once for all tests."""
+    """The chain of a test model, made once for all tests; "box.step" asks for one of several formats."""
     folder = WORK / "artifacts" / name
     if not (folder / "done").exists():
-        model = min(MODELS.glob(name + ".*"))  # of several formats BREP, which has no names
+        model = min(MODELS.glob(name if "." in name else name + ".*"))  # BREP first, which has no names and no unit
         with tempfile.TemporaryDirectory(dir=WORK) as fresh:
             make_chain(model, Path(fresh) / name)
             (Path(fresh) / name / "done").touch()
