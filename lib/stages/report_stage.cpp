@@ -69,12 +69,6 @@ RunFiles sort_files(const ReportStageOptions& o) {
   return files;
 }
 
-/// What st-check reports, and its verdict.
-struct Verdict {
-  std::string json = "null";  ///< no mesh: no checks
-  std::optional<bool> passes;
-};
-
 Verdict check(const RunFiles& files) {
   if (files.mesh.empty()) return {};
   CheckStageOptions options;
@@ -383,7 +377,7 @@ StageSummary run_report(const ReportStageOptions& o) {
     files.is_merged_here = true;
     merge_what_there_is(files.patches, files.mesh);
   }
-  const Verdict verdict = check(files);
+  const Verdict verdict = o.checked ? *o.checked : check(files);
   const std::string page = make_page(o, files, shown_as, verdict);
   write_text_file(o.output, page);
   Json summary = {{"tool", "st-report"}, {"mesh", shown_as}, {"output", o.output}};

@@ -135,7 +135,7 @@ class Run {
     o.geometry = geometry_;
     o.sizing = sizing_;
     o.text = verbosity() == Verbosity::kVerbose ? CheckText::kWhole : CheckText::kWithWings;
-    do_part(RunPart::kCheck, "", [&] { return run_check(o); });
+    do_part(RunPart::kCheck, "", [&] { return run_check(o, o_.report.empty() ? nullptr : &checked_.json); });
   }
 
   void report() {
@@ -144,6 +144,8 @@ class Run {
     o.artifacts = {o_.output, o_.raster.output};
     o.geometry = geometry_;
     o.sizing = sizing_;
+    checked_.passes = verdict_.code == ExitCode::kOk;
+    o.checked = std::move(checked_);
     o.output = o_.report;
     do_part(RunPart::kReport, o.output, [&] { return run_report(o); });
   }
@@ -204,6 +206,7 @@ class Run {
   double expected_triangles_ = 0;
   nlohmann::json json_ = nlohmann::json::object();  // what each tool says
   StageSummary verdict_;
+  Verdict checked_;  // for the report
 };
 
 }  // namespace

@@ -206,6 +206,13 @@ class Errors(RunTest):
         self.assertRegex(run.out, r"(?m)^mesh.hdf: FAILS: ")
         self.expect_only("mesh.hdf")
 
+    def test_the_report_shows_what_the_run_asked_of_the_mesh(self):
+        for words, code, verdict in ((["--min-angle", "60"], INCOMPLETE, "does not pass"), ([], OK, "passes")):
+            run = Run("st-run", self.model, "--report", "r.html", *words, cwd=self.folder)
+            self.assertEqual(run.code, code, run)
+            self.assertRegex(run.err, rf"(?m)^st-report +mesh.hdf {verdict},")
+            self.assertEqual('"min-angle": {' in (self.folder / "r.html").read_text(), code == INCOMPLETE)
+
     def test_a_full_disk_is_6_and_leaves_nothing(self):
         def few_bytes():
             resource.setrlimit(resource.RLIMIT_FSIZE, (9000, 9000))
