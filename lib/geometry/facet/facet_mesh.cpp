@@ -199,4 +199,14 @@ void divide(FacetMesh& mesh, const FacetPatch& patch, const std::vector<double>&
   });
 }
 
+void keep_triangles(FacetMesh& mesh, const std::vector<std::uint8_t>& is_kept) {
+  const auto pick = [&](auto& rows) {
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < is_kept.size(); ++t)
+      if (is_kept[t]) rows[n++] = rows[t];
+    rows.resize(n);
+  };
+  pick(mesh.corners), pick(mesh.corner_normal), pick(mesh.is_line), pick(mesh.part), pick(mesh.face), pick(mesh.uv);
+}
+
 }  // namespace st

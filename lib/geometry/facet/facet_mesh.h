@@ -49,6 +49,9 @@ std::vector<FacetPatch> find_patches(const FacetMesh& mesh, std::vector<std::int
 /// triangles are at the end of the mesh and have the face of the one they are part of.
 void divide(FacetMesh& mesh, const FacetPatch& patch, const std::vector<double>& height);
 
+/// Drops the other triangles; nodes stay. `is_kept`: [n_triangles].
+void keep_triangles(FacetMesh& mesh, const std::vector<std::uint8_t>& is_kept);
+
 /// Area of triangle t times two, along its normal.
 inline Vec3 area_normal(const FacetMesh& mesh, std::int32_t t) {
   const Corners& c = mesh.corners[t];

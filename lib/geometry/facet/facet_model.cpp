@@ -18,12 +18,27 @@ constexpr double kSinglePrecision = 2.4e-7;  // of the largest coordinate: what 
 
 using NodePair = std::pair<std::int32_t, std::int32_t>;
 
+/// Without the air's own facets, which are far away and exact.
+double largest_coordinate(const FacetMesh& mesh, const std::vector<std::string>& part_name) {
+  std::vector<std::uint8_t> is_air;
+  for (const std::string& name : part_name)
+    is_air.push_back(role_of_name(name) == "farfield" || role_of_name(name) == "symmetry");
+  double largest = 0;
+  for (std::int32_t t = 0; t < mesh.n_triangles(); ++t) {
+    if (is_air[mesh.part[t]]) continue;
+    for (const std::int32_t n : mesh.corners[t]) {
+      const Vec3 x = mesh.x[n];
+      largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    }
+  }
+  return largest;
+}
+
 class FacetModelMaker {
  public:
-  FacetModelMaker(const FacetMesh& mesh, double feature) : mesh_(mesh), cosine_(std::cos(feature)) {
-    double largest = 0;
-    for (const Vec3 x : mesh.x) largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
-    tolerance_ = kSinglePrecision * largest;
+  FacetModelMaker(const FacetMesh& mesh, const std::vector<std::string>& part_name, double feature)
+      : mesh_(mesh), cosine_(std::cos(feature)) {
+    tolerance_ = kSinglePrecision * largest_coordinate(mesh, part_name);
   }
 
   FacetModel run(const std::vector<std::string>& part_name) {
@@ -270,7 +285,7 @@ class FacetModelMaker {
 }  // namespace
 
 FacetModel make_facet_model(const FacetMesh& mesh, const std::vector<std::string>& part_name, double feature) {
-  return FacetModelMaker(mesh, feature).run(part_name);
+  return FacetModelMaker(mesh, part_name, feature).run(part_name);
 }
 
 }  // namespace st

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -10,6 +11,8 @@
 #include "geometry/facet/facet_faces.h"
 #include "geometry/facet/facet_model.h"
 #include "geometry/facet/facet_repair.h"
+#include "geometry/import/facet_air.h"
+#include "geometry/import/half_model.h"
 #include "geometry/import/model_unit.h"
 #include "geometry/import/topology_report.h"
 #include "geometry/model/group_selection.h"
@@ -19,9 +22,7 @@ namespace {
 
 void require_known(const ImportOptions& o, const std::string& path) {
   const std::pair<const char*, bool> given[] = {{"--sew", !o.sew.empty()},
-                                                {"--symmetry", !o.symmetry.empty()},
                                                 {"--mirror", !o.mirror.empty()},
-                                                {"--farfield", !o.farfield.empty()},
                                                 {"--replace-farfield", !o.replace_farfield.empty()},
                                                 {"--flow-domain", o.flow_domain != ImportOptions().flow_domain},
                                                 {"--join", o.join_touching},
@@ -32,6 +33,15 @@ void require_known(const ImportOptions& o, const std::string& path) {
       throw Error(ExitCode::kUsage, fmt::format("{}: {} needs a CAD model, and this file has facets", path, option));
   if (o.unit.empty())
     throw Error(ExitCode::kUsage, path + ": facets have no unit; say with --unit in which one the file was written");
+}
+
+/// As of CAD: with a second far field the air would be there twice.
+void require_no_air(const FacetInput& input, const std::string& path) {
+  for (const std::string& name : input.part_name)
+    if (role_of_name(name) == "farfield")
+      throw Error(ExitCode::kUsage, fmt::format("{}: solid \"{}\" is a far field already; leave --farfield out, or "
+                                                "the solid",
+                                                path, name));
 }
 
 std::vector<Box3> edge_boxes(const FacetShape& shape, const ModelTables& tables) {
@@ -64,12 +74,18 @@ void report(const ImportOptions& options, ImportResult& result) {
 
 ImportResult import_facets(FacetInput input, const ImportOptions& options, const std::string& path) {
   require_known(options, path);
+  std::optional<occt::SymmetryPlane> plane;
+  std::optional<occt::FarField> far;
+  if (!options.symmetry.empty()) plane = occt::parse_symmetry(options.symmetry, "--symmetry");
+  if (!options.farfield.empty()) far = occt::parse_farfield(options.farfield, "--farfield");
+  if (far) require_no_air(input, path);
   const ModelUnit unit = choose_unit(std::nullopt, options.unit);
   ImportResult result;
   result.format = "facets";
   try {
     result.findings = repair_facets(input);
     FacetMesh mesh = find_smooth_faces(input, radians(options.feature_deg));
+    if (plane || far) make_flow_domain(mesh, input.part_name, plane, far, result.findings);
     cut_into_charts(mesh);
     FacetModel model = make_facet_model(mesh, input.part_name, radians(options.feature_deg));
     result.tables = std::move(model.tables);

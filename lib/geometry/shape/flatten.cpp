@@ -13,6 +13,7 @@
 namespace st {
 namespace {
 
+constexpr double kPlane = 1e-9;             // of the diagonal: a patch that leaves a plane by less lies in it
 constexpr double kProjected = 0.5;          // cosine of 60 degrees: a projection stretches by 2 at most
 constexpr int kMostSteps = 30;              // of the minimisation
 constexpr double kEnough = 1e-3;            // relative fall of the energy in a step that ends it
@@ -172,8 +173,15 @@ std::optional<Places> project(std::span<const Vec3> x, std::span<const Corners> 
                                                                                     : Vec3{0, 0, 1};
   const Vec3 u = normalized(cross(far, mean)), v = cross(mean, u);
   Places p;
-  for (const Vec3 q : x) p.push_back({dot(q - x[0], u), dot(q - x[0], v)});
-  if (!is_clear(x, corners, topology, p)) return std::nullopt;
+  Box3 box;
+  double aside = 0;
+  for (const Vec3 q : x) {
+    p.push_back({dot(q - x[0], u), dot(q - x[0], v)});
+    box.add(q);
+    aside = std::max(aside, std::abs(dot(q - x[0], mean)));
+  }
+  const bool is_plane = aside <= kPlane * box.diagonal();  // its places are those of space: however sharp its corners
+  if (is_plane ? has_flips(corners, p) : !is_clear(x, corners, topology, p)) return std::nullopt;
   return p;
 }
 

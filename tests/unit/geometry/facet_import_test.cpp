@@ -27,8 +27,25 @@ TEST(FacetImport, gives_a_closed_model_with_its_unit) {
 TEST(FacetImport, asks_for_a_unit_and_refuses_what_needs_cad) {
   EXPECT_ERROR(import_facets(test::cube_facets(), {}, "cube.stl"), kUsage, "--unit");
   ImportOptions options = in_metres();
-  options.symmetry = "y=0";
-  EXPECT_ERROR(import_facets(test::cube_facets(), options, "cube.stl"), kUsage, "--symmetry");
+  options.unite = true;
+  EXPECT_ERROR(import_facets(test::cube_facets(), options, "cube.stl"), kUsage, "--unite");
+}
+
+TEST(FacetImport, puts_half_a_body_into_its_air) {
+  ImportOptions options = in_metres();
+  options.symmetry = "z=0", options.farfield = "sphere:3";
+  const ImportResult r = import_facets(test::torus_facets(48, 24), options, "torus.stl");
+  EXPECT_TRUE(r.is_closed);
+  const FaceLabels& labels = r.tables.labels;
+  EXPECT_EQ(labels.group_name, (std::vector<std::string>{"default", "symmetry", "farfield"}));
+  EXPECT_EQ(labels.group_role, (std::vector<std::string>{"wall", "symmetry", "farfield"}));
+  EXPECT_NEAR(r.tables.reference_diagonal(), std::sqrt(8 * 8 + 8 * 8 + 1), 1e-9);
+  EXPECT_LT(r.tables.vertex_tolerance[0], 1e-6);  // that of the body's coordinates
+  FacetInput named = test::cube_facets();
+  named.part_name = {"farfield"};
+  EXPECT_ERROR(import_facets(named, options, "cube.stl"), kUsage, "is a far field already");
+  options.farfield = "cube:3";
+  EXPECT_ERROR(import_facets(test::cube_facets(), options, "cube.stl"), kUsage, "--farfield");
 }
 
 TEST(FacetImport, splits_at_the_angle_asked_for) {

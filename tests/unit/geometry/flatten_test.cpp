@@ -23,6 +23,20 @@ TEST(Flatten, keeps_the_shape_of_what_is_flat) {
   EXPECT_NEAR(stretch_of(plate), 1, 1e-9);
 }
 
+TEST(Flatten, keeps_a_plane_with_a_narrow_notch) {
+  test::ChartPatch p;  // a disc without a sector of one degree
+  constexpr int kSectors = 12;
+  p.x.push_back({});
+  for (int i = 0; i <= kSectors; ++i) {
+    const double a = radians(0.5 + 359.0 * i / kSectors);
+    p.x.push_back({std::cos(a), std::sin(a), 0});
+  }
+  for (std::int32_t i = 0; i < kSectors; ++i) p.corners.push_back({0, i + 1, i + 2});
+  const auto uv = flat(p);
+  ASSERT_TRUE(uv.has_value());
+  EXPECT_NEAR(largest_stretch(p.x, p.corners, *uv), 1, 1e-12);
+}
+
 TEST(Flatten, projects_what_is_curved_a_little) { EXPECT_LE(stretch_of(test::sphere_patch(2, 1.4, 0.7, 20)), 2.0); }
 
 TEST(Flatten, unrolls_half_a_cylinder_almost_without_stretch) {
