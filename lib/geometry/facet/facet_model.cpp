@@ -198,23 +198,27 @@ class FacetModelMaker {
     tables_.loop_coedge_offsets.push_back(tables_.n_coedges());
   }
 
-  /// Area, width, box, bounds, and whether it is a plane.
+  /// Area, width, box, bounds, and whether it is a plane with (u,v) that are places in it.
   void measure(FaceId f) {
     const Chart chart = shape_.chart(f);
     Box3 box, plane;
     Vec3 sum{};
-    double area = 0, perimeter = 0, aside = 0;
+    double area = 0, perimeter = 0, aside = 0, stretch = 0;
     for (const Vec3 x : chart.x) box.add(x);
     for (const Vec2 p : chart.uv) plane.add(Vec3{p.x, p.y, 0});
     for (const Corners& c : chart.corners) {
       const Vec3 n = 0.5 * cross(chart.x[c[1]] - chart.x[c[0]], chart.x[c[2]] - chart.x[c[0]]);
       sum += n;
       area += norm(n);
+      for (int k = 0; k < 3; ++k) {
+        const std::int32_t a = c[k], b = c[(k + 1) % 3];
+        stretch = std::max(stretch, std::abs(distance(chart.x[a], chart.x[b]) - norm(chart.uv[b] - chart.uv[a])));
+      }
     }
     const Vec3 normal = normalized(sum);
     for (const Vec3 x : chart.x) aside = std::max(aside, std::abs(dot(x - chart.x[0], normal)));
     for (const EdgeId e : tables_.edges_of(f)) perimeter += tables_.edge_length[e];
-    tables_.face_type.push_back(aside <= tolerance_ ? SurfaceType::kPlane : SurfaceType::kOther);
+    tables_.face_type.push_back(std::max(aside, stretch) <= tolerance_ ? SurfaceType::kPlane : SurfaceType::kOther);
     tables_.face_area.push_back(area);
     tables_.face_width.push_back(rectangle_width(area, perimeter));
     tables_.face_box.push_back(box);

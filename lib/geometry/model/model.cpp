@@ -9,6 +9,7 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <istream>
 #include <sstream>
@@ -48,19 +49,32 @@ class ByteStream : public std::streambuf {
   }
 };
 
-/// The plane of a flat chart with the chart's own (u,v): the map of its largest triangle.
+/// The plane of a flat chart with the chart's own (u,v), which are places in it: the one nearest to all nodes, along
+/// their longest extent first. A single triangle of a fine chart would tilt it.
 std::unique_ptr<Surface> plane_of(const Chart& chart, const double* bounds) {
-  const auto area = [&](const Corners& c) {
-    return cross(chart.uv[c[1]] - chart.uv[c[0]], chart.uv[c[2]] - chart.uv[c[0]]);
-  };
-  const Corners& c = *std::max_element(chart.corners.begin(), chart.corners.end(),
-                                       [&](const Corners& a, const Corners& b) { return area(a) < area(b); });
-  const Vec3 a = chart.x[c[1]] - chart.x[c[0]], b = chart.x[c[2]] - chart.x[c[0]];
-  const Vec2 pa = chart.uv[c[1]] - chart.uv[c[0]], pb = chart.uv[c[2]] - chart.uv[c[0]];
-  const Vec3 normal = normalized(cross(a, b)), u = normalized((pb.y * a - pa.y * b) / area(c)), v = cross(normal, u);
-  const Vec2 p = chart.uv[c[0]];
-  return std::make_unique<PlaneSurface>(Frame{chart.x[c[0]] - p.x * u - p.y * v, u, v, normal}, bounds[0], bounds[1],
-                                        bounds[2], bounds[3]);
+  Vec3 middle{}, along{}, across{};
+  Vec2 center{};
+  const double share = 1 / static_cast<double>(chart.x.size());
+  for (std::size_t n = 0; n < chart.x.size(); ++n) {
+    middle += share * chart.x[n];
+    center = center + share * chart.uv[n];
+  }
+  double uu = 0, uv = 0, vv = 0;
+  for (const Vec2 p : chart.uv) {
+    const Vec2 d = p - center;
+    uu += d.x * d.x, uv += d.x * d.y, vv += d.y * d.y;
+  }
+  const double turn = 0.5 * std::atan2(2 * uv, uu - vv), cosine = std::cos(turn), sine = std::sin(turn);
+  for (std::size_t n = 0; n < chart.x.size(); ++n) {
+    const Vec2 d = chart.uv[n] - center;
+    along += (cosine * d.x + sine * d.y) * (chart.x[n] - middle);
+    across += (cosine * d.y - sine * d.x) * (chart.x[n] - middle);
+  }
+  along = normalized(along);
+  across = normalized(across - dot(across, along) * along);
+  const Vec3 u = cosine * along - sine * across, v = sine * along + cosine * across;
+  return std::make_unique<PlaneSurface>(Frame{middle - center.x * u - center.y * v, u, v, cross(u, v)}, bounds[0],
+                                        bounds[1], bounds[2], bounds[3]);
 }
 
 ChainParameters parameters_of(const ModelTables& cad, std::span<const EdgePiece> pieces) {

@@ -78,6 +78,21 @@ TEST(FacetModel, has_loops_that_hang_together) {
   }
 }
 
+TEST(FacetModel, has_planes_through_all_nodes_of_their_faces) {
+  const FacetInput strip = test::grid_facets(4, 2000, [](int i, int j) {  // of single precision, as an STL file has it
+    const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    return Vec3{rounded(6.65 + 5e-5 * j), rounded(0.11 + 8e-4 * j), rounded(0.28 + 4e-4 * i)};
+  });
+  FacetModel made = model_of(strip);
+  ASSERT_EQ(made.tables.n_faces(), 1);
+  ASSERT_EQ(made.tables.face_type[0], SurfaceType::kPlane);
+  const Chart chart = made.shape.chart(0);
+  const Model model(std::move(made.tables), std::move(made.shape));
+  const auto surface = model.surface(0);
+  for (std::size_t n = 0; n < chart.x.size(); ++n)
+    ASSERT_LE(distance(surface->point(chart.uv[n]), chart.x[n]), 2e-6) << n;
+}
+
 TEST(FacetModel, has_groups_by_the_names_of_parts) {
   FacetInput in = test::cube_facets();
   in.part_name = {"body", "inlet", ""};
