@@ -111,6 +111,20 @@ class Facets(ToolTest):
         for name in ("geometry.hdf", "raster.hdf", "sizing.hdf", "mesh.hdf"):
             self.assertEqual(content_hash(one / name), content_hash(three / name), name)
 
+    def test_half_a_wing_goes_into_its_air(self):
+        path = write_stl(self.folder / "wing.stl", wing(40, 12))
+        for number, far in enumerate(("box:5", "sphere:20")):
+            folder = self.folder / str(number)
+            make_chain(path, folder, import_options=["--unit", "m", "--symmetry", "y=1.3", "--farfield", far])
+            report = self.report(folder)
+            self.assertTrue(report["closed"])
+            said = must("st-info", folder / "mesh.hdf", "--groups", "--json").json()
+            self.assertEqual({(g["name"], g["role"]) for g in said["tables"][0]["groups"]},
+                             {("default", "wall"), ("symmetry", "symmetry"), ("farfield", "farfield")})
+        open_box = write_stl(self.folder / "open.stl", cube()[1:])
+        self.expect_error(GEOMETRY, "st-import", open_box, "-o", self.folder / "g.hdf", "--unit", "m", "--farfield",
+                          "box:5", says="the facets are open: 3 sides")
+
     def test_solids_name_groups(self):
         triangles = cube()
         path = write_text(self.folder / "named.stl", [("body", triangles[:8]), ("inlet", triangles[8:10]),
@@ -137,7 +151,7 @@ class Facets(ToolTest):
     def test_refuses_what_facets_do_not_do(self):
         path, out = write_stl(self.folder / "cube.stl", cube()), self.folder / "g.hdf"
         self.expect_error(USAGE, "st-import", path, "-o", out, says="--unit")
-        for option in (["--symmetry", "y=0"], ["--farfield", "box:20"], ["--sew", "1%"], ["--unite"], ["--join"]):
+        for option in (["--mirror", "y=0"], ["--sew", "1%"], ["--unite"], ["--join"]):
             self.expect_error(USAGE, "st-import", path, "-o", out, "--unit", "m", *option, says=[option[0], "facets"])
         strip = write_stl(self.folder / "strip.stl", [tuple((math.cos(k), math.sin(k), 0.3 * (n % 5)) for n in
                                                             range(i, i + 3) for k in [2 * math.pi * (n % 5) / 5])
