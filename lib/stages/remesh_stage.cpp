@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/required_unit.h"
+#include "io/export/displacement_export.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -36,6 +37,7 @@
 #include "stages/merge_columns.h"
 #include "stages/orientation_warnings.h"
 #include "stages/patches_result.h"
+#include "stages/remeshed_places.h"
 #include "stages/resumption.h"
 #include "stages/same_inputs.h"
 #include "stages/stored_model.h"
@@ -46,6 +48,11 @@ namespace {
 void require_valid(const RemeshStageOptions& o) {
   o.kTooLong.require(o.too_long);
   o.kTooShort.require(o.too_short);
+  if (o.moved) return;
+  for (const auto& [option, is_given] :
+       {std::pair("--keep-connectivity", o.keep_connectivity), std::pair("--displacements", !o.displacements.empty())})
+    if (is_given)
+      throw Error(ExitCode::kUsage, fmt::format("{}: is for a geometry that moved; give --moved as well", option));
 }
 
 std::vector<double> in_mesh_order(const std::vector<double>& of_file, const std::vector<NodeId>& file_node) {
@@ -144,8 +151,8 @@ void forget_parted(SurfaceMesh& mesh) {
 }
 
 /// Puts the mesh onto the moved geometry.
-void move(RemeshInput& in) {
-  MovedMesh moved = move_mesh(in.old.mesh, in.model);
+void move(RemeshInput& in, bool smooths) {
+  MovedMesh moved = move_mesh(in.old.mesh, in.model, smooths);
   in.earlier_xyz = std::move(in.old.mesh.node_xyz);
   in.old.mesh = std::move(moved.mesh);
   forget_parted(in.old.mesh);
@@ -239,7 +246,7 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   RemeshInput in{std::move(old), std::move(header), stored_model(geometry, o.geometry), std::move(sizing)};
   in.share = share;
   in.composites = std::move(composites);
-  if (o.moved) move(in);
+  if (o.moved) move(in, o.keep_connectivity);
   return in;
 }
 
@@ -339,10 +346,31 @@ StageSummary write_patches_of(const RemeshStageOptions& o, const RemeshInput& in
                               holes.mesh().topology, std::move(r), facts, SerialExecutor());
 }
 
+/// Names what does not keep its connectivity, for the summary as well. Local, on rank 0.
+nlohmann::json tell_places(const RemeshStageOptions& o, const HoleMarker& holes) {
+  if (!o.keep_connectivity) return nlohmann::json::object();
+  const SurfaceMesh& m = holes.mesh().mesh;
+  const std::int64_t n = holes.marks().n_triangles();
+  const std::vector<RemeshedPlace> places = find_remeshed_places(m, holes.marks().triangle);
+  if (n > 0 && n == m.n_triangles())
+    throw Error(ExitCode::kMismatch,
+                fmt::format("--keep-connectivity: no triangle of {} keeps its shape on {}; mesh it "
+                            "with st-mesh, or move the geometry in smaller steps",
+                            o.mesh, o.geometry));
+  if (n > 0)
+    log_warning(
+        fmt::format("--keep-connectivity: {} of {} triangles have other ones in their place, because the move "
+                    "turned or distorted some there; {}",
+                    n, m.n_triangles(), places_text(m, places)));
+  return {{"triangles_kept", m.n_triangles() - n}, {"places", places_json(m, places)}};
+}
+
 /// Local, on rank 0.
 StageSummary write_result(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult r,
                           RunFacts facts) {
   facts.more.update(counts(holes, r));
+  facts.more.update(tell_places(o, holes));
+  if (!o.displacements.empty()) export_displacements(o.displacements, in.earlier_xyz, in.old.mesh);
   StageSummary summary = o.merged.empty() ? write_patches_of(o, in, holes, std::move(r), std::move(facts))
                                           : write_merged(o, in, holes, r, facts);
   summary.line += fmt::format("; {} of {} triangles remeshed", holes.n_marked_triangles, in.old.mesh.n_triangles());
@@ -369,6 +397,7 @@ HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in)
   set_kept(o, in.model.tables(), in.old.mesh.merged, mark);
   mark.earlier_xyz = in.earlier_xyz;
   mark.redo = in.spoilt;
+  mark.only_redo = o.keep_connectivity;
   return mark;
 }
 
@@ -392,7 +421,8 @@ std::string run_of(const RemeshStageOptions& o, const RemeshInput& in, const std
   Hasher hasher;
   for (const std::string& text :
        {in.old.header.content_hash, in.geometry.content_hash, in.sizing.header.content_hash, o.keep, o.tolerance,
-        o.sizes_on_nodes, fmt::format("{} {} {} {}", o.too_long, o.too_short, o.moved, o.merged.empty())}) {
+        o.sizes_on_nodes,
+        fmt::format("{} {} {} {} {}", o.too_long, o.too_short, o.moved, o.keep_connectivity, o.merged.empty())}) {
     hasher.add(std::string_view(text));
     hasher.add(std::string_view("\n"));
   }
@@ -418,6 +448,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const Timer timer;
   require_valid(o);
   keep_freed_memory();
+  if (!o.displacements.empty()) require_displacement_format(o.displacements);
   if (comm.is_root() && !o.dry_run) o.merged.empty() ? require_patches_outputs(o.output) : require_writable(o.merged);
   Progress progress("st-remesh", 1);
   progress.step("reading", 0);
@@ -440,7 +471,11 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const double load_seconds = timer.seconds();
   progress.step("looking for what no longer fits", 0.1);
   HoleMarker holes(in.model, mesh, in.share, field, mark, comm);
-  if (o.dry_run) return with_distance(dry_run_summary(holes, association), in);
+  if (o.dry_run) {
+    nlohmann::json more = association;
+    if (comm.is_root()) more.update(tell_places(o, holes));
+    return with_distance(dry_run_summary(holes, more), in);
+  }
   const HoleOutput output = o.merged.empty() ? HoleOutput::kPatches : HoleOutput::kMesh;
   Resumption resumption(comm, o.merged.empty() ? o.output : o.merged, run_of(o, in, files),
                         {o.journal_after, o.begins_new});

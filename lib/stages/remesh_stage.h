@@ -25,7 +25,10 @@ struct RemeshStageOptions {
   std::string keep;            ///< group of which nothing changes; empty: none
   std::string sizes_on_nodes;  ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's;
                                ///< empty: none
-  bool moved = false;     ///< `geometry` is the mesh's own one moved, of the same topology: what is kept is put onto it
+  bool moved = false;  ///< `geometry` is the mesh's own one moved, of the same topology: what is kept is put onto it
+  bool keep_connectivity = false;  ///< with `moved`: sizes do not count, only triangles that the move spoilt are
+                                   ///< remeshed
+  std::string displacements;       ///< .vtu or .csv to write of how far nodes moved, with `moved`; empty: none
   std::string tolerance;  ///< length: how far nodes of a foreign mesh may lie from the CAD; empty: by its edges
   std::string made_for;   ///< sizing artifact that a foreign mesh was made for; empty: unknown
   bool dry_run = false;   ///< say how much would change, write nothing

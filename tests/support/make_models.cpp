@@ -55,6 +55,7 @@
 #include "broken/damaged_shapes.h"
 #include "broken/kinked_shapes.h"
 #include "broken/narrow_shapes.h"
+#include "support/moved_wings.h"
 #include "support/shapes.h"
 
 namespace {
@@ -316,6 +317,12 @@ void write_all(const fs::path& dir) {
     st::test::write_damaged(shape, dir / (std::string(shape) + ".brep"));
   for (const std::string& shape : st::test::kinked_shapes()) st::test::write_kinked(shape, dir / (shape + ".brep"));
   for (const std::string& shape : st::test::narrow_shapes()) st::test::write_narrow(shape, dir / (shape + ".brep"));
+  for (const int twist : {0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20})
+    write_brep(dir / ("twisted_wing_" + std::to_string(twist) + ".brep"), st::test::twisted_wing(twist));
+  for (const int flap : {0, 20})
+    write_brep(dir / ("flapped_wing_" + std::to_string(flap) + ".brep"), st::test::flapped_wing(flap));
+  for (const int flap : {5, 25})
+    write_brep(dir / ("part_flapped_wing_" + std::to_string(flap) + ".brep"), st::test::part_flapped_wing(flap));
   write_brep(dir / "curved_slot.brep", curved_slot());
   write_brep(dir / "dome.brep", dome());
   write_brep(dir / "gappy_boxes.brep", gappy_boxes());

@@ -23,12 +23,16 @@ int main(int argc, char** argv) {
   tool.optional_input("--made-for", o.made_for,
                       "sizing artifact that the mesh of another program was made for; default: sizes are measured");
   tool.flag("--moved", o.moved, "move the mesh onto a changed geometry of the same topology");
+  tool.flag("--keep-connectivity", o.keep_connectivity,
+            "with --moved: keep all triangles but those that the move turned or distorted");
+  tool.output_option("--displacements", o.displacements,
+                     "with --moved: write how far each node of the mesh moved (.vtu, .csv)");
   tool.flag("--dry-run", o.dry_run, "print how much would change and write nothing");
   tool.number(o.kJournalAfter, o.journal_after);
   tool.flag("--no-resume", o.begins_new, "begin anew, without what an earlier run has kept in OUTPUT.journal");
   tool.restart_after_crash();
   tool.main_options({"--merged", "--too-long", "--too-short", "--keep", "--sizes-on-nodes", "--made-for", "--tolerance",
-                     "--moved", "--dry-run", "--np"});
+                     "--moved", "--keep-connectivity", "--dry-run", "--np"});
   tool.examples({"st-remesh mesh.hdf geometry.hdf new_sizing.hdf --merged remeshed.hdf --np 8"});
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) {
     o.begins_new = o.begins_new && st::n_tries() == 0;  // a new try of this run goes on

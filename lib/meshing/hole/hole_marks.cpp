@@ -79,6 +79,7 @@ class Marker {
   }
 
   void mark_segments() {
+    if (options_.only_redo) return;
     const std::vector<char> is_free = free_edges();
     for (const CadSegment& s : cad_.segments) marks_.segment[s.index] = is_free[s.edge] && violates(s.low, s.high);
   }
@@ -97,6 +98,7 @@ class Marker {
     for (const TriangleId t : options_.redo)
       if (const TriangleId i = t - share_.first_triangle; share_.begin <= i && i < share_.end)
         marks_.triangle[i] = !keeps(mesh_.triangle_face[i]);
+    if (options_.only_redo) return;
     for (TriangleId i = share_.begin; i < share_.end; ++i) {
       const NodeId* n = mesh_.triangles[i].n;
       if (marks_.triangle[i] || keeps(mesh_.triangle_face[i])) continue;

@@ -21,6 +21,7 @@ struct HoleMarkOptions {
   std::vector<Vec3> squeeze = {};          ///< empty, or [n_nodes] of stretched sizes, see base/local_size.h
   bool was_stretched = false;              ///< the mesh was made for stretched sizes, or these are
   std::vector<TriangleId> redo = {};       ///< marked whatever their edges, unless kept
+  bool only_redo = false;                  ///< lengths do not count: what is not in `redo` or near it stays
 };
 
 /// 1: to be redone.

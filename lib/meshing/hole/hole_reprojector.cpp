@@ -10,6 +10,9 @@
 #include "base/boxes.h"
 #include "base/eigen.h"
 #include "base/error.h"
+#include "features/arc_table.h"
+#include "mesh/quality.h"
+#include "meshing/hole/moved_smoothing.h"
 #include "meshing/topology/mesh_topology.h"
 #include "meshing/topology/small_features.h"
 
@@ -62,14 +65,10 @@ std::optional<AffineMap> closest_map(const std::vector<Vec2>& from, const std::v
   return AffineMap{map, to_eigen(q0) - map * to_eigen(p0)};
 }
 
-double quality(Vec3 a, Vec3 b, Vec3 c) {
-  const double sides = norm2(b - a) + norm2(c - b) + norm2(a - c);
-  return sides > 0 ? 2 * std::sqrt(3.0) * norm(cross(b - a, c - a)) / sides : 0;
-}
-
 class Mover {
  public:
-  Mover(const SurfaceMesh& old, const Model& model) : old_(old), model_(model), t_(model.tables()), result_{old, {}} {}
+  Mover(const SurfaceMesh& old, const Model& model, bool smooths)
+      : old_(old), model_(model), t_(model.tables()), smooths_(smooths), result_{old, {}} {}
 
   MovedMesh run() {
     require_same_topology();
@@ -156,7 +155,6 @@ class Mover {
 
   /// Nodes [begin, end) of an edge.
   void move_edge(EdgeId e, std::size_t begin, std::size_t end) {
-    const double lo = t_.edge_range[2 * e], hi = t_.edge_range[2 * e + 1];
     const NodeId first = vertex_node_[t_.edge_vertices[2 * e]], last = vertex_node_[t_.edge_vertices[2 * e + 1]];
     std::vector<double> share;
     double length = 0;
@@ -167,10 +165,11 @@ class Mover {
     }
     length += last == kNone ? 0 : distance(from, old_.node_xyz[last]);
     const auto curve = model_.curve(e);
-    const bool keeps_t = keeps_parameters(*curve, begin, end, first, last);
+    std::optional<ArcTable> arc;
+    if (!keeps_parameters(*curve, begin, end, first, last)) arc.emplace(*curve);
     for (std::size_t n = begin; n < end; ++n) {
       double& t = result_.mesh.node_t[n];
-      if (!keeps_t) t = lo + (hi - lo) * share[n - begin] / length;
+      if (arc) t = arc->parameter_at(share[n - begin] / length);
       result_.mesh.node_xyz[n] = curve->point(t);
     }
   }
@@ -274,9 +273,29 @@ class Mover {
     return closest_map(from, to);
   }
 
+  /// Puts the corners of a face where the map takes them, but those on its boundary onto its edges.
+  template <class Map>
+  void place_nodes(const Surface& surface, std::size_t begin, std::size_t end, const Map& map) {
+    const double tolerance = kOnPoint * t_.reference_diagonal();
+    SurfaceMesh& m = result_.mesh;
+    std::vector<Vec2> shift;
+    for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
+      const NodeId n = old_.triangles[c / 3].n[c % 3];
+      Vec2& uv = m.corner_uv[c];
+      const Vec2 mapped = uv = map(uv);
+      if (old_.node_entity_dim[n] != kInFace && distance(surface.point(uv), m.node_xyz[n]) > tolerance)
+        if (const auto there = project_near(surface, m.node_xyz[n], uv)) uv = *there;
+      shift.push_back(uv - mapped);
+    }
+    if (smooths_ && !fits(surface, begin, end, map))
+      spread_boundary_shift(old_, static_cast<TriangleId>(begin), static_cast<TriangleId>(end), shift, m);
+    for (std::size_t c = 3 * begin; c < 3 * end; ++c)
+      if (const NodeId n = old_.triangles[c / 3].n[c % 3]; old_.node_entity_dim[n] == kInFace)
+        m.node_xyz[n] = surface.point(m.corner_uv[c]);
+  }
+
   void move_face(FaceId f, std::size_t begin, std::size_t end) {
     const auto surface = model_.surface(f);
-    const double tolerance = kOnPoint * t_.reference_diagonal();
     auto [before, after] = boundary_boxes(f, begin, end);
     if (fits(*surface, begin, end, [](Vec2 uv) { return uv; })) after = before;
     const auto by_box = [&, from = before, to = after](Vec2 uv) {
@@ -286,47 +305,36 @@ class Mover {
     std::optional<AffineMap> turned;
     if (t_.face_type[f] == SurfaceType::kPlane && !fits(*surface, begin, end, by_box))
       turned = map_of_plane(*surface, begin, end, 0.5 * (after.lo + after.hi));
-    SurfaceMesh& m = result_.mesh;
-    for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
-      const NodeId n = old_.triangles[c / 3].n[c % 3];
-      Vec2& uv = m.corner_uv[c];
-      uv = turned ? (*turned)(uv) : by_box(uv);
-      if (old_.node_entity_dim[n] == kInFace) {
-        m.node_xyz[n] = surface->point(uv);
-        continue;
-      }
-      if (distance(surface->point(uv), m.node_xyz[n]) <= tolerance) continue;
-      if (const auto there = project_near(*surface, m.node_xyz[n], uv)) uv = *there;
-    }
-    note_spoilt(begin, end, turned && turned->is_mirrored() ? -1 : 1);
-  }
-
-  double uv_area(const SurfaceMesh& m, std::size_t i) const {
-    const Vec2 a = m.corner_uv[3 * i];
-    return cross(m.corner_uv[3 * i + 1] - a, m.corner_uv[3 * i + 2] - a);
+    const auto map = [&](Vec2 uv) { return turned ? (*turned)(uv) : by_box(uv); };
+    place_nodes(*surface, begin, end, map);
+    const double side = turned && turned->is_mirrored() ? -1 : 1;
+    const auto first = static_cast<TriangleId>(begin), last = static_cast<TriangleId>(end);
+    if (smooths_) smooth_moved_face(*surface, old_, first, last, side, result_.mesh);
+    note_spoilt(first, last, side);
   }
 
   /// `side`: -1 where areas in (u,v) change their signs.
-  void note_spoilt(std::size_t begin, std::size_t end, double side) {
-    const SurfaceMesh& m = result_.mesh;
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& n = old_.triangles[i].n;
-      const double q = quality(m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]);
-      const double q_before = quality(old_.node_xyz[n[0]], old_.node_xyz[n[1]], old_.node_xyz[n[2]]);
-      const bool turned = side * uv_area(m, i) * uv_area(old_, i) <= 0;
-      if (turned || (q < kSpoiltQuality && q < q_before)) result_.spoilt.push_back(static_cast<TriangleId>(i));
+  void note_spoilt(TriangleId begin, TriangleId end, double side) {
+    for (TriangleId i = begin; i < end; ++i) {
+      const double q = moved_quality(old_, result_.mesh, i, side);
+      const NodeId* n = old_.triangles[i].n;
+      const double before = triangle_quality(old_.node_xyz[n[0]], old_.node_xyz[n[1]], old_.node_xyz[n[2]]);
+      if (q <= 0 || (q < kSpoiltQuality && q < before)) result_.spoilt.push_back(i);
     }
   }
 
   const SurfaceMesh& old_;
   const Model& model_;
   const ModelTables& t_;
+  const bool smooths_;
   MovedMesh result_;
   std::vector<NodeId> vertex_node_;
 };
 
 }  // namespace
 
-MovedMesh move_mesh(const SurfaceMesh& old, const Model& model) { return Mover(old, model).run(); }
+MovedMesh move_mesh(const SurfaceMesh& old, const Model& model, bool smooths) {
+  return Mover(old, model, smooths).run();
+}
 
 }  // namespace st

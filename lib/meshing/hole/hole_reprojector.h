@@ -18,7 +18,8 @@ struct MovedMesh {
 /// edge's range is another one; (u,v) inside a face are stretched as those of its boundary, in planes also turned and
 /// mirrored, as axes in these may be others. Nothing is projected globally, so that the geometry may move as far as it
 /// likes. Throws Error(kMismatch) when the mesh lies on other faces, edges or vertices than the model has (where
-/// triangles of a face have nodes on edges that are not near it). Local, linear.
-MovedMesh move_mesh(const SurfaceMesh& old, const Model& model);
+/// triangles of a face have nodes on edges that are not near it). `smooths`: nodes inside faces give way where
+/// triangles became bad, see smooth_moved_face(). Local, linear.
+MovedMesh move_mesh(const SurfaceMesh& old, const Model& model, bool smooths = false);
 
 }  // namespace st
