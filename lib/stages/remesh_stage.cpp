@@ -23,6 +23,7 @@
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/mesh_part.h"
+#include "io/hdf5/node_values.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "mesh/edge_segments.h"
 #include "mesh/merge.h"
@@ -31,6 +32,7 @@
 #include "meshing/hole/hole_reprojector.h"
 #include "meshing/hole/mesh_gaps.h"
 #include "sizing/node_field.h"
+#include "stages/carried_values.h"
 #include "stages/expected_triangles.h"
 #include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
@@ -48,6 +50,8 @@ namespace {
 void require_valid(const RemeshStageOptions& o) {
   o.kTooLong.require(o.too_long);
   o.kTooShort.require(o.too_short);
+  if (!o.interpolate.empty() && o.merged.empty())
+    throw Error(ExitCode::kUsage, "--interpolate: patches have no room for values; give --merged as well");
   if (o.moved) return;
   for (const auto& [option, is_given] :
        {std::pair("--keep-connectivity", o.keep_connectivity), std::pair("--displacements", !o.displacements.empty())})
@@ -55,22 +59,13 @@ void require_valid(const RemeshStageOptions& o) {
       throw Error(ExitCode::kUsage, fmt::format("{}: is for a geometry that moved; give --moved as well", option));
 }
 
-std::vector<double> in_mesh_order(const std::vector<double>& of_file, const std::vector<NodeId>& file_node) {
-  std::vector<double> values;
-  for (const NodeId n : file_node) values.push_back(of_file[n]);
-  return values;
-}
-
 /// The sizing's field, or the one on the nodes that takes its place.
 std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const SurfaceMesh& mesh,
                                            const ForeignMesh* foreign, double slope) {
   if (o.sizes_on_nodes.empty()) return nullptr;
-  const std::size_t colon = o.sizes_on_nodes.rfind(':');
-  if (colon == std::string::npos || colon == 0 || colon + 1 == o.sizes_on_nodes.size())
-    throw Error(ExitCode::kUsage, fmt::format("--sizes-on-nodes '{}': not of the form FILE:ARRAY", o.sizes_on_nodes));
-  std::vector<double> lengths = read_node_lengths(o.sizes_on_nodes.substr(0, colon), o.sizes_on_nodes.substr(colon + 1),
-                                                  foreign ? foreign->n_file_nodes : mesh.node_xyz.size());
-  if (foreign) lengths = in_mesh_order(lengths, foreign->file_node);
+  const auto [file, array] = file_and_array("--sizes-on-nodes", o.sizes_on_nodes);
+  std::vector<double> lengths = read_node_lengths(file, array, foreign ? foreign->n_file_nodes : mesh.node_xyz.size());
+  if (foreign) lengths = in_mesh_order(lengths, foreign->file_node, 1);
   return std::make_unique<NodeField>(mesh, std::move(lengths), slope);
 }
 
@@ -305,16 +300,17 @@ MeshArtifact merged_artifact(const RemeshStageOptions& o, const RemeshInput& in,
 
 /// Local, on rank 0. Writes the merged mesh.
 StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult& r,
-                          const RunFacts& facts) {
+                          std::vector<NodeValues> values, const RunFacts& facts) {
   if (!r.failures.empty())
     throw Error(ExitCode::kIncomplete,
                 fmt::format("{}: {}; nothing written; remesh to patches (-o) to see all faces that failed",
                             in.model.tables().face_label(r.failures[0].face), r.failures[0].cause));
+  carry_values(holes.mesh(), r.mesh, values);
   const MeshArtifact artifact = merged_artifact(o, in, holes, r);
   if (r.n_crossing_pairs)
     log_warning(fmt::format("{} pairs of triangles cross; st-check lists them", r.n_crossing_pairs));
   const Timer timer;
-  const std::string hash = write_mesh(o.merged, artifact);
+  const std::string hash = write_mesh_with(o.merged, artifact, values);
   const double write_seconds = timer.seconds(), seconds = facts.timer.seconds();
   StageSummary s;
   s.line = fmt::format("{}: {} triangles, {} nodes, {:.2f} s ({} ranks)", o.merged, artifact.mesh.n_triangles(),
@@ -367,12 +363,12 @@ nlohmann::json tell_places(const RemeshStageOptions& o, const HoleMarker& holes)
 
 /// Local, on rank 0.
 StageSummary write_result(const RemeshStageOptions& o, const RemeshInput& in, const HoleMarker& holes, MeshResult r,
-                          RunFacts facts) {
+                          std::vector<NodeValues> values, RunFacts facts) {
   facts.more.update(counts(holes, r));
   facts.more.update(tell_places(o, holes));
   if (!o.displacements.empty()) export_displacements(o.displacements, in.earlier_xyz, in.old.mesh);
   StageSummary summary = o.merged.empty() ? write_patches_of(o, in, holes, std::move(r), std::move(facts))
-                                          : write_merged(o, in, holes, r, facts);
+                                          : write_merged(o, in, holes, r, std::move(values), facts);
   summary.line += fmt::format("; {} of {} triangles remeshed", holes.n_marked_triangles, in.old.mesh.n_triangles());
   return summary;
 }
@@ -464,6 +460,10 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const std::unique_ptr<SizeField> on_nodes =
       make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
   const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
+  std::vector<NodeValues> values;
+  if (comm.is_root())
+    values = in.foreign ? read_carried_values(o.interpolate, in.foreign->n_file_nodes, in.foreign->file_node)
+                        : read_carried_values(o.interpolate, in.old.mesh.node_xyz.size(), {});
   const std::vector<OpenedFile> files = digested_files(o);
   require_same_inputs(comm, files);
   if (comm.is_root()) require_countable_sizes(o, in, mark, field);
@@ -487,7 +487,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   if (!comm.is_root()) return {};
   progress.step("writing", 0.9);
   StageSummary summary =
-      write_result(o, in, holes, std::move(result),
+      write_result(o, in, holes, std::move(result), std::move(values),
                    {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed(), association});
   resumption.remove();
   return with_distance(std::move(summary), in);

@@ -25,6 +25,8 @@ struct RemeshStageOptions {
   std::string keep;            ///< group of which nothing changes; empty: none
   std::string sizes_on_nodes;  ///< FILE:ARRAY, lengths on the nodes of `mesh` that take the place of the sizing's;
                                ///< empty: none
+  std::string interpolate;  ///< FILE:ARRAY[,ARRAY...], values on the nodes of `mesh` to be given to those of `merged`;
+                            ///< empty: none
   bool moved = false;  ///< `geometry` is the mesh's own one moved, of the same topology: what is kept is put onto it
   bool keep_connectivity = false;  ///< with `moved`: sizes do not count, only triangles that the move spoilt are
                                    ///< remeshed

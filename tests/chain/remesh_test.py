@@ -156,6 +156,23 @@ class LocalChange(ToolTest):
             self.assertEqual(run.code, code, str(run))
             self.assertFalse(mesh.exists())
 
+    def test_values_at_nodes_are_carried_alike_at_any_number_of_ranks_and_threads(self):
+        n = must("st-check", self.chain / "mesh.hdf", "--json").json()["nodes"]
+        values, same = " ".join(str(i * 0.1) for i in range(n)), " ".join(["7"] * n)
+        (self.folder / "p.vtu").write_text(
+            f'<VTKFile type="UnstructuredGrid"><PointData><DataArray type="Float64" Name="p" format="ascii">{values}'
+            f'</DataArray><DataArray type="Float64" Name="c" format="ascii">{same}</DataArray></PointData></VTKFile>')
+        hashes = set()
+        for options in ((), ("--threads", 1), ("--np", 2)):
+            mesh = self.folder / "carried.hdf"
+            must("st-remesh", self.chain / "mesh.hdf", self.geometry, self.size("source"), "--merged", mesh,
+                 "--interpolate", f"{self.folder / 'p.vtu'}:p,c", *options)
+            hashes.add(content_hash(mesh))
+        self.assertEqual(len(hashes), 1)
+        must("st-check", mesh, "--geometry", self.geometry)
+        self.expect_error(USAGE, "st-remesh", self.chain / "mesh.hdf", self.geometry, self.chain / "sizing.hdf", "-o",
+                          self.folder / "p.hdf", "--interpolate", f"{self.folder / 'p.vtu'}:p", says="--merged")
+
     def move_end(self, by):
         """The block with its end at x = 60 moved, and a chain of its own."""
         def moved(match):

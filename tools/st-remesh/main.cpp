@@ -17,6 +17,8 @@ int main(int argc, char** argv) {
   tool.optional_array(
       "--sizes-on-nodes", o.sizes_on_nodes,
       "requested lengths at the nodes of the mesh (point data of a .vtu or HDF5 file) instead of the sizing");
+  tool.optional_array("--interpolate", o.interpolate,
+                      "values at the nodes of the mesh (FILE:ARRAY,ARRAY...) that --merged has at its nodes");
   tool.length(
       "--tolerance", o.tolerance, "",
       "largest distance from the CAD of the nodes of another program's mesh; default: 5% of the local edge length");

@@ -12,4 +12,7 @@ namespace st {
 /// file, array and the first bad index.
 std::vector<double> read_node_lengths(const std::string& path, const std::string& name, std::size_t n_nodes);
 
+/// Likewise one to nine numbers per node, those of a node one after the other; any that are finite.
+std::vector<double> read_node_values(const std::string& path, const std::string& name, std::size_t n_nodes);
+
 }  // namespace st

@@ -8,6 +8,7 @@
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/face_numbers.h"
 #include "io/hdf5/merged_features.h"
+#include "io/hdf5/node_values.h"
 #include "mesh/edge_segments.h"
 
 namespace st {
@@ -164,9 +165,7 @@ std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
   return triangles;
 }
 
-}  // namespace
-
-std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
+MeshColumns columns_of(const MeshArtifact& artifact) {
   const SurfaceMesh& m = artifact.mesh;
   MeshColumns c{m.n_nodes(),
                 m.n_triangles(),
@@ -193,10 +192,11 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
     c.node_previous = column_of(m.node_previous);
     c.triangle_previous = column_of(m.triangle_previous);
   }
-  return write_mesh(path, artifact, c);
+  return c;
 }
 
-std::string write_mesh(const std::string& path, const MeshArtifact& artifact, const MeshColumns& columns) {
+std::string write(const std::string& path, const MeshArtifact& artifact, const MeshColumns& columns,
+                  std::span<const NodeValues> arrays) {
   const SurfaceMesh& m = artifact.mesh;
   ArtifactHeader header = artifact.header;
   header.schema = "mesh";
@@ -214,10 +214,31 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact, co
     w.write("/st/segment/edge", m.segment_edge);
   }
   c.add("/st/triangle/corner_uv", columns.corner_uv);
+  for (const NodeValues& a : arrays) w.write("/VTKHDF/PointData/" + a.name, a.values, a.n_components);
   write_merged(w, m.merged);
   w.set_attribute("/st", "is_complete", std::int64_t{artifact.is_complete});
   c.write();
   return w.commit();
+}
+
+}  // namespace
+
+std::string write_mesh(const std::string& path, const MeshArtifact& artifact) {
+  return write(path, artifact, columns_of(artifact), {});
+}
+
+std::string write_mesh(const std::string& path, const MeshArtifact& artifact, const MeshColumns& columns) {
+  return write(path, artifact, columns, {});
+}
+
+void require_free_name(const std::string& name) {
+  for (const char* own : {"entity_dim", "entity_id", "size", "previous_id", "cad_face"})
+    if (name == own || name.empty() || name.starts_with("edge_group") || name.starts_with("vertex_group"))
+      throw Error(ExitCode::kUsage, "array '" + name + "': meshes have one of this name; give it another");
+}
+
+std::string write_mesh_with(const std::string& path, const MeshArtifact& artifact, std::span<const NodeValues> arrays) {
+  return write(path, artifact, columns_of(artifact), arrays);
 }
 
 MeshArtifact read_mesh(const std::string& path) {

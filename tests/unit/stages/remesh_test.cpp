@@ -8,7 +8,9 @@
 #include <regex>
 
 #include "base/log.h"
+#include "io/foreign/node_array.h"
 #include "io/hdf5/artifact.h"
+#include "io/hdf5/node_values.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "mesh/checks.h"
 #include "mesh/pair_match.h"
@@ -279,6 +281,33 @@ TEST_F(Remesh, writes_the_merged_mesh_that_st_merge_would) {
         EXPECT_TRUE(merged.mesh.node_xyz[merged.mesh.triangles[i].n[k]] == old.node_xyz[old.triangles[t].n[k]])
             << "triangle " << t;
       }
+}
+
+TEST_F(Remesh, carries_values_to_the_new_nodes) {
+  prepare();
+  size("geometry.hdf", "finer.hdf", 6);
+  const auto field = [](Vec3 x) { return 3 * x.x - 2 * x.y + 0.5 * x.z; };
+  const MeshArtifact old = read_mesh(dir_ / "mesh.hdf");
+  NodeValues p{"p", 1, {}}, c{"c", 1, std::vector<double>(old.mesh.node_xyz.size(), 7)};
+  for (const Vec3 x : old.mesh.node_xyz) p.values.push_back(field(x));
+  write_mesh_with(dir_ / "values.hdf", old, std::vector<NodeValues>{p, c});
+  RemeshStageOptions o = options("finer.hdf");
+  o.merged = dir_ / "merged.hdf";
+  o.interpolate = dir_ / "values.hdf:p,c";
+  EXPECT_EQ(run_remesh(o, single_rank()).code, ExitCode::kOk);
+  const SurfaceMesh now = read_mesh(o.merged).mesh;
+  const std::vector<double> got = read_node_values(o.merged, "p", now.node_xyz.size());
+  int n_new = 0;
+  for (std::size_t n = 0; n < got.size(); ++n) {
+    const bool is_new = now.node_previous[n] == kNone;
+    n_new += is_new;
+    if (!is_new) {
+      EXPECT_EQ(got[n], p.values[now.node_previous[n]]);
+    }
+    EXPECT_NEAR(got[n], field(now.node_xyz[n]), 0.5) << "linear in triangles; chords of the hole leave it";
+  }
+  EXPECT_GT(n_new, 100);
+  for (const double v : read_node_values(o.merged, "c", now.node_xyz.size())) EXPECT_NEAR(v, 7, 1e-14);
 }
 
 TEST_F(Remesh, refuses_a_mesh_with_a_hole_on_no_face_and_says_where) {
