@@ -2,12 +2,13 @@
 import csv
 import json
 import re
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import MISMATCH, MODELS, OK, USAGE, Run, ToolTest, content_hash, make_chain, must  # noqa: E402
+from chain import BIN, MISMATCH, MODELS, OK, USAGE, Run, ToolTest, content_hash, make_chain, must  # noqa: E402
 
 
 class KeptConnectivity(ToolTest):
@@ -63,6 +64,15 @@ class KeptConnectivity(ToolTest):
             self.assertIn(f"group {place['group']}: {place['triangles']} triangles", said)
         self.assertLess(sum(p["triangles"] for p in facts["places"]), 0.05 * facts["triangles_before"])
         must("st-check", merged, "--geometry", self.folder / "part_flapped_wing_25" / "geometry.hdf")
+
+    def test_the_example_draws_the_wall_beside_the_flap(self):
+        script = Path(__file__).resolve().parents[2] / "examples" / "flap" / "keep_triangles.sh"
+        done = subprocess.run([script, MODELS / "part_flapped_wing_5.brep", MODELS / "part_flapped_wing_25.brep",
+                               self.folder, BIN], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, OK, done.stdout + done.stderr)
+        drawn = (self.folder / "kept.svg").read_text()
+        self.assertEqual(drawn, (script.parent / "kept.svg").read_text())
+        self.assertGreater(drawn.count("#f5a142"), 50)
 
     def test_displacements_are_those_of_the_nodes(self):
         first = make_chain(MODELS / "flapped_wing_0.brep", self.folder / "first")
