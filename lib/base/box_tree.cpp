@@ -17,29 +17,41 @@ int longest_axis(const Box3& box) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::span<const Box3> boxes) : items_(boxes.size()) {
+BoxTree::BoxTree(std::span<const Box3> boxes)
+    : BoxTree(static_cast<std::int32_t>(boxes.size()), [&](std::int32_t item) { return boxes[item]; }) {}
+
+BoxTree::BoxTree(std::int32_t n, const std::function<Box3(std::int32_t)>& box_of) : items_(n) {
   std::iota(items_.begin(), items_.end(), 0);
-  if (!boxes.empty()) build(boxes, 0, static_cast<std::int32_t>(boxes.size()));
+  if (n == 0) return;
+  std::vector<Vec3> centers;
+  centers.reserve(n);
+  for (std::int32_t item = 0; item < n; ++item) centers.push_back(box_of(item).center());
+  nodes_.reserve(n);  // leaves have two items at least, but a single one
+  build(centers, box_of, 0, n);
 }
 
 /// Halves the items along the axis on which their centres lie farthest apart.
-void BoxTree::build(std::span<const Box3> boxes, std::int32_t begin, std::int32_t end) {
+void BoxTree::build(std::span<const Vec3> centers, const std::function<Box3(std::int32_t)>& box_of, std::int32_t begin,
+                    std::int32_t end) {
   const std::size_t at = nodes_.size();
   nodes_.push_back({{}, begin, end, 0});
-  Box3 centers;
-  for (std::int32_t i = begin; i < end; ++i) {
-    nodes_[at].box.add(boxes[items_[i]]);
-    centers.add(boxes[items_[i]].center());
+  if (end - begin <= kFew) {
+    for (std::int32_t i = begin; i < end; ++i) nodes_[at].box.add(box_of(items_[i]));
+    return;
   }
-  if (end - begin <= kFew) return;
-  const int axis = longest_axis(centers);
+  Box3 extent;
+  for (std::int32_t i = begin; i < end; ++i) extent.add(centers[items_[i]]);
+  const int axis = longest_axis(extent);
   const std::int32_t middle = begin + (end - begin) / 2;
-  const auto key = [&](std::int32_t item) { return std::pair(along(boxes[item].center(), axis), item); };
+  const auto key = [&](std::int32_t item) { return std::pair(along(centers[item], axis), item); };
   std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
                    [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
-  build(boxes, begin, middle);
-  nodes_[at].right = static_cast<std::int32_t>(nodes_.size());
-  build(boxes, middle, end);
+  build(centers, box_of, begin, middle);
+  const auto right = static_cast<std::int32_t>(nodes_.size());
+  nodes_[at].right = right;
+  build(centers, box_of, middle, end);
+  nodes_[at].box.add(nodes_[at + 1].box);
+  nodes_[at].box.add(nodes_[right].box);
 }
 
 }  // namespace st

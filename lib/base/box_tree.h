@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -22,6 +23,8 @@ class BoxTree {
 
   BoxTree() = default;
   explicit BoxTree(std::span<const Box3> boxes);
+  /// Of `n` boxes that are made twice when they are asked for, and not kept.
+  BoxTree(std::int32_t n, const std::function<Box3(std::int32_t item)>& box_of);
 
   bool is_empty() const { return nodes_.empty(); }
   /// Parents stand before their children; the root is the first.
@@ -54,7 +57,8 @@ class BoxTree {
 
  private:
   static constexpr std::size_t kDeepest = 80;  // halved until few are left: 2 per level of at most 31 levels
-  void build(std::span<const Box3> boxes, std::int32_t begin, std::int32_t end);
+  void build(std::span<const Vec3> centers, const std::function<Box3(std::int32_t)>& box_of, std::int32_t begin,
+             std::int32_t end);
 
   std::vector<Node> nodes_;
   std::vector<std::int32_t> items_;

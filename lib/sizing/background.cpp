@@ -22,17 +22,13 @@ struct TetFrame {
   Vec3 corner;
   Vec3 row[3];
 
-  /// False: it is flat.
-  bool make(const std::array<Vec3, 4>& p) {
-    constexpr double kFlat = 1e-12;  // six volumes over the cubed edge
+  /// Of one that is not flat.
+  explicit TetFrame(const std::array<Vec3, 4>& p) : corner(p[0]) {
     const Vec3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-    const double volume6 = dot(cross(a, b), c), longest = std::max({norm(a), norm(b), norm(c)});
-    if (!(std::abs(volume6) > kFlat * longest * longest * longest)) return false;
-    corner = p[0];
+    const double volume6 = dot(cross(a, b), c);
     row[0] = cross(b, c) / volume6;
     row[1] = cross(c, a) / volume6;
     row[2] = cross(a, b) / volume6;
-    return true;
   }
   std::array<double, 4> coordinates(Vec3 x) const {
     const Vec3 r = x - corner;
@@ -43,6 +39,13 @@ struct TetFrame {
     return (value[1] - value[0]) * row[0] + (value[2] - value[0]) * row[1] + (value[3] - value[0]) * row[2];
   }
 };
+
+bool is_flat(const std::array<Vec3, 4>& p) {
+  constexpr double kFlat = 1e-12;  // six volumes over the cubed edge
+  const Vec3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
+  const double volume6 = dot(cross(a, b), c), longest = std::max({norm(a), norm(b), norm(c)});
+  return !(std::abs(volume6) > kFlat * longest * longest * longest);
+}
 
 std::array<Vec3, 4> corners_of(const BackgroundMesh& mesh, const std::array<std::int32_t, 4>& tet) {
   return {mesh.node_xyz[tet[0]], mesh.node_xyz[tet[1]], mesh.node_xyz[tet[2]], mesh.node_xyz[tet[3]]};
@@ -86,19 +89,26 @@ std::array<double, 3> closest_on_triangle(const std::array<Vec3, 3>& p, Vec3 x) 
   return closest;
 }
 
-/// Faces that one tetrahedron alone has, by their nodes.
+/// Faces that one tetrahedron alone has, by their nodes: those with the lowest node in one range after the other, so
+/// that an eighth of them is in memory at once.
 std::vector<std::array<std::int32_t, 3>> border_of(const BackgroundMesh& mesh) {
+  const std::size_t n_at_once = mesh.node_xyz.size() / 8 + 1;
   std::vector<std::array<std::int32_t, 3>> faces, border;
-  for (const auto& t : mesh.tets)
-    for (std::size_t k = 0; k < 4; ++k) {
-      std::array<std::int32_t, 3> face{t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]};
-      std::sort(face.begin(), face.end());
-      faces.push_back(face);
+  for (std::size_t first = 0; first < mesh.node_xyz.size(); first += n_at_once) {
+    faces.clear();
+    for (const auto& t : mesh.tets)
+      for (std::size_t k = 0; k < 4; ++k) {
+        std::array<std::int32_t, 3> face{t[(k + 1) % 4], t[(k + 2) % 4], t[(k + 3) % 4]};
+        const auto lowest = static_cast<std::size_t>(std::min({face[0], face[1], face[2]}));
+        if (lowest < first || lowest - first >= n_at_once) continue;
+        std::sort(face.begin(), face.end());
+        faces.push_back(face);
+      }
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
+      for (end = i + 1; end < faces.size() && faces[end] == faces[i];) ++end;
+      if (end == i + 1) border.push_back(faces[i]);
     }
-  std::sort(faces.begin(), faces.end());
-  for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
-    for (end = i + 1; end < faces.size() && faces[end] == faces[i];) ++end;
-    if (end == i + 1) border.push_back(faces[i]);
   }
   return border;
 }
@@ -136,7 +146,7 @@ class BackgroundSource final : public SizeSource {
     std::size_t tet = kNowhere, border = kNowhere;
     least_outside(x, least_inside(x, kInfinity, tet), border);
     if (border != kNowhere) return gradient_of([&](Vec3 at) { return border_length(border, at); }, x);
-    return tet == kNowhere ? Vec3{} : frames_[tet].gradient(lengths_of(mesh_, mesh_.tets[tet]));
+    return tet == kNowhere ? Vec3{} : frame_of(tet).gradient(lengths_of(mesh_, mesh_.tets[tet]));
   }
   double min_size() const override { return min_size_; }
   double max_aspect() const override { return max_aspect_; }
@@ -144,27 +154,23 @@ class BackgroundSource final : public SizeSource {
 
  private:
   void leave_out_flat() {
-    std::vector<std::array<std::int32_t, 4>> tets;
-    for (const auto& tet : mesh_.tets)
-      if (TetFrame frame; frame.make(st::corners_of(mesh_, tet))) {
-        frames_.push_back(frame);
-        tets.push_back(tet);
-      }
-    mesh_.tets = std::move(tets);
+    std::erase_if(mesh_.tets, [&](const auto& tet) { return is_flat(st::corners_of(mesh_, tet)); });
   }
+  /// Made anew each time: all of them are six times the mesh.
+  TetFrame frame_of(std::size_t tet) const { return TetFrame(st::corners_of(mesh_, mesh_.tets[tet])); }
   template <std::size_t N>
   LengthTree tree_over(std::span<const std::array<std::int32_t, N>> cells) const {
-    std::vector<Box3> boxes;
-    std::vector<double> least;
-    for (const auto& cell : cells) {
-      boxes.emplace_back();
-      least.push_back(kInfinity);
-      for (const std::int32_t node : cell) {
-        boxes.back().add(mesh_.node_xyz[node]);
-        least.back() = std::min(least.back(), mesh_.node_size[node].length);
-      }
-    }
-    return {boxes, least};
+    const auto box_of = [&](std::int32_t c) {
+      Box3 box;
+      for (const std::int32_t node : cells[static_cast<std::size_t>(c)]) box.add(mesh_.node_xyz[node]);
+      return box;
+    };
+    return {BoxTree(static_cast<std::int32_t>(cells.size()), box_of), [&](std::int32_t c) {
+              double least = kInfinity;
+              for (const std::int32_t node : cells[static_cast<std::size_t>(c)])
+                least = std::min(least, mesh_.node_size[node].length);
+              return least;
+            }};
   }
 
   static bool is_inside(const std::array<double, 4>& at) {
@@ -177,7 +183,7 @@ class BackgroundSource final : public SizeSource {
   /// Of the tetrahedra that hold x, or best; `winner`: the first of those with the smallest.
   double least_inside(Vec3 x, double best, std::size_t& winner) const {
     tet_tree_.visit_at(x, best, [&](std::int32_t t) {
-      const std::array<double, 4> at = frames_[t].coordinates(x);
+      const std::array<double, 4> at = frame_of(static_cast<std::size_t>(t)).coordinates(x);
       if (!is_inside(at)) return;
       const double length = interpolated(at, lengths_of(mesh_, mesh_.tets[t]));
       if (length < best) {
@@ -205,7 +211,7 @@ class BackgroundSource final : public SizeSource {
   /// With the mean of the metrics of a tetrahedron's nodes, by their weights at x.
   LocalSize stretched_in(std::size_t t, double length, Vec3 x) const {
     const auto& nodes = mesh_.tets[t];
-    const std::array<double, 4> at = frames_[t].coordinates(x);
+    const std::array<double, 4> at = frame_of(static_cast<std::size_t>(t)).coordinates(x);
     const MeanStretch mean = mean_stretch(stretches_of(nodes), at);
     const double along = mean.kept * interpolated(at, values_at(nodes, [](const LocalSize& s) { return s.along; }));
     return longer_along(mean.direction, length, std::min(along, least_of_other_tets(nodes, mean.direction, x)));
@@ -227,7 +233,7 @@ class BackgroundSource final : public SizeSource {
     double best = kInfinity;
     tet_tree_.visit_at(x, best, [&](std::int32_t t) {
       const auto& tet = mesh_.tets[t];
-      const std::array<double, 4> at = frames_[t].coordinates(x);
+      const std::array<double, 4> at = frame_of(static_cast<std::size_t>(t)).coordinates(x);
       if (!is_inside(at) || have_common_node(tet, nodes)) return;
       best = std::min(best, interpolated(at, values_at(tet, [&](const LocalSize& s) { return s.in(direction); })));
     });
@@ -267,7 +273,6 @@ class BackgroundSource final : public SizeSource {
   static constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
   BackgroundMesh mesh_;
   std::vector<Vec3> log_stretch_;                    // [nodes]; empty where none is stretched
-  std::vector<TetFrame> frames_;                     // [tets]
   std::vector<std::array<std::int32_t, 3>> border_;  // nodes
   LengthTree tet_tree_, border_tree_;
   Box3 box_;
@@ -277,8 +282,8 @@ class BackgroundSource final : public SizeSource {
 /// Lowers the lengths of one tetrahedron until its gradient is no more than the slope: the largest alone where that is
 /// enough, else all towards the smallest. False: nothing to do.
 bool limit_tet(const std::array<Vec3, 4>& p, double slope, std::array<double, 4>& h) {
-  TetFrame frame;
-  if (!frame.make(p)) return false;
+  if (is_flat(p)) return false;
+  const TetFrame frame(p);
   const double steepness = norm(frame.gradient(h));
   if (!(steepness > (1 + kSlack) * slope)) return false;
   const auto [least, top] = std::minmax_element(h.begin(), h.end());
@@ -469,6 +474,8 @@ void transform(const Similarity& motion, BackgroundMesh& mesh) {
 
 void append(const BackgroundMesh& other, BackgroundMesh& mesh) {
   const auto first = static_cast<std::int32_t>(mesh.node_xyz.size());
+  mesh.tets.reserve(mesh.tets.size() + other.tets.size());
+  mesh.triangles.reserve(mesh.triangles.size() + other.triangles.size());
   mesh.node_xyz.insert(mesh.node_xyz.end(), other.node_xyz.begin(), other.node_xyz.end());
   mesh.node_size.insert(mesh.node_size.end(), other.node_size.begin(), other.node_size.end());
   for (std::array<std::int32_t, 4> tet : other.tets) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/box_tree.h"
@@ -15,11 +16,19 @@ class LengthTree {
  public:
   LengthTree() = default;
   /// `least`: of each box; infinite: it counts only after lower().
-  LengthTree(std::span<const Box3> boxes, std::span<const double> least) : tree_(boxes) {
-    for (const BoxTree::Node& node : tree_.nodes()) {
-      double smallest = std::numeric_limits<double>::infinity();
-      for (std::int32_t i = node.begin; i < node.end; ++i) smallest = std::min(smallest, least[tree_.items()[i]]);
-      least_.push_back(smallest);
+  LengthTree(std::span<const Box3> boxes, std::span<const double> least)
+      : LengthTree(BoxTree(boxes), [&](std::int32_t item) { return least[item]; }) {}
+  /// `least_of(item)`: likewise, asked for once.
+  template <class LeastOf>
+  LengthTree(BoxTree tree, const LeastOf& least_of)
+      : tree_(std::move(tree)), least_(tree_.nodes().size(), std::numeric_limits<double>::infinity()) {
+    const std::span<const BoxTree::Node> nodes = tree_.nodes();
+    for (std::size_t at = nodes.size(); at-- > 0;) {  // children first
+      if (nodes[at].right != 0)
+        least_[at] = std::min(least_[at + 1], least_[nodes[at].right]);
+      else
+        for (std::int32_t i = nodes[at].begin; i < nodes[at].end; ++i)
+          least_[at] = std::min<double>(least_[at], least_of(tree_.items()[i]));
     }
   }
   /// From now on the box at `position` of items() has this length. As deep as the tree.

@@ -65,7 +65,11 @@ void add_background(BackgroundMesh&& mesh, const Similarity& motion, const Model
     log_warning(
         fmt::format("the background mesh grows faster than the slope {:g}: lengths of {} of its {} nodes are lowered",
                     slope, n, mesh.node_xyz.size()));
-  append(mesh, input.set.background);
+  mesh.node_metric.clear();
+  if (input.set.background.is_empty())
+    input.set.background = std::move(mesh);
+  else
+    append(mesh, input.set.background);
 }
 
 std::string label_of(const std::string& name, std::size_t number) {

@@ -151,6 +151,7 @@ CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
   mesh.node_xyz = cells.node_xyz;
   split_cells(path, cells, mesh);
   if (!cells.cell_value.empty()) average_cells(path, cells);
+  cells.type = cells.offset = cells.node = {};  // larger than all the rest
   return cells;
 }
 

@@ -61,9 +61,9 @@ class VtuParser {
   }
 
   CellFile cells(const std::string& array) {
-    const TriangulationFile nodes = read_nodes();
+    TriangulationFile nodes = read_nodes();
     CellFile result;
-    result.node_xyz = nodes.node_xyz;
+    result.node_xyz = std::move(nodes.node_xyz);
     result.type = values<std::int64_t>(require("Cells", "types"), n_cells_);
     result.offset = values<std::int64_t>(require("Cells", "offsets"), n_cells_);
     result.offset.insert(result.offset.begin(), 0);
@@ -240,7 +240,11 @@ class VtuParser {
     const std::uint64_t n = number(first_bytes(header_bytes_), 0);
     if (n > bytes_.size())
       fail("cut off: array '" + attribute(array.tag, "Name") + "' is not complete; write the file again");
-    if (compressor_.empty()) return first_bytes(header_bytes_ + n).substr(header_bytes_, n);
+    if (compressor_.empty()) {
+      std::string values = first_bytes(header_bytes_ + n);
+      values.erase(0, header_bytes_);
+      return values;
+    }
     const std::string head = first_bytes((3 + n) * header_bytes_);  // blocks, bytes of each, of the last, compressed
                                                                     // bytes of each
     std::uint64_t total = head.size();
