@@ -1,6 +1,7 @@
 """st-remesh over the chain: a local change remeshes locally, at any number of ranks; the rest stays to the bit."""
 import os
 import re
+import shutil
 import subprocess
 import sys
 import unittest
@@ -281,6 +282,34 @@ class Aircraft(ToolTest):
         kept = previous >= 0
         self.assertEqual(kept.sum(), facts["triangles_before"] - facts["triangles_redone"])
         self.assertEqual(new[kept].tobytes(), old[previous[kept]].tobytes())
+
+WING = "aero_onera_m6_sharpte.brep"
+
+
+@unittest.skipUnless((CORPUS / WING).exists(), f"SKIPPED: {CORPUS / WING} not found, set ST_CORPUS")
+class Wing(ToolTest):
+    """A mesh without stretch, for sizes with."""
+
+    def test_becomes_as_stretched_as_a_new_mesh_and_then_stays(self):
+        plain = make_chain(CORPUS / WING, self.folder / "plain")
+        geometry, raster, sizing, patches, new, old = (self.folder / f"{n}.hdf" for n in (
+            "geometry", "raster", "sizing", "patches", "new", "old"))
+        shutil.copy(plain / "geometry.hdf", geometry)
+        must("st-raster", geometry, "-o", raster, "--max-aspect", 16, "--leading-edges", "0.2%")
+        must("st-prolong", raster, "-o", sizing)
+        must("st-mesh", geometry, sizing, "-o", patches)
+        must("st-merge", patches, "-o", new)
+        hashes = set()
+        for n_ranks in (1, 3):
+            must("st-remesh", plain / "mesh.hdf", geometry, sizing, "--merged", old, "--np", n_ranks)
+            hashes.add(content_hash(old))
+        self.assertEqual(len(hashes), 1)
+        made, redone = (must("st-check", m, "--geometry", geometry, "--sizing", sizing, "--json").json()
+                        for m in (new, old))
+        self.assertGreater(redone["quality"]["mean"], made["quality"]["mean"] - 0.01)
+        self.assertAlmostEqual(redone["triangles"] / made["triangles"], 1, delta=0.1)
+        again = must("st-remesh", new, geometry, sizing, "--dry-run", "--json").json()
+        self.assertEqual(again["triangles_redone"], 0)
 
 
 if __name__ == "__main__":

@@ -179,6 +179,17 @@ class Shock(ToolTest):
         self.assertAlmostEqual(sum(across) / len(across), self.TRACE, delta=0.05 * self.TRACE)
         self.assertTrue(0.8 < sum(along) / len(along) / self.LONG < 1.05)  # rows of whole triangles are shorter
 
+    def test_a_remeshed_mesh_is_as_good_as_a_new_one(self):
+        self.sizes("--max-aspect", 16)
+        geometry, sizing, anew, redone = self.box / "geometry.hdf", *(self.folder / n for n in ("s.hdf", "m.hdf",
+                                                                                              "redone.hdf"))
+        must("st-mesh", geometry, sizing, "-o", self.folder / "p.hdf")
+        must("st-merge", self.folder / "p.hdf", "-o", anew)
+        must("st-remesh", self.box / "mesh.hdf", geometry, sizing, "--merged", redone)
+        new, old = (must("st-check", m, "--geometry", geometry, "--sizing", sizing, "--json").json()["quality"]["mean"]
+                    for m in (anew, redone))
+        self.assertGreater(old, new - 0.01)
+
     def test_without_aspect_the_shortest_counts(self):
         self.assertIn("nodes of the background mesh are anisotropic", self.sizes().err)
         length, along = self.at("30,20,0")

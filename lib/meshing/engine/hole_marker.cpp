@@ -1,6 +1,7 @@
 #include "meshing/engine/hole_marker.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/hash.h"
@@ -52,6 +53,7 @@ void HoleMarker::request_lengths(const SizeField& field) {
   std::vector<LocalSize> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
   share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
+  options_.becomes_stretched = is_stretched_ && ignores_stretch();
 }
 
 /// Whether the mesh has more edges far longer than they were made for than a mesh without stretch has.
@@ -65,6 +67,30 @@ bool HoleMarker::has_long_edges() const {
       n_long += distance(mesh_.mesh.node_xyz[a], mesh_.mesh.node_xyz[b]) > kLong * size;
     }
   return static_cast<double>(n_long) > kShare * 3 * static_cast<double>(mesh_.mesh.triangles.size());
+}
+
+/// Collective. Whether the mesh was made for other stretch, or none: half of its edges that lie along the direction of
+/// stretched sizes are too short for these.
+bool HoleMarker::ignores_stretch() const {
+  std::int64_t n_along = 0, n_short = 0;
+  for (TriangleId t = share_.begin; t < share_.end; ++t)
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = mesh_.mesh.triangles[t].n[k], b = mesh_.mesh.triangles[t].n[(k + 1) % 3];
+      const Vec3 d = mesh_.mesh.node_xyz[b] - mesh_.mesh.node_xyz[a];
+      const double of_a = dot(wanted_[a].squeeze(), d), of_b = dot(wanted_[b].squeeze(), d),
+                   squeezed = std::sqrt(norm2(d) - 0.5 * (of_a * of_a + of_b * of_b));
+      if (squeezed > options_.too_short * norm(d)) continue;
+      ++n_along;
+      n_short += squeezed < options_.too_short * 0.5 * (wanted_[a].length + wanted_[b].length);
+    }
+  std::int64_t of_all[2] = {0, 0};
+  for (const Bytes& bytes : executor_.gather(packed(n_along, n_short))) {
+    unpack(bytes, n_along, n_short);
+    of_all[0] += n_along, of_all[1] += n_short;
+  }
+  char ignores = 2 * of_all[1] > of_all[0];
+  share(executor_, ignores);
+  return ignores != 0;
 }
 
 std::vector<LocalSize> HoleMarker::refined_sizes(const Refinements& refinements) const {

@@ -61,7 +61,8 @@ class Marker {
     const double size = 0.5 * (wanted_[a] + wanted_[b]), before = 0.5 * (mesh_.node_size[a] + mesh_.node_size[b]);
     const double length = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]);
     const double ratio = (options_.squeeze.empty() ? length : squeezed_length(a, b)) / size;
-    if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length))
+    const bool is_squeezed = options_.becomes_stretched && ratio * size < (1 - options_.change) * length;
+    if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length) && !is_squeezed)
       return options_.was_stretched && is_of_other_aspect(ratio, length / size);
     return ratio > options_.too_long || ratio < options_.too_short;
   }
