@@ -147,7 +147,7 @@ void forget_parted(SurfaceMesh& mesh) {
 
 /// Puts the mesh onto the moved geometry.
 void move(RemeshInput& in, bool smooths) {
-  MovedMesh moved = move_mesh(in.old.mesh, in.model, smooths);
+  MovedMesh moved = move_mesh(in.old.mesh, in.model, smooths ? in.sizing.field.get() : nullptr);
   in.earlier_xyz = std::move(in.old.mesh.node_xyz);
   in.old.mesh = std::move(moved.mesh);
   forget_parted(in.old.mesh);

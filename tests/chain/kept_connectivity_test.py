@@ -12,12 +12,12 @@ from chain import BIN, MISMATCH, MODELS, OK, USAGE, Run, ToolTest, content_hash,
 
 
 class KeptConnectivity(ToolTest):
-    def sized(self, model):
+    def sized(self, model, *raster_options):
         """Geometry and sizing of a model of the tests."""
         folder = self.folder / model
         folder.mkdir(exist_ok=True)
         must("st-import", MODELS / f"{model}.brep", "-o", folder / "geometry.hdf", "--unit", "mm")
-        must("st-raster", folder / "geometry.hdf", "-o", folder / "raster.hdf")
+        must("st-raster", folder / "geometry.hdf", "-o", folder / "raster.hdf", *raster_options)
         must("st-prolong", folder / "raster.hdf", "-o", folder / "sizing.hdf")
         return folder / "geometry.hdf", folder / "sizing.hdf"
 
@@ -47,6 +47,15 @@ class KeptConnectivity(ToolTest):
             mesh = moved
         check = must("st-check", mesh, "--geometry", self.folder / "twisted_wing_20" / "geometry.hdf", "--json").json()
         self.assertGreater(check["quality"]["min"], 0.4)
+
+    def test_stretched_triangles_are_judged_by_their_sizes(self):
+        stretch = ["--max-aspect", 16]
+        first = make_chain(MODELS / "twisted_wing_0.brep", self.folder / "first", raster_options=stretch)
+        quality = must("st-check", first / "mesh.hdf", "--json").json()["quality"]["p1"]
+        self.assertLess(quality, 0.3, "in space they are below the bound")
+        facts = must("st-remesh", first / "mesh.hdf", *self.sized("twisted_wing_4", *stretch), "--moved",
+                     "--keep-connectivity", "--dry-run", "--json").json()
+        self.assertEqual(facts["triangles_kept"], facts["triangles_before"])
 
     def test_a_flap_turned_by_20_degrees_says_where_not(self):
         first = make_chain(MODELS / "part_flapped_wing_5.brep", self.folder / "first")

@@ -67,8 +67,10 @@ std::optional<AffineMap> closest_map(const std::vector<Vec2>& from, const std::v
 
 class Mover {
  public:
-  Mover(const SurfaceMesh& old, const Model& model, bool smooths)
-      : old_(old), model_(model), t_(model.tables()), smooths_(smooths), result_{old, {}} {}
+  Mover(const SurfaceMesh& old, const Model& model, const SizeField* smooth_for)
+      : old_(old), model_(model), t_(model.tables()), sizes_(smooth_for), result_{old, {}} {
+    if (sizes_ && sizes_->is_stretched()) squeeze_.resize(old.node_xyz.size());
+  }
 
   MovedMesh run() {
     require_same_topology();
@@ -287,7 +289,7 @@ class Mover {
         if (const auto there = project_near(surface, m.node_xyz[n], uv)) uv = *there;
       shift.push_back(uv - mapped);
     }
-    if (smooths_ && !fits(surface, begin, end, map))
+    if (sizes_ && !fits(surface, begin, end, map))
       spread_boundary_shift(old_, static_cast<TriangleId>(begin), static_cast<TriangleId>(end), shift, m);
     for (std::size_t c = 3 * begin; c < 3 * end; ++c)
       if (const NodeId n = old_.triangles[c / 3].n[c % 3]; old_.node_entity_dim[n] == kInFace)
@@ -309,32 +311,41 @@ class Mover {
     place_nodes(*surface, begin, end, map);
     const double side = turned && turned->is_mirrored() ? -1 : 1;
     const auto first = static_cast<TriangleId>(begin), last = static_cast<TriangleId>(end);
-    if (smooths_) smooth_moved_face(*surface, old_, first, last, side, result_.mesh);
+    find_squeeze(first, last);
+    if (sizes_) smooth_moved_face(*surface, old_, first, last, side, squeeze_, result_.mesh);
     note_spoilt(first, last, side);
+  }
+
+  /// Of nodes that triangles [begin, end) have, at their new places.
+  void find_squeeze(TriangleId begin, TriangleId end) {
+    int hint = 0;
+    for (TriangleId t = begin; t < end && !squeeze_.empty(); ++t)
+      for (const NodeId n : old_.triangles[t].n) squeeze_[n] = sizes_->local(result_.mesh.node_xyz[n], hint).squeeze();
   }
 
   /// `side`: -1 where areas in (u,v) change their signs.
   void note_spoilt(TriangleId begin, TriangleId end, double side) {
+    const TriangleCorners before(old_, squeeze_);
     for (TriangleId i = begin; i < end; ++i) {
-      const double q = moved_quality(old_, result_.mesh, i, side);
-      const NodeId* n = old_.triangles[i].n;
-      const double before = triangle_quality(old_.node_xyz[n[0]], old_.node_xyz[n[1]], old_.node_xyz[n[2]]);
-      if (q <= 0 || (q < kSpoiltQuality && q < before)) result_.spoilt.push_back(i);
+      const double q = moved_quality(old_, result_.mesh, i, side, squeeze_);
+      const auto [a, b, c] = before(i);
+      if (q <= 0 || (q < kSpoiltQuality && q < triangle_quality(a, b, c))) result_.spoilt.push_back(i);
     }
   }
 
   const SurfaceMesh& old_;
   const Model& model_;
   const ModelTables& t_;
-  const bool smooths_;
+  const SizeField* sizes_;     // null: nothing is smoothed
+  std::vector<Vec3> squeeze_;  // [n_nodes] of those; empty: they are not stretched
   MovedMesh result_;
   std::vector<NodeId> vertex_node_;
 };
 
 }  // namespace
 
-MovedMesh move_mesh(const SurfaceMesh& old, const Model& model, bool smooths) {
-  return Mover(old, model, smooths).run();
+MovedMesh move_mesh(const SurfaceMesh& old, const Model& model, const SizeField* smooth_for) {
+  return Mover(old, model, smooth_for).run();
 }
 
 }  // namespace st

@@ -34,16 +34,16 @@ double area_of(const SurfaceMesh& m, TriangleId t) {
   return 0.5 * norm(cross(m.node_xyz[n[1]] - m.node_xyz[n[0]], m.node_xyz[n[2]] - m.node_xyz[n[0]]));
 }
 
-double quality_of(const SurfaceMesh& m, TriangleId t) {
-  const NodeId* n = m.triangles[t].n;
-  return triangle_quality(m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]);
+double quality_of(const SurfaceMesh& m, TriangleId t, std::span<const Vec3> squeeze) {
+  const auto [a, b, c] = TriangleCorners(m, squeeze)(t);
+  return triangle_quality(a, b, c);
 }
 
 class FaceSmoother {
  public:
   FaceSmoother(const Surface& surface, const SurfaceMesh& old, TriangleId begin, TriangleId end, double side,
-               SurfaceMesh& moved)
-      : surface_(surface), old_(old), m_(moved), begin_(begin), end_(end), side_(side) {}
+               std::span<const Vec3> squeeze, SurfaceMesh& moved)
+      : surface_(surface), old_(old), m_(moved), begin_(begin), end_(end), side_(side), squeeze_(squeeze) {}
 
   void run() {
     find_nodes();
@@ -62,7 +62,7 @@ class FaceSmoother {
 
   /// Quality; of turned triangles minus their area, which a node that leaves only makes worse, by that before the move.
   double rated(TriangleId t) const {
-    const double q = moved_quality(old_, m_, t, side_);
+    const double q = moved_quality(old_, m_, t, side_, squeeze_);
     return q > 0 ? q : -area_of(m_, t) / std::max(area_of(old_, t), 1e-300);
   }
 
@@ -71,7 +71,7 @@ class FaceSmoother {
     std::vector<NodeId> touched;
     const auto touch = [&](TriangleId t) { touched.insert(touched.end(), m_.triangles[t].n, m_.triangles[t].n + 3); };
     for (TriangleId t = begin_; t < end_; ++t)
-      if (const double q = rated(t); q < kGood && q < quality_of(old_, t) - kBetter) touch(t);
+      if (const double q = rated(t); q < kGood && q < quality_of(old_, t, squeeze_) - kBetter) touch(t);
     if (touched.empty()) return;
     for (int ring = 0; ring < kRings; ++ring) {
       sort_once(touched);
@@ -162,6 +162,7 @@ class FaceSmoother {
   SurfaceMesh& m_;
   const TriangleId begin_, end_;
   const double side_;
+  const std::span<const Vec3> squeeze_;
   std::vector<NodeId> nodes_;  // ascending
   std::vector<double> step_;   // [nodes_]
   std::vector<std::size_t> star_begin_;
@@ -170,8 +171,10 @@ class FaceSmoother {
 
 }  // namespace
 
-double moved_quality(const SurfaceMesh& old, const SurfaceMesh& moved, TriangleId t, double side) {
-  return side * uv_area(moved, t) * uv_area(old, t) > 0 ? quality_of(moved, t) : -quality_of(moved, t);
+double moved_quality(const SurfaceMesh& old, const SurfaceMesh& moved, TriangleId t, double side,
+                     std::span<const Vec3> squeeze) {
+  const double q = quality_of(moved, t, squeeze);
+  return side * uv_area(moved, t) * uv_area(old, t) > 0 ? q : -q;
 }
 
 void spread_boundary_shift(const SurfaceMesh& old, TriangleId begin, TriangleId end, std::span<const Vec2> by,
@@ -210,8 +213,8 @@ void spread_boundary_shift(const SurfaceMesh& old, TriangleId begin, TriangleId 
 }
 
 void smooth_moved_face(const Surface& surface, const SurfaceMesh& old, TriangleId begin, TriangleId end, double side,
-                       SurfaceMesh& moved) {
-  FaceSmoother(surface, old, begin, end, side, moved).run();
+                       std::span<const Vec3> squeeze, SurfaceMesh& moved) {
+  FaceSmoother(surface, old, begin, end, side, squeeze, moved).run();
 }
 
 }  // namespace st

@@ -31,7 +31,7 @@ struct Spoilt : ShapeMesh {
   }
   double worst() const {
     double least = 1;
-    for (TriangleId t = begin; t < end; ++t) least = std::min(least, moved_quality(mesh, moved, t, 1));
+    for (TriangleId t = begin; t < end; ++t) least = std::min(least, moved_quality(mesh, moved, t, 1, {}));
     return least;
   }
 };
@@ -43,7 +43,7 @@ TEST_P(SmoothedFace, has_no_turned_triangle_any_more_and_stays_on_its_surface) {
   ASSERT_NE(s.node, kNone);
   ASSERT_LT(s.worst(), 0);
   const auto surface = s.model.surface(s.mesh.triangle_face[0]);
-  smooth_moved_face(*surface, s.mesh, s.begin, s.end, 1, s.moved);
+  smooth_moved_face(*surface, s.mesh, s.begin, s.end, 1, {}, s.moved);
   EXPECT_GT(s.worst(), 0.4);
   for (std::size_t c = 0; c < 3 * static_cast<std::size_t>(s.end); ++c) {
     const NodeId n = s.moved.triangles[c / 3].n[c % 3];
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(, SmoothedFace, testing::Values("box", "cylinder", "sph
 TEST(SmoothedFaceThatIsGood, stays_as_it_is) {
   const BoxMesh box;
   SurfaceMesh moved = box.mesh;
-  smooth_moved_face(*box.model.surface(0), box.mesh, 0, box.mesh.n_triangles(), 1, moved);
+  smooth_moved_face(*box.model.surface(0), box.mesh, 0, box.mesh.n_triangles(), 1, {}, moved);
   for (NodeId n = 0; n < moved.n_nodes(); ++n) EXPECT_TRUE(moved.node_xyz[n] == box.mesh.node_xyz[n]);
 }
 
