@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
   tool.flag("--no-resume", o.begins_new, "begin anew, without what an earlier run has kept in OUTPUT.journal");
   tool.restart_after_crash();
   tool.main_options({"--merged", "--too-long", "--too-short", "--keep", "--sizes-on-nodes", "--made-for", "--tolerance",
-                     "--moved", "--keep-connectivity", "--dry-run", "--np"});
+                     "--moved", "--dry-run", "--np"});
   tool.examples({"st-remesh mesh.hdf geometry.hdf new_sizing.hdf --merged remeshed.hdf --np 8"});
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) {
     o.begins_new = o.begins_new && st::n_tries() == 0;  // a new try of this run goes on
