@@ -19,6 +19,7 @@
 #include "features/arc_table.h"
 #include "features/concave_edges.h"
 #include "features/edge_places.h"
+#include "features/front_noses.h"
 #include "features/own_faces.h"
 #include "features/profile.h"
 #include "features/profile_facets.h"
@@ -67,6 +68,15 @@ struct SurfaceDraft {
   std::vector<const Vec3*> axis;  // by edge: to which its profiles are square; nullptr: to the edge
 };
 
+/// Whether a nose lies on the trailing edge of a surface.
+bool is_nose_on(const ChordStation& s, const LiftingSurface& surface) {
+  for (const ChordEdge& edge : surface.trailing)
+    for (std::size_t i = 1; i < edge.stations.size(); ++i)
+      if (segment_distance(s.nose, edge.stations[i - 1].trailing, edge.stations[i].trailing) < kNearNose * s.chord)
+        return true;
+  return false;
+}
+
 /// Whether noses of most stations of `a` lie on the trailing edge of `b`.
 bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
   std::size_t n = 0, n_near = 0;
@@ -74,14 +84,20 @@ bool has_nose_on(const LiftingSurface& a, const LiftingSurface& b) {
     for (const ChordStation& s : edge.stations) {
       if (!s.is_measured) continue;
       ++n;
-      bool is_near = false;
-      for (const ChordEdge& other : b.trailing)
-        for (std::size_t i = 1; i < other.stations.size() && !is_near; ++i)
-          is_near = segment_distance(s.nose, other.stations[i - 1].trailing, other.stations[i].trailing) <
-                    kNearNose * s.chord;
-      n_near += is_near;
+      n_near += is_nose_on(s, b);
     }
   return 2 * n_near > n;
+}
+
+/// How far the trailing edge of `a` runs with noses, on that of `b` alone where it is given.
+double way_with_noses(const LiftingSurface& a, const LiftingSurface* b = nullptr) {
+  double way = 0;
+  for (const ChordEdge& edge : a.trailing)
+    for (std::size_t i = 1; i < edge.stations.size(); ++i)
+      for (const ChordStation* s : {&edge.stations[i - 1], &edge.stations[i]})
+        if (s->is_measured && (!b || is_nose_on(*s, *b)))
+          way += 0.5 * distance(edge.stations[i - 1].trailing, edge.stations[i].trailing);
+  return way;
 }
 
 /// Whether an edge runs along the chord of the nearest station: a rim of the tip or the root, in a chain because it
@@ -669,13 +685,17 @@ class SurfaceMeasurer {
 };
 
 /// What may be the trailing edge was found from both sides where the nose is sharp, or a narrow face, or a smooth edge:
-/// the blunter one is the leading edge.
+/// the blunter one is the leading edge, of alike ones the shorter, as that of a part behind a slot.
 template <class Bluntness>
 void unite_both_sides(std::vector<LiftingSurface>& surfaces, const Bluntness& bluntness_of) {
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     for (std::size_t j = surfaces.size() - 1; j > i; --j) {
-      if (!has_nose_on(surfaces[i], surfaces[j]) || !has_nose_on(surfaces[j], surfaces[i])) continue;
-      if (bluntness_of(surfaces[j]) < bluntness_of(surfaces[i])) std::swap(surfaces[i], surfaces[j]);
+      const double way_i = way_with_noses(surfaces[i]), way_j = way_with_noses(surfaces[j]),
+                   half = 0.5 * std::min(way_i, way_j);
+      if (!(way_with_noses(surfaces[i], &surfaces[j]) > half && way_with_noses(surfaces[j], &surfaces[i]) > half))
+        continue;
+      const auto of_i = bluntness_of(surfaces[i]), of_j = bluntness_of(surfaces[j]);
+      if (of_j < of_i || (of_j == of_i && way_j > way_i)) std::swap(surfaces[i], surfaces[j]);
       for (const ChordEdge& edge : surfaces[j].trailing) surfaces[i].leading.push_back(edge.edge);
       std::sort(surfaces[i].leading.begin(), surfaces[i].leading.end());
       surfaces.erase(surfaces.begin() + static_cast<std::ptrdiff_t>(j));
@@ -822,6 +842,7 @@ class SurfaceFinder {
     find_small(small);
     unite_surfaces();
     find_behind_noses();
+    add_front_noses(model_, kDeflection * roles_.reference_diagonal, surfaces_);
     const bool has_aircraft = noseless == Noseless::kAll || !surfaces_.empty();
     for (Rest& rest : rest_) explain(rest);
     for (Rest& rest : rest_) find_thin(rest, has_aircraft);
@@ -849,7 +870,10 @@ class SurfaceFinder {
   void explain(Rest& rest) const {
     if (!rest.why.may_be_wing) return;
     const auto is_at_nose = [&](const WingEdge& w) {
-      return std::ranges::any_of(surfaces_, [&](const LiftingSurface& s) { return runs_along_nose(model_, w, s); });
+      return std::ranges::any_of(surfaces_, [&](const LiftingSurface& s) {
+        const auto is_own = [&](FaceId f) { return std::ranges::binary_search(s.faces, f); };
+        return std::ranges::any_of(faces_at(w.edge), is_own) && runs_along_nose(model_, w, s);
+      });
     };
     if (std::ranges::all_of(rest.edges, is_at_nose))
       rest.why = {"they are at the nose of a lifting surface", false};

@@ -58,6 +58,8 @@ struct LiftingSurface {
   std::vector<ChordEdge> trailing;          ///< ascending by edge
   std::vector<EdgeId> leading;              ///< CAD edges along the nose, ascending; a nose inside a face has none
   std::vector<ChordEdge> declared_leading;  ///< of these the declared ones, with the chords there; none measured
+  std::vector<ChordEdge> front = {};  ///< noses before slots, flaps and notches, which no own trailing edge is behind:
+                                      ///< no edges, inside faces, `trailing` of a station is its nose
   std::vector<FaceId> faces;  ///< that measured profiles cross, and that no concave edge parts from the trailing
                               ///< edge, ascending
   double span = 0;            ///< along the trailing edge, model unit
@@ -65,7 +67,7 @@ struct LiftingSurface {
 
   static auto fields(auto& s) {
     return std::tie(s.is_blunt, s.is_round, s.has_noses, s.is_declared, s.trailing, s.leading, s.declared_leading,
-                    s.faces, s.span, s.least_chord, s.median_chord, s.largest_chord);
+                    s.front, s.faces, s.span, s.least_chord, s.median_chord, s.largest_chord);
   }
 
   /// The measured station whose chord passes nearest to a place, the first of several; nullptr: none is measured. Cost:

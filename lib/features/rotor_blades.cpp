@@ -8,54 +8,25 @@
 #include <optional>
 
 #include "base/boxes.h"
-#include "base/eigen.h"
 #include "base/similarity.h"
 #include "base/sort_once.h"
 #include "features/arc_table.h"
 #include "features/edge_places.h"
+#include "features/turn_axis.h"
+#include "geometry/shape/projection.h"
 
 namespace st {
 namespace {
 
-constexpr std::size_t kPlaces = 5;         // along an edge, its ends included
-constexpr double kSameLength = 1e-3;       // of an edge's length: to that of its image
-constexpr double kOff = 2e-3;              // of an edge's length: a place from that of its image
-constexpr double kOffNose = 0.02;          // of the chord: a nose from the box of its face
-constexpr double kLeastTurn = radians(1);  // between two blades: copies in one place are none
-constexpr double kUp = 1e-6;               // of unit vectors across an edge: too short for a direction
-constexpr double kNearlyAll = 0.9;         // of the way of the best: others have too few chords to compare
+constexpr std::size_t kPlaces = 5;    // along an edge, its ends included
+constexpr double kSameLength = 1e-3;  // of an edge's length: to that of its image
+constexpr double kOff = 2e-3;         // of an edge's length: a place from that of its image
+constexpr double kOffNose = 0.02;     // of the chord: a nose from the box of its face
+constexpr double kOnNose = 0.01;      // of the chord: the middle nose of an edge from the surface it comes to
+constexpr double kUp = 1e-6;          // of unit vectors across an edge: too short for a direction
+constexpr double kNearlyAll = 0.9;    // of the way of the best: others have too few chords to compare
 
 using Places = std::array<Vec3, kPlaces>;
-
-/// A line about which blades turn.
-struct TurnAxis {
-  Vec3 center, axis;  // unit
-  std::array<Vec3, 2> across;
-
-  TurnAxis(Vec3 at, Vec3 along) : center(at), axis(along) {
-    const Vec3 other = std::abs(along.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-    across[0] = normalized(cross(along, other));
-    across[1] = cross(along, across[0]);
-  }
-  double azimuth(Vec3 x) const { return std::atan2(dot(x - center, across[1]), dot(x - center, across[0])); }
-  double height(Vec3 x) const { return dot(x - center, axis); }
-  double radius(Vec3 x) const { return norm(x - center - height(x) * axis); }
-  Similarity turn(double angle) const { return rotation_about(axis, angle).about(center); }
-};
-
-/// The axis of a motion, unless that moves along it by more than `slip`, or hardly turns.
-std::optional<TurnAxis> axis_of(const Similarity& motion, double slip) {
-  const auto& r = motion.rotation;
-  Eigen::Matrix3d turn;
-  for (int i = 0; i < 3; ++i) turn.row(i) = to_eigen(r[static_cast<std::size_t>(i)]);
-  const Vec3 axis = principal_axes(turn + turn.transpose()).axis[2];
-  const Vec3 twice_sine{r[2].y - r[1].z, r[0].z - r[2].x, r[1].x - r[0].y};
-  const double angle = std::atan2(0.5 * dot(axis, twice_sine), 0.5 * (r[0].x + r[1].y + r[2].z - 1));
-  const double along = dot(axis, motion.translation);
-  if (std::abs(angle) < kLeastTurn || std::abs(along) > slip) return std::nullopt;
-  const Vec3 way = motion.translation - along * axis;
-  return TurnAxis(0.5 * (way + cross(axis, way) / std::tan(0.5 * angle)), axis);
-}
 
 /// From end to end of its trailing edges, unit.
 Vec3 span_direction(const LiftingSurface& wing) {
@@ -231,6 +202,16 @@ class BladeFinder {
     return most == n_edges.end() ? kNone : most->first;
   }
 
+  /// Whether the middle one of the noses before an edge is on the CAD: edges of elements of one span look alike.
+  bool has_nose(const ChordEdge& edge) const {
+    std::vector<const ChordStation*> measured;
+    for (const ChordStation& s : edge.stations)
+      if (s.is_measured) measured.push_back(&s);
+    if (measured.empty()) return true;
+    const ChordStation& s = *measured[measured.size() / 2];
+    return closest_point(*model_.surface(s.nose_face), s.nose).distance <= kOnNose * s.chord;
+  }
+
   /// The surface where a turn takes it; none where the model lacks one of its edges, or the face that a nose comes to.
   std::optional<LiftingSurface> image_of_wing(const LiftingSurface& wing, const Similarity& turn) {
     const double reach = kOff * t_.edge_length[longest_edge(wing)];
@@ -257,6 +238,7 @@ class BladeFinder {
         if (s.is_measured && !contains(t_.face_box[s.nose_face], s.nose, kOffNose * s.chord)) return std::nullopt;
       }
       if (way < 0) std::ranges::reverse(edge.stations);
+      if (!has_nose(edge)) return std::nullopt;
     }
     std::ranges::sort(own.trailing, {}, &ChordEdge::edge);
     if (std::ranges::adjacent_find(own.trailing, {}, &ChordEdge::edge) != own.trailing.end()) return std::nullopt;

@@ -12,9 +12,12 @@ namespace st {
 struct WingRecord {
   /// A place on a trailing edge, and the nose before it.
   struct Station {
-    Vec3 nose, trailing;  ///< model unit; `nose` means nothing where the surface has none
+    Vec3 nose, trailing;  ///< model unit; `nose` means nothing where the surface has none; the same: a nose alone
     double chord = 0;     ///< model unit
     double asked = 0;     ///< length at both, model unit; 0: rules say what they get
+
+    /// Before a slot, a flap or a notch: the trailing edge is another part's, or none.
+    bool is_nose_alone() const { return distance(nose, trailing) <= 0; }
   };
   std::vector<Station> stations;     ///< edge by edge, along each
   std::vector<EdgeId> edges;         ///< trailing ones, or along such inside faces; of a nose alone the leading one

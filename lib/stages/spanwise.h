@@ -11,14 +11,17 @@
 
 namespace st {
 
-/// A wing's stations in the order of the span; those of a ring around it, from the first one on.
+/// Stations of a wing in the order of the span; those of a ring around it, from the first one on.
 struct Spanwise {
   std::vector<const WingRecord::Station*> station;
   std::vector<double> share;
   bool is_ring = false;
 
-  explicit Spanwise(const WingRecord& wing) {
-    for (const WingRecord::Station& s : wing.stations) station.push_back(&s);
+  enum class Kind { kOfEdges, kNosesAlone };
+
+  explicit Spanwise(const WingRecord& wing, Kind kind = Kind::kOfEdges) {
+    for (const WingRecord::Station& s : wing.stations)
+      if ((wing.has_noses && s.is_nose_alone()) == (kind == Kind::kNosesAlone)) station.push_back(&s);
     if (station.empty() || sort_around()) return;
     const auto furthest_from = [&](Vec3 x) {
       return *std::ranges::max_element(station, {}, [&](const auto* s) { return distance(s->trailing, x); });

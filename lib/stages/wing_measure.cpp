@@ -264,28 +264,55 @@ WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing,
   return own;
 }
 
-/// Sets `held` and `worst`, from all stations.
-void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, WingMeasure& own) {
-  const std::size_t n = spanwise.station.size();
-  double span = 0, held = 0, most = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const WingRecord::Station& s = *spanwise.station[i];
-    const double part = spanwise.part(i);
-    span += part;
+/// Of stations so far.
+struct HeldSpan {
+  double span = 0, held = 0;  ///< model unit
+  double most = 0;            ///< length over that asked for
+  std::optional<WingMiss> worst = std::nullopt;
+};
+
+/// Of stations with trailing edges, or of noses alone. `share_of`: of the whole wing's span, by index.
+template <class ShareOf>
+void add_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, const ShareOf& share_of,
+                  HeldSpan& all) {
+  const std::vector<const WingRecord::Station*>& stations = spanwise.station;
+  if (stations.empty()) return;
+  double way = distance(stations.front()->trailing, stations.back()->trailing);
+  for (std::size_t i = 1; spanwise.is_ring && i < stations.size(); ++i)
+    way += distance(stations[i - 1]->trailing, stations[i]->trailing);
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const WingRecord::Station& s = *stations[i];
+    const double part = way * spanwise.part(i);
+    all.span += part;
     double factor = 0;
     const auto take = [&](const char* what, double has, Vec3 place) {
       factor = std::max(factor, has / s.asked);
-      if (has / s.asked <= most) return;
-      most = has / s.asked;
-      own.worst = WingMiss{0, spanwise.share[i], place, what, has / s.chord, s.asked / s.chord};
+      if (has / s.asked <= all.most) return;
+      all.most = has / s.asked;
+      all.worst = WingMiss{0, share_of(i), place, what, has / s.chord, s.asked / s.chord};
     };
     if (s.asked > 0) {
       take("nose", nose_of(mesh, wing, spanwise, i).normal, s.nose);
       take("trailing edge", trailing_of(mesh, spanwise, i).normal, s.trailing);
     }
-    if (factor <= kHeld) held += part;
+    if (factor <= kHeld) all.held += part;
   }
-  if (span > 0) own.held = held / span;
+}
+
+/// Sets `held` and `worst`, from all stations.
+void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, WingMeasure& own) {
+  HeldSpan all;
+  add_stations(
+      mesh, wing, spanwise, [&](std::size_t i) { return spanwise.share[i]; }, all);
+  const Spanwise front(wing, Spanwise::Kind::kNosesAlone);
+  const auto share_of_front = [&](std::size_t i) {
+    const auto nearest = std::ranges::min_element(
+        spanwise.station, {}, [&](const auto* s) { return distance(s->nose, front.station[i]->nose); });
+    return spanwise.share[static_cast<std::size_t>(nearest - spanwise.station.begin())];
+  };
+  add_stations(mesh, wing, front, share_of_front, all);
+  own.worst = all.worst;
+  if (all.span > 0) own.held = all.held / all.span;
 }
 
 /// The group that most triangles of these faces are in; empty: none, or one without a name of its own.

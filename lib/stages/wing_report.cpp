@@ -44,6 +44,15 @@ std::string rule_for(std::vector<std::int32_t> numbers, const char* meaning) {
   return fmt::format("size = [{{ edges = [{}{}], {} }}]", fmt::join(numbers, ", "), n > kNamed ? ", ..." : "", meaning);
 }
 
+/// Length of its noses before slots and flaps, model unit.
+double front_length(const LiftingSurface& wing) {
+  double length = 0;
+  for (const ChordEdge& front : wing.front)
+    for (std::size_t i = 1; i < front.stations.size(); ++i)
+      length += distance(front.stations[i - 1].nose, front.stations[i].nose);
+  return length;
+}
+
 /// Measured stations of a lifting surface.
 nlohmann::json stations_json(const LiftingSurface& wing) {
   nlohmann::json list = nlohmann::json::array();
@@ -76,6 +85,7 @@ nlohmann::json wings_json(std::span<const LiftingSurface> wings) {
                     {"has_noses", wing.has_noses},
                     {"is_declared", wing.is_declared},
                     {"span", wing.span},
+                    {"noses_alone", front_length(wing)},
                     {"chord", {wing.least_chord, wing.median_chord, wing.largest_chord}}});
   }
   return list;

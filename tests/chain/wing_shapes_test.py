@@ -66,7 +66,22 @@ SPANS = {
     "hull_with_screw": [0.129, 0.129],
     "split_winglet": [3.99, 0.85],
     "wedge_wing": [1.2],
+    "inner_slot": [4],
+    "tip_slot": [4],
+    "open_slot": [3.97],  # 4 without two slots of 0.015
+    "three_elements": [4, 4, 4],
+    "sawtooth_wing": [4],
+    "pierced_wing": [4],
+    "spoiler_wing": [4],
+    "stepped_wing": [4],
+    "wing_with_pod": [4, 0.16],  # and the pylon
+    "cranked_canard": [1.48, 1.48],
+    "split_nose": [4.02],
+    "cove_wing": [4],
 }
+# Noses before slots and flaps, where the trailing edge is another part's or none.
+NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing": 0.36, "gapped_aileron": 1.3,
+               "fixed_slat": 2.4, "two_elements": 0, "kinked_wing": 0}
 PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal",
          "oval_bar", "saw", "door_stop", "snap_hook", "plow", "hole_plate")
 
@@ -91,6 +106,27 @@ class WingShapes(ToolTest):
 
     def check_part(self, name):
         self.assertEqual(self.raster(name, "euler").json()["lifting_surfaces"], [])
+
+    def test_noses_go_on_before_slots_and_flaps(self):
+        for name, length in NOSES_ALONE.items():
+            (self.folder / "geometry.hdf").unlink(missing_ok=True)
+            wings = self.raster(name, "rans").json()["lifting_surfaces"]
+            # at both ends they begin at stations, which are 0.17 apart
+            self.assertAlmostEqual(sum(wing["noses_alone"] for wing in wings), length, delta=0.34 if length else 0,
+                                   msg=name)
+
+    def test_edges_of_coves_and_slats_are_warned_of(self):
+        for name, spans, edges in (("gapped_aileron", [2.7, 1.28], "3, 8"), ("fixed_slat", [4], "4")):
+            (self.folder / "geometry.hdf").unlink(missing_ok=True)
+            done = self.raster(name, "rans")
+            found = [wing["span"] for wing in done.json()["lifting_surfaces"]]
+            self.assertEqual([round(span, 2) for span in found], spans, name)
+            self.assertRegex(done.err, rf"warning: .* edges = \[{edges}\], trailing_edge = true", name)
+
+    def test_elements_of_one_span_have_their_own_chords(self):
+        wings = self.raster("three_elements", "rans").json()["lifting_surfaces"]
+        for chord, asked in zip(sorted(wing["chord"][1] for wing in wings), (0.16, 0.3, 1)):
+            self.assertAlmostEqual(chord, asked, delta=0.001)
 
     def test_fillets_are_no_finer_than_the_nose_needs(self):
         def n_samples(edge_size):

@@ -608,6 +608,103 @@ TopoDS_Shape plate_sail(double thickness) {
   return thru.Shape();
 }
 
+// --- slots, holes and steps in wings ---
+
+/// Span 4, chord 1.
+TopoDS_Shape wing_of_four(const Foil& foil) {
+  return loft(foil, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 4, 0), 1)});
+}
+
+/// A slot of 1.5 % of the chord through both skins, along the span from y = `from`.
+TopoDS_Shape slotted_wing(double from, double to) {
+  return cut(wing_of_four(kBlunt), box(0.72, from, -1, 0.015, to - from, 2));
+}
+
+/// Open at the trailing edge: 1.5 % of the chord wide, beside a flap.
+TopoDS_Shape open_slot() {
+  TopoDS_Shape wing = wing_of_four({});
+  for (const double y : {1.2, 2.8}) wing = cut(wing, box(0.7, y, -1, 0.5, 0.015, 2));
+  return wing;
+}
+
+TopoDS_Shape three_elements() {
+  const auto element = [](const Foil& foil, gp_Pnt nose, double chord, double twist) {
+    const auto frame = [&](double y) { return straight(nose.Translated(gp_Vec(0, y, 0)), chord, 0, twist); };
+    return loft(foil, {frame(0), frame(4)});
+  };
+  return compound_of(
+      {element({.thickness = 0.1}, gp_Pnt(-0.14, 0, -0.09), 0.16, -25), element(kBlunt, gp_Pnt(0, 0, 0), 1, 0),
+       element({.thickness = 0.1, .base = 0.006, .tail = Tail::kBlunt}, gp_Pnt(0.985, 0, -0.11), 0.3, 25)});
+}
+
+/// From x = 0.75 on and between y = 1.5 and 2.8 a piece is cut out, and put back with gaps of 1 % of the chord around.
+TopoDS_Shape gapped_aileron() {
+  const TopoDS_Shape wing = wing_of_four({});
+  return compound_of({cut(wing, box(0.75, 1.5, -1, 0.5, 1.3, 2)), common(wing, box(0.76, 1.51, -1, 0.5, 1.28, 2))});
+}
+
+/// Four teeth of 0.05 along the leading edge.
+TopoDS_Shape sawtooth_wing() {
+  std::vector<TopoDS_Shape> all;
+  for (int i = 0; i < 4; ++i) {
+    const double y = i;
+    all.push_back(loft({}, {straight(gp_Pnt(-0.05, y, 0), 1.05), straight(gp_Pnt(0, y + 1, 0), 1)}));
+  }
+  return fuse_all(all);
+}
+
+/// Holes of 4 % of the chord, 3 % before the trailing edge.
+TopoDS_Shape pierced_wing() {
+  TopoDS_Shape wing = wing_of_four({});
+  for (const double y : {1.0, 2.0, 3.1}) wing = cut(wing, cylinder(gp_Pnt(0.95, y, -1), gp::DZ(), 0.02, 2));
+  return wing;
+}
+
+/// A spoiler stands on the upper side.
+TopoDS_Shape spoiler_wing() {
+  const TopoDS_Shape plate = moved(box(0.7, 1.2, 0, 0.12, 1, 0.008),
+                                   [](gp_Trsf& t) { t.SetRotation(gp_Ax1(gp_Pnt(0.7, 0, 0.02), gp::DY()), -0.5); });
+  return fuse(wing_of_four({}), shifted(plate, gp_Vec(0, 0, 0.03)));
+}
+
+/// The upper skin steps down by 0.4 % of the chord at x = 0.7, as before a spoiler.
+TopoDS_Shape stepped_wing() { return cut(wing_of_four(kBlunt), box(0.7, 1.2, 0.025, 0.12, 1, 1)); }
+
+/// A store on a pylon.
+TopoDS_Shape wing_with_pod() {
+  const TopoDS_Shape pod =
+      shifted(fuselage({{0, 0}, {0.1, 0.05}, {0.3, 0.08}, {0.7, 0.08}, {0.9, 0.05}, {1, 0}}), gp_Vec(-0.1, 2, -0.28));
+  const TopoDS_Shape pylon =
+      loft({.thickness = 0.08}, {straight(gp_Pnt(0.15, 2, -0.25), 0.5, 90), straight(gp_Pnt(0.15, 2, 0), 0.5, 90)});
+  return fuse_all({wing_of_four({}), pylon, pod});
+}
+
+/// With a kink in both edges and another one in the dihedral.
+TopoDS_Shape cranked_canard() {
+  const auto body = fuselage({{0, 0}, {0.5, 0.25}, {1.2, 0.42}, {2, 0.5}, {5, 0.5}, {6, 0}});
+  const auto frame = [](double y) {
+    const double out = std::abs(y), x = out < 1 ? 1.5 + 0.7 * out : 2.2 + 0.2 * (out - 1);
+    return straight(gp_Pnt(x, y, out < 1 ? 0 : 0.2 * (out - 1)), out < 1 ? 1.4 - 0.7 * out : 0.7 - 0.3 * (out - 1));
+  };
+  return fuse(body, loft({.thickness = 0.06}, {frame(-2), frame(-1), frame(0), frame(1), frame(2)}));
+}
+
+/// Cut along the nose and 1 and 3 % of the chord behind it, on both sides.
+TopoDS_Shape split_nose() {
+  return loft({.cuts = {0.03, 0.01, 0, -0.01, -0.03}},
+              {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0.8, 4, 0), 0.6)});
+}
+
+/// A slot with parallel walls from the lower side to the upper one behind the nose: a fixed slat.
+TopoDS_Shape fixed_slat() {
+  const TopoDS_Shape slot = moved(box(0.1, 0.8, -1, 0.015, 2.4, 2),
+                                  [](gp_Trsf& t) { t.SetRotation(gp_Ax1(gp_Pnt(0.1, 0, 0), gp::DY()), 0.9); });
+  return cut(wing_of_four({}), slot);
+}
+
+/// A cove under the nose of a flap: the lower skin before it is taken away.
+TopoDS_Shape cove_wing() { return cut(wing_of_four(kBlunt), box(0.75, 0.9, -1, 0.12, 2.2, 1.005)); }
+
 // --- trailing edges that are no line ---
 
 /// Span 4, chord 1, with the profile's tail stretched by 0.1 at every second section: sharp flanks of 34 degrees.
@@ -920,6 +1017,25 @@ const Makers& rough_models() {
   return all;
 }
 
+/// Slots, holes and steps in wings.
+const Makers& cut_models() {
+  static const Makers all{{"inner_slot", [] { return slotted_wing(1, 3); }},
+                          {"tip_slot", [] { return slotted_wing(2, 5); }},
+                          {"open_slot", open_slot},
+                          {"three_elements", three_elements},
+                          {"gapped_aileron", gapped_aileron},
+                          {"sawtooth_wing", sawtooth_wing},
+                          {"pierced_wing", pierced_wing},
+                          {"spoiler_wing", spoiler_wing},
+                          {"stepped_wing", stepped_wing},
+                          {"wing_with_pod", wing_with_pod},
+                          {"cranked_canard", cranked_canard},
+                          {"split_nose", split_nose},
+                          {"fixed_slat", fixed_slat},
+                          {"cove_wing", cove_wing}};
+  return all;
+}
+
 const Makers& parts() {
   static const Makers all{{"part_bracket", wedge_bracket},
                           {"part_plate", chamfered_plate},
@@ -995,7 +1111,8 @@ const Makers& wings() {
 
 Makers models() {
   Makers all = wings();
-  for (const Makers* more : {&round_models(), &rough_models(), &parts()}) all.insert(more->begin(), more->end());
+  for (const Makers* more : {&round_models(), &rough_models(), &cut_models(), &parts()})
+    all.insert(more->begin(), more->end());
   return all;
 }
 

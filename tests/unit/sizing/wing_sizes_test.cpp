@@ -197,6 +197,45 @@ TEST(WingSizes, lay_cells_across_a_blunt_base) {
   EXPECT_GT(n_base, 1000u);
 }
 
+/// The corners of a slot's wall lie before one edge of the base each.
+TEST(WingSizes, lie_along_both_noses_before_a_base_where_they_are_apart) {
+  const Model model = test::make_model("blunt_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  const std::vector<Strip> strips = find_strips(model);
+  LiftingSurface wing = find_lifting_surfaces(model, roles, find_wing_edges(model, roles, strips)).at(0);
+  ASSERT_EQ(wing.trailing.size(), 2u);
+  const std::vector<std::uint8_t> none(static_cast<std::size_t>(model.tables().n_edges()), 0);
+  const auto n_above = [&](double height) {
+    for (ChordStation& s : wing.trailing[1].stations) s.nose.y = height;
+    Sampled sampled;
+    raster_wing(model, wing, share_of_chord("0.5%chord"), strips, none, sampled.boxes);
+    return std::ranges::count_if(sampled.boxes, [](const RasterBox& b) { return b.center.y > 1; });
+  };
+  EXPECT_GT(n_above(2), 300);
+  const std::ptrdiff_t n_of_one = n_above(0.05);
+  EXPECT_EQ(n_of_one, 0);
+}
+
+TEST(WingSizes, lie_along_noses_before_slots) {
+  const Model model = test::make_model("sharp_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  LiftingSurface wing = find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0);
+  ChordEdge front;
+  front.is_inside = true;
+  for (const double z : {5.0, 10.0}) {
+    const Vec3 x{-3, 0, z};
+    front.stations.push_back({z == 5 ? 0.0 : 1.0, x, 10, true, false, x, wing.trailing[0].stations[9].nose_face});
+  }
+  wing.front = {front};
+  const std::vector<std::uint8_t> none(static_cast<std::size_t>(model.tables().n_edges()), 0);
+  Sampled s;
+  raster_wing(model, wing, share_of_chord("0.5%chord"), {}, none, s.boxes);
+  EXPECT_GT(std::ranges::count_if(s.boxes, [](const RasterBox& b) { return b.center.x < -2; }), 90);
+  const WingRecord record = record_wing(wing, share_of_chord("0.5%chord"), none);
+  EXPECT_EQ(std::ranges::count_if(record.stations, &WingRecord::Station::is_nose_alone), 2);
+  EXPECT_NEAR(record.stations.back().asked, 0.05, 1e-12);
+}
+
 TEST(WingSizes, do_not_lay_more_cells_across_a_base_than_a_quarter_of_the_edges_length_allows) {
   for (const RasterBox& b : sample("blunt_wing", share_of_chord("4%chord")).with(CauseKind::kFace))
     if (b.center.x > 9) {

@@ -75,6 +75,19 @@ TEST(WingMeasure, of_sheared_rows_has_their_heights) {
   }
 }
 
+TEST(WingMeasure, of_noses_alone_counts_for_what_is_held) {
+  WingRecord wing = record(0.05);
+  for (WingRecord::Station& s : wing.stations)
+    if (s.nose.y > 3) s = {s.nose, s.nose, 1, 0.025};
+  const std::vector<WingMeasure> all = measure_wings(plank(), {&wing, 1});
+  EXPECT_NEAR(all[0].held, 0.75, 0.02);
+  ASSERT_TRUE(all[0].worst);
+  EXPECT_STREQ(all[0].worst->what, "nose") << "there is no trailing edge behind it";
+  EXPECT_NEAR(all[0].worst->has / all[0].worst->asked, 2, 1e-9);
+  EXPECT_EQ(all[0].worst->place.x, 0);
+  for (const WingStationMeasure& s : all[0].stations) EXPECT_LT(s.place.y, 3) << "of the trailing edge";
+}
+
 /// As on the end of a wing.
 TEST(WingMeasure, of_a_flat_triangle_square_to_the_span_is_no_longer_than_its_sides) {
   SurfaceMesh mesh = test::plank();
