@@ -18,7 +18,8 @@ struct SamplingLimits {
   double cell_per_length = 2;  ///< edge of a raster box over its sample length
   double chord = std::numeric_limits<double>::infinity();  ///< largest distance of a length's chord from the geometry,
                                                            ///< model unit
-  std::optional<int> gap_cells = std::nullopt;   ///< lengths across gaps in the flow; nullopt: gaps do not matter
+  std::optional<int> gap_cells = std::nullopt;  ///< lengths across gaps in the flow; nullopt: gaps do not matter
+  double gap_floor = 0;  ///< smallest length across gaps where that is below min_length, model unit; 0: it is not
   std::optional<int> wall_cells = std::nullopt;  ///< lengths across thin walls, inside the material; nullopt: walls do
                                                  ///< not matter
   std::optional<int> edge_cells = std::nullopt;  ///< lengths along each CAD edge at least, down to min_length; nullopt:

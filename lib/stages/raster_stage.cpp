@@ -255,14 +255,17 @@ std::vector<double> curvature_floors(const ModelTables& t, const std::vector<Lif
 }
 
 /// Curvature on and beside a lifting surface asks for no less than a share of what its nose gets: fillets and rounded
-/// tips need no finer mesh than the nose does. An lmin of a rule stays.
-void raise_floors(const ModelTables& t, const std::vector<LiftingSurface>& wings, const WingSizes& sizes,
-                  ModelLimits& limits) {
+/// tips need no finer mesh than the nose does. Slots of flaps ask for what the nose gets at least, however small they
+/// are beside the model. An lmin of a rule stays.
+void set_floors(const ModelTables& t, const std::vector<LiftingSurface>& wings, const WingSizes& sizes,
+                ModelLimits& limits) {
   const std::vector<double> floors = curvature_floors(t, wings, sizes, limits.chords);
   for (std::size_t f = 0; f < floors.size(); ++f)
     if (std::optional<SamplingLimits>& own = limits.face[f];
-        own && std::isfinite(floors[f]) && own->min_length == limits.far.min_length)
+        own && std::isfinite(floors[f]) && own->min_length == limits.far.min_length) {
+      own->gap_floor = std::max(2 * floors[f], limits.min_length);
       own->min_length = std::clamp(floors[f], own->min_length, own->max_length);
+    }
 }
 
 /// Boxes of all lifting surfaces; lowers the smallest length of `limits` to theirs.
@@ -291,7 +294,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
                     "where it matters most; give a smaller lmin there, or leave it out",
                     o.edge_size, most->floor, most->asked));
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
-  if (!sizes.least) raise_floors(model.tables(), wings.aircraft.wings, sizes, limits);
+  if (!sizes.least) set_floors(model.tables(), wings.aircraft.wings, sizes, limits);
 }
 
 void report_undercuts(const RasterArtifact& a) {

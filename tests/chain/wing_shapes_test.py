@@ -115,6 +115,13 @@ class WingShapes(ToolTest):
             self.assertAlmostEqual(sum(wing["noses_alone"] for wing in wings), length, delta=0.34 if length else 0,
                                    msg=name)
 
+    def test_eight_lengths_are_across_a_slot_of_a_quarter_per_cent_of_the_model(self):
+        self.raster("gapped_aileron", "rans")
+        must("st-prolong", self.folder / "raster.hdf", "--preset", "rans", "-o", self.folder / "sizing.hdf")
+        for x in (0.75, 0.76):  # of the walls of a slot of 0.01
+            said = must("st-info", self.folder / "sizing.hdf", "--at", f"{x},2,0").out
+            self.assertAlmostEqual(float(said.split("length ")[1].split()[0]), 0.01 / 8, delta=2e-5)
+
     def test_edges_of_coves_and_slats_are_warned_of(self):
         for name, spans, edges in (("gapped_aileron", [2.7, 1.28], "3, 8"), ("fixed_slat", [4], "4")):
             (self.folder / "geometry.hdf").unlink(missing_ok=True)
