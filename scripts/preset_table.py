@@ -15,12 +15,12 @@ from pathlib import Path
 from table_common import run
 
 
-def check_mesh(bin_dir, model, preset, folder):
-    """The report of st-check on the mesh of a model."""
+def check_mesh(bin_dir, model, preset, folder, *lengths):
+    """The report of st-check on the mesh of a model. `lengths`: more options of st-raster."""
     path = {n: folder / f"{n}.hdf" for n in ("geometry", "raster", "sizing", "patches", "mesh")}
     if not path["geometry"].exists():
         run(bin_dir / "st-import", model, "-o", path["geometry"], "-q")
-    run(bin_dir / "st-raster", path["geometry"], "--preset", preset, "-o", path["raster"], "-q")
+    run(bin_dir / "st-raster", path["geometry"], "--preset", preset, *lengths, "-o", path["raster"], "-q")
     run(bin_dir / "st-prolong", path["raster"], "--preset", preset, "-o", path["sizing"], "-q")
     run(bin_dir / "st-mesh", path["geometry"], path["sizing"], "-o", path["patches"], "-q")
     run(bin_dir / "st-merge", path["patches"], "-o", path["mesh"], "--allow-incomplete", "-q")
