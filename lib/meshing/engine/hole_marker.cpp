@@ -98,8 +98,8 @@ std::vector<LocalSize> HoleMarker::refined_sizes(const Refinements& refinements)
   const auto refine = [&](NodeId n, const Refinement& r) {
     const double d = distance(mesh_.mesh.node_xyz[n], r.x), limit = r.length + kRefinementSlope * d;
     if (!(d < r.reach)) return;
-    wanted[n].length = std::min(wanted[n].length, limit);
-    wanted[n].along = std::min(wanted[n].along, limit);
+    if (r.shortens == Shortens::kAll) wanted[n].length = std::min(wanted[n].length, limit);
+    wanted[n].along = std::max(wanted[n].length, std::min(wanted[n].along, limit));
   };
   for (const Refinement& r : refinements.all()) {
     for (NodeId n = 0; n < mesh_.inner_begin[0]; ++n) refine(n, r);

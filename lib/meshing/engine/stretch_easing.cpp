@@ -19,10 +19,10 @@ void StretchEasing::run() {
   flaws_ = find_flaws(0);
   if (flaws_are_none()) return;
   best_ = {count_flaws(), faces_.state(), refinements_.all()};
-  run_rounds(&StretchFlaws::stretched);
+  run_rounds(&StretchFlaws::stretched, Shortens::kAlong);
   if (!is_best_) go_back();
   flaws_ = find_flaws(0);
-  run_rounds(&StretchFlaws::obtuse);
+  run_rounds(&StretchFlaws::obtuse, Shortens::kAll);
   if (!is_best_) go_back();
 }
 
@@ -32,15 +32,15 @@ bool StretchEasing::flaws_are_none() const {
   return are_none != 0;
 }
 
-void StretchEasing::run_rounds(Places StretchFlaws::*places) {
+void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) {
   const std::size_t first = refinements_.all().size();
   for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_obtuse(), n_first_, n_again_); ++i) {
-    const std::vector<Refinement> shorter = shorten(flaws_.*places);
+    const std::vector<Refinement> shorter = shorten(flaws_.*places, shortens);
     if (shorter.empty()) break;
     n_again_ += n_triangles(mesh_again_(shorter, "where stretched triangles are obtuse or too large"));
     take_back_spoiling(first);
     flaws_ = find_flaws(i + 1);
-    n_without = keep_if_better() ? 0 : n_without + 1;
+    n_without = keep_if_better(shortens) ? 0 : n_without + 1;
   }
 }
 
@@ -76,10 +76,11 @@ StretchEasing::Count StretchEasing::count_flaws() const {
   return {n_bad, n_obtuse, n_large};
 }
 
-/// Sets is_best_.
-bool StretchEasing::keep_if_better() {
+/// Sets is_best_. Lengths along make no more triangles than a mesh without stretch has: any number is worth it.
+bool StretchEasing::keep_if_better(Shortens shortens) {
   const Count n_flaws = count_flaws();
-  is_best_ = n_flaws < best_.n_flaws && Policy::is_worth_easing(n_first_, n_triangles(all_faces()));
+  is_best_ = n_flaws < best_.n_flaws &&
+             (shortens == Shortens::kAlong || Policy::is_worth_easing(n_first_, n_triangles(all_faces())));
   if (is_best_) best_ = {n_flaws, faces_.state(), refinements_.all()};
   std::vector<PlacedFace> others;
   for (FaceId f = 0; executor_.is_root() && f < tables_.n_faces(); ++f) others.push_back({f, best_.state.places[f]});
@@ -88,11 +89,11 @@ bool StretchEasing::keep_if_better() {
 }
 
 /// Those that are new.
-std::vector<Refinement> StretchEasing::shorten(const Places& places) {
+std::vector<Refinement> StretchEasing::shorten(const Places& places, Shortens shortens) {
   const std::size_t n_before = refinements_.all().size(), step = places.size() / Policy::kMostEasedPlaces + 1;
   for (std::size_t i = 0; i < places.size(); i += step)
     if (std::ranges::none_of(spoiling_, [&](const Refinement& r) { return distance(r.x, places[i].x) < r.reach; }))
-      refinements_.add(places[i], Policy::kObtuseFloor);
+      refinements_.add(places[i], Policy::kObtuseFloor, shortens);
   std::vector<Refinement> all = refinements_.all();
   share(executor_, all);
   refinements_.assign(all);

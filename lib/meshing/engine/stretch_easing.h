@@ -48,9 +48,9 @@ class StretchEasing {
   bool flaws_are_none() const;
   Count count_flaws() const;
   std::size_t n_obtuse() const { return std::get<1>(best_.n_flaws); }
-  void run_rounds(Places StretchFlaws::*places);
-  bool keep_if_better();
-  std::vector<Refinement> shorten(const Places& places);
+  void run_rounds(Places StretchFlaws::*places, Shortens shortens);
+  bool keep_if_better(Shortens shortens);
+  std::vector<Refinement> shorten(const Places& places, Shortens shortens);
   void take_back_spoiling(std::size_t first);
   void go_back();
 

@@ -1,6 +1,7 @@
 #include "meshing/face/refinements.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace st {
 namespace {
@@ -27,6 +28,12 @@ double length_at(const Refinement& r, Vec3 x) {
   return std::max(r.length, at_centre(r) + kRefinementSlope * distance(x, r.x));
 }
 
+std::vector<Refinement> chosen(const std::vector<Refinement>& places, Shortens shortens) {
+  std::vector<Refinement> result;
+  std::ranges::copy_if(places, std::back_inserter(result), [&](const Refinement& r) { return r.shortens == shortens; });
+  return result;
+}
+
 }  // namespace
 
 double box_distance(const Box3& box, Vec3 p) {
@@ -35,15 +42,20 @@ double box_distance(const Box3& box, Vec3 p) {
       Vec3{outside(box.lo.x, box.hi.x, p.x), outside(box.lo.y, box.hi.y, p.y), outside(box.lo.z, box.hi.z, p.z)});
 }
 
-bool Refinements::add(const RefinementPoint& place, double floor) {
+bool Refinements::add(const RefinementPoint& place, double floor, Shortens shortens) {
   int hint = 0;
   const LocalSize local = field_.local(place.x, hint);
   const double request = local.along;
-  double present = request;
-  for (const Refinement& r : all_) present = std::min(present, length_at(r, place.x));
-  const double length = std::max(place.length, floor * local.length);
+  double present = request, along = request;
+  for (const Refinement& r : all_) {
+    double& least = r.shortens == Shortens::kAll ? present : along;
+    least = std::min(least, length_at(r, place.x));
+  }
+  present = std::min(present, std::max(along, local.length));
+  const double length = std::max(place.length, (shortens == Shortens::kAll ? floor : 1) * local.length);
   if (length > kWorthwhile * present) return false;
-  all_.push_back({place.x, length, place.radius + std::max(0.0, (request - length) / kRefinementSlope), place.radius});
+  all_.push_back(
+      {place.x, length, place.radius + std::max(0.0, (request - length) / kRefinementSlope), place.radius, shortens});
   return true;
 }
 
@@ -54,14 +66,13 @@ std::vector<Refinement> Refinements::near(const Box3& box) const {
   return result;
 }
 
-RefinedField::RefinedField(const SizeField& base, std::vector<Refinement> places)
-    : base_(base), places_(std::move(places)) {
+RefinementTree::RefinementTree(std::vector<Refinement> places) : places_(std::move(places)) {
   for (const Refinement& r : places_) shortest_ = std::min(shortest_, r.length);
   if (!places_.empty()) build(0, static_cast<std::int32_t>(places_.size()));
 }
 
 /// Appends the node of these places and all below it; returns its number.
-std::int32_t RefinedField::build(std::int32_t first, std::int32_t last) {
+std::int32_t RefinementTree::build(std::int32_t first, std::int32_t last) {
   const auto own = static_cast<std::int32_t>(nodes_.size());
   Node node{{}, at_centre(places_[first]), first, last, 0};
   for (std::int32_t i = first; i < last; ++i) {
@@ -81,7 +92,7 @@ std::int32_t RefinedField::build(std::int32_t first, std::int32_t last) {
   return own;
 }
 
-void RefinedField::visit(std::int32_t index, Vec3 xyz, double& length) const {
+void RefinementTree::visit(std::int32_t index, Vec3 xyz, double& length) const {
   const Node& node = nodes_[index];
   if (kRoundOff * (node.shortest + kRefinementSlope * box_distance(node.box, xyz)) > length) return;
   if (node.right) {
@@ -92,21 +103,25 @@ void RefinedField::visit(std::int32_t index, Vec3 xyz, double& length) const {
   for (std::int32_t i = node.first; i < node.last; ++i) length = std::min(length, length_at(places_[i], xyz));
 }
 
-double RefinedField::size(Vec3 xyz, int& hint) const {
-  double length = base_.size(xyz, hint);
+double RefinementTree::least(Vec3 xyz, double length) const {
   if (!nodes_.empty()) visit(0, xyz, length);
   return length;
 }
 
-/// A refinement limits both lengths.
+RefinedField::RefinedField(const SizeField& base, const std::vector<Refinement>& places)
+    : base_(base), all_(chosen(places, Shortens::kAll)), along_(chosen(places, Shortens::kAlong)) {}
+
+double RefinedField::size(Vec3 xyz, int& hint) const { return all_.least(xyz, base_.size(xyz, hint)); }
+
 LocalSize RefinedField::local(Vec3 xyz, int& hint) const {
   LocalSize local = base_.local(xyz, hint);
-  if (!nodes_.empty()) visit(0, xyz, local.along);
+  if (local.along > local.length) local.along = std::max(local.length, along_.least(xyz, local.along));
+  local.along = all_.least(xyz, local.along);
   if (local.along > local.length) return local;
   return {local.along, local.along, {}};
 }
 
-double RefinedField::min_size() const { return std::min(base_.min_size(), shortest_); }
+double RefinedField::min_size() const { return std::min(base_.min_size(), all_.shortest()); }
 
 double RefinedField::slope() const { return std::max(base_.slope(), kRefinementSlope); }
 

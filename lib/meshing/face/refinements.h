@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -17,13 +18,21 @@ inline constexpr double kRefinementSlope = 0.3;
 /// From `p` to the box; 0 inside.
 double box_distance(const Box3& box, Vec3 p);
 
-/// A refinement that was taken.
+/// What a refinement makes shorter.
+enum class Shortens : std::int64_t {
+  kAll,    ///< all lengths
+  kAlong,  ///< lengths along, no shorter than those across
+};
+
+/// A refinement that was taken. Without padding: its bytes tell what a mesh was made from.
 struct Refinement {
   Vec3 x;
   double length = 0;  ///< requested there, model unit
   double reach = 0;   ///< distance at which the request at `x` is met again, model unit
   double radius = 0;  ///< around `x`: requested there, too
+  Shortens shortens = Shortens::kAll;
 };
+static_assert(sizeof(Refinement) == 7 * sizeof(double));
 
 /// All refinements of one run. The field outlives the object.
 class Refinements {
@@ -32,7 +41,7 @@ class Refinements {
 
   /// Takes the place, no finer than `floor` times the request there. False when it is about as fine already. Local,
   /// linear in the places.
-  bool add(const RefinementPoint& place, double floor);
+  bool add(const RefinementPoint& place, double floor, Shortens shortens = Shortens::kAll);
   /// Those that reach into the box, in the order in which they were taken.
   std::vector<Refinement> near(const Box3& box) const;
 
@@ -45,17 +54,14 @@ class Refinements {
   std::vector<Refinement> all_;
 };
 
-/// min(base, length_i + slope * distance beyond the radius of place i). Immutable; the base outlives it. A query visits
-/// about as many places as can matter.
-class RefinedField : public SizeField {
+/// The least of length_i + slope * distance beyond the radius of place i. Immutable. A query visits about as many
+/// places as can matter.
+class RefinementTree {
  public:
-  RefinedField(const SizeField& base, std::vector<Refinement> places);
-  using SizeField::size;
-  double size(Vec3 xyz, int& hint) const override;
-  LocalSize local(Vec3 xyz, int& hint) const override;
-  bool is_stretched() const override { return base_.is_stretched(); }
-  double min_size() const override;
-  double slope() const override;
+  explicit RefinementTree(std::vector<Refinement> places);
+  /// No more than `length`.
+  double least(Vec3 xyz, double length) const;
+  double shortest() const { return shortest_; }
 
  private:
   struct Node {  // of a binary tree in an array: children follow their parent
@@ -67,10 +73,25 @@ class RefinedField : public SizeField {
   std::int32_t build(std::int32_t first, std::int32_t last);
   void visit(std::int32_t node, Vec3 xyz, double& length) const;
 
-  const SizeField& base_;
   std::vector<Refinement> places_;                             // by tree
   std::vector<Node> nodes_;                                    // empty: no place
   double shortest_ = std::numeric_limits<double>::infinity();  // of the places
+};
+
+/// The base with what refinements make shorter; the base outlives it. Immutable.
+class RefinedField : public SizeField {
+ public:
+  RefinedField(const SizeField& base, const std::vector<Refinement>& places);
+  using SizeField::size;
+  double size(Vec3 xyz, int& hint) const override;
+  LocalSize local(Vec3 xyz, int& hint) const override;
+  bool is_stretched() const override { return base_.is_stretched(); }
+  double min_size() const override;
+  double slope() const override;
+
+ private:
+  const SizeField& base_;
+  RefinementTree all_, along_;  // by what they shorten
 };
 
 }  // namespace st

@@ -88,6 +88,25 @@ TEST(RefinedField, limits_both_lengths_of_a_stretched_base) {
   EXPECT_EQ(f.local({50, 0, 0}, hint).along, 10);
 }
 
+TEST(RefinedField, keeps_lengths_across_where_those_along_become_shorter) {
+  const test::StretchedField base({1, 10, {1, 0, 0}});
+  Refinements refinements(base);
+  ASSERT_TRUE(refinements.add({{0, 0, 0}, 4}, 0.1, Shortens::kAlong));
+  ASSERT_TRUE(refinements.add({.x = {100, 0, 0}, .length = 0.1, .radius = 2}, 0.1, Shortens::kAlong));
+  EXPECT_FALSE(refinements.add({{101, 0, 0}, 0.1}, 0.1, Shortens::kAlong)) << "it is that of across already";
+  EXPECT_TRUE(refinements.add({{200, 0, 0}, 0.5}, 0.1));
+  const RefinedField f(base, refinements.all());
+  int hint = 0;
+  EXPECT_DOUBLE_EQ(f.local({0, 0, 0}, hint).along, 4);
+  EXPECT_DOUBLE_EQ(f.local({10, 0, 0}, hint).along, 4 + kRefinementSlope * 10);
+  EXPECT_EQ(f.local({101, 0, 0}, hint).along, 1);
+  for (const double x : {0.0, 10.0, 101.0}) {
+    EXPECT_EQ(f.local({x, 0, 0}, hint).length, 1) << x;
+    EXPECT_EQ(f.size({x, 0, 0}), 1) << x;
+  }
+  EXPECT_EQ(f.size({200, 0, 0}), 0.5) << "others shorten all";
+}
+
 TEST(Refinements, of_a_stretched_field_count_where_they_shorten_the_longer_length) {
   const test::StretchedField base({1, 10, {1, 0, 0}});
   Refinements refinements(base);
