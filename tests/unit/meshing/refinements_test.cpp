@@ -88,6 +88,28 @@ TEST(RefinedField, limits_both_lengths_of_a_stretched_base) {
   EXPECT_EQ(f.local({50, 0, 0}, hint).along, 10);
 }
 
+/// Lengths across grow with x, those along are ten times as long.
+class GrowingField : public SizeField {
+ public:
+  using SizeField::size;
+  double size(Vec3 x, int& hint) const override { return local(x, hint).length; }
+  LocalSize local(Vec3 x, int&) const override { return {1 + 0.1 * x.x, 10 + x.x, {1, 0, 0}}; }
+  bool is_stretched() const override { return true; }
+  double min_size() const override { return 1; }
+  double slope() const override { return 1; }
+};
+
+TEST(RefinedField, keeps_longer_lengths_across_beside_a_place) {
+  const GrowingField base;
+  Refinements refinements(base);
+  ASSERT_TRUE(refinements.add({.x = {0, 0, 0}, .length = 1.2, .radius = 10}, 0.1, Shortens::kAlong));
+  const RefinedField f(base, refinements.all());
+  int hint = 0;
+  EXPECT_DOUBLE_EQ(f.size({8, 0, 0}), 1.8);
+  EXPECT_DOUBLE_EQ(f.local({8, 0, 0}, hint).along, 1.8) << "no shorter than across";
+  EXPECT_DOUBLE_EQ(f.local({1, 0, 0}, hint).along, 1.2);
+}
+
 TEST(RefinedField, keeps_lengths_across_where_those_along_become_shorter) {
   const test::StretchedField base({1, 10, {1, 0, 0}});
   Refinements refinements(base);
