@@ -226,7 +226,7 @@ class FrontFinder {
     double step = kStep * from.chord;
     if (!arrival(edge, walk, step) &&
         !behind(walk.nose + step * walk.along + walk.chord, walk.normal, from.chord, step))
-      return;  // most
+      return;  // as most noses do: they end with their trailing edge
     const ChordStation* end = nullptr;
     ChordEdge run;
     run.is_inside = true;

@@ -50,10 +50,10 @@ class FaceSmoother {
     if (nodes_.empty()) return;
     find_stars();
     step_.assign(nodes_.size(), kFirstStep);
-    for (int sweep = 0, n_moved = 1; sweep < kSweeps && n_moved > 0; ++sweep) {
-      n_moved = 0;
+    for (int sweep = 0, n_bad = 1; sweep < kSweeps && n_bad > 0; ++sweep) {
+      n_bad = 0;
       for (std::size_t i = 0; i < nodes_.size(); ++i)
-        if (step_[i] >= kLastStep) n_moved += improve(i);
+        if (step_[i] >= kLastStep) n_bad += improve(i);
     }
   }
 
@@ -119,7 +119,7 @@ class FaceSmoother {
     m_.node_xyz[nodes_[i]] = surface_.point(m_.corner_uv[star(i)[0]]);
   }
 
-  /// Takes the best of some places if it is better than its own. Returns whether it moved.
+  /// Takes the best of some places if it is better than its own. Returns false for a node that needs none.
   bool improve(std::size_t i) {
     const double before = worst(i);
     if (before >= kGood) return false;
