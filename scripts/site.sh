@@ -9,7 +9,8 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir "$scratch/pages"
 find README.md CONTRIBUTING.md CHANGELOG.md LICENSE docs examples \
-  \( -name '*.md' -o -name '*.png' -o -name '*.svg' -o -name LICENSE \) -print0 | xargs -0 cp --parents -t "$scratch/pages"
+  \( -name '*.md' -o -name '*.png' -o -name '*.svg' -o -name LICENSE \) -print0 |
+  xargs -0 cp --parents -t "$scratch/pages"
 sed "s|^docs_dir:.*|docs_dir: $scratch/pages|; s|^site_dir:.*|site_dir: $site|" mkdocs.yml > "$scratch/mkdocs.yml"
 PYTHONDONTWRITEBYTECODE=1 mkdocs build --strict --clean -f "$scratch/mkdocs.yml" > "$scratch/said" 2>&1 ||
   { grep -v "^INFO" "$scratch/said" >&2; exit 1; }
