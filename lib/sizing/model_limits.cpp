@@ -220,7 +220,9 @@ class LimitsMaker {
       for (const FaceId f : wings_[w].faces)
         if (face_.surface[f] && face_.surface[f]->max_length == wall_.max_length)
           limits.face_wing[f] = static_cast<std::int32_t>(w);
-      add_chord_lines(wings_[w], static_cast<std::int32_t>(w), limits.chords);
+      for (const ChordEdge& trailing : wings_[w].trailing)
+        for (const ChordStation& s : trailing.stations)
+          if (s.is_measured) limits.chords.push_back({s.nose, s.trailing, s.chord, static_cast<std::int32_t>(w)});
     }
   }
 

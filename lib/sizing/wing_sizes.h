@@ -74,9 +74,6 @@ struct ChordLine {
   std::int32_t wing = 0;  ///< index of the lifting surface
 };
 
-/// Appends the measured stations.
-void add_chord_lines(const LiftingSurface& wing, std::int32_t index, std::vector<ChordLine>& lines);
-
 /// The largest length on one face of a lifting surface: a share of the local chord. One object serves one thread.
 class ChordLimit {
  public:
