@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/axis.h"
+
 namespace st {
 namespace {
 
 constexpr std::int32_t kFew = 4;  // items of a leaf
-
-double along(Vec3 x, int axis) { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
 
 int longest_axis(const Box3& box) {
   const Vec3 d = box.hi - box.lo;
@@ -43,7 +43,7 @@ void BoxTree::build(std::span<const Vec3> centers, const std::function<Box3(std:
   for (std::int32_t i = begin; i < end; ++i) extent.add(centers[items_[i]]);
   const int axis = longest_axis(extent);
   const std::int32_t middle = begin + (end - begin) / 2;
-  const auto key = [&](std::int32_t item) { return std::pair(along(centers[item], axis), item); };
+  const auto key = [&](std::int32_t item) { return std::pair(component(centers[item], axis), item); };
   std::nth_element(items_.begin() + begin, items_.begin() + middle, items_.begin() + end,
                    [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
   build(centers, box_of, begin, middle);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/axis.h"
 #include "base/predicates.h"
 
 namespace st {
@@ -129,7 +130,6 @@ Vec3 ClippedTriangle::middle() const {
 // Sutherland and Hodgman: one side of the cube after the other.
 ClippedTriangle clip_triangle(Vec3 a, Vec3 b, Vec3 c, Vec3 center, double half) {
   ClippedTriangle polygon{3, {a - center, b - center, c - center}};
-  const auto component = [](const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; };
   for (int side = 0; side < 6 && polygon.n > 0; ++side) {
     const int axis = side / 2;
     const double sign = side % 2 ? -1 : 1;

@@ -6,11 +6,10 @@
 #include <queue>
 
 #include "base/assert.h"
+#include "base/axis.h"
 
 namespace st {
 namespace {
-
-double along(Vec3 x, int axis) { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
 
 /// Weights of a triangle's corners at the point of it that is about closest to x.
 struct Weights {
@@ -74,7 +73,7 @@ void NodeField::limit_growth() {
 void NodeField::build_tree(std::size_t begin, std::size_t end, int axis) {
   if (end - begin < 2) return;
   const std::size_t middle = (begin + end) / 2;
-  const auto key = [&](NodeId n) { return std::pair(along(mesh_.node_xyz[n], axis), n); };
+  const auto key = [&](NodeId n) { return std::pair(component(mesh_.node_xyz[n], axis), n); };
   std::nth_element(tree_.begin() + begin, tree_.begin() + middle, tree_.begin() + end,
                    [&](NodeId a, NodeId b) { return key(a) < key(b); });
   build_tree(begin, middle, (axis + 1) % 3);
@@ -85,7 +84,7 @@ void NodeField::find_nearest(Vec3 x, std::size_t begin, std::size_t end, int axi
   if (begin >= end) return;
   const std::size_t middle = (begin + end) / 2;
   const NodeId n = tree_[middle];
-  const double d2 = norm2(mesh_.node_xyz[n] - x), off = along(x, axis) - along(mesh_.node_xyz[n], axis);
+  const double d2 = norm2(mesh_.node_xyz[n] - x), off = component(x, axis) - component(mesh_.node_xyz[n], axis);
   if (d2 < best2 || (d2 == best2 && n < best)) best = n, best2 = d2;
   const int next = (axis + 1) % 3;
   const bool is_low = off < 0;

@@ -11,6 +11,9 @@
 
 namespace st {
 
+/// Of the largest coordinate: what four roundings to 24 bits move a point by.
+inline constexpr double kSinglePrecision = 2.4e-7;
+
 /// Facets as a file has them.
 struct FacetInput {
   std::vector<Vec3> x;                 ///< model unit

@@ -13,9 +13,6 @@
 namespace st {
 namespace {
 
-constexpr double kSinglePrecision = 2.4e-7;  // of the largest coordinate: what four roundings to 24 bits move a point
-                                             // by
-
 using NodePair = std::pair<std::int32_t, std::int32_t>;
 
 /// Without the air's own facets, which are far away and exact.

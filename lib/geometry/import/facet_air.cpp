@@ -19,7 +19,6 @@ namespace {
 
 using Side = std::pair<std::int32_t, std::int32_t>;
 
-constexpr double kBothSides = 1e-4;  // of the diagonal: reaching less far beyond the plane is no other side
 constexpr int kSphereParts = 32;  // sides of a far field along a quarter of a great circle: 3e-4 of the radius off it
 constexpr double kFirstSquare = 0.6;  // of the diagonal: half a square around the model ...
 constexpr double kLastSquare = 1.6;   // ... and its half diagonal, with room to the far field
@@ -95,19 +94,9 @@ class AirMaker {
     keep_triangles(mesh_, is_kept);
   }
 
-  void choose_side() {
-    const double below = plane_->value - component(box_.lo, plane_->axis),
-                 above = component(box_.hi, plane_->axis) - plane_->value, tolerance = kBothSides * diagonal_;
-    const int side = below <= tolerance ? 1 : above <= tolerance ? -1 : 0;
-    if (side != 0 && plane_->side != 0 && side != plane_->side)
-      throw Error(ExitCode::kGeometry,
-                  "the whole model is on the other side of the symmetry plane; use the other sign in --symmetry");
-    if (plane_->side == 0) plane_->side = side != 0 ? side : 1;
-    if (side == 0) findings_.push_back({FindingKind::kCutAtSymmetry, "", box_.center(), diagonal_, false});
-  }
-
   void cut() {
-    choose_side();
+    if (occt::choose_side(*plane_, box_, diagonal_))
+      findings_.push_back({FindingKind::kCutAtSymmetry, "", box_.center(), diagonal_, false});
     cut_at_plane(mesh_, *plane_);
     if (mesh_.corners.empty())
       throw Error(ExitCode::kGeometry, "all facets lie in the symmetry plane; check its axis and value");

@@ -8,10 +8,8 @@
 namespace st {
 namespace {
 
-constexpr double kInPlane = 1e-5;     // of the diagonal: the end of a free side this near is in the plane
-constexpr double kRounding = 2.4e-7;  // of the largest coordinate, single precision: so is any node this near
-constexpr double kNearEnd = 0.02;     // of a side: where it meets the plane so near to its end, the end goes there ...
-constexpr double kMostMoved = 0.2;    // ... where that is less than this of the lowest height of a facet around it
+constexpr double kNearEnd = 0.02;   // of a side: where it meets the plane so near to its end, the end goes there ...
+constexpr double kMostMoved = 0.2;  // ... where that is less than this of the lowest height of a facet around it
 
 class PlaneCut {
  public:
@@ -49,12 +47,12 @@ class PlaneCut {
     const Vec3 far{std::max(std::abs(box_.lo.x), std::abs(box_.hi.x)),
                    std::max(std::abs(box_.lo.y), std::abs(box_.hi.y)),
                    std::max(std::abs(box_.lo.z), std::abs(box_.hi.z))};
-    std::vector<double> near(mesh_.x.size(), kRounding * std::max({far.x, far.y, far.z}));
+    std::vector<double> near(mesh_.x.size(), kSinglePrecision * std::max({far.x, far.y, far.z}));
     const std::vector<Corners> neighbours = find_neighbours(mesh_.corners);
     for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
       for (int k = 0; k < 3; ++k)
         if (neighbours[t][k] == kNone)
-          for (const int end : {k, (k + 1) % 3}) near[mesh_.corners[t][end]] = kInPlane * box_.diagonal();
+          for (const int end : {k, (k + 1) % 3}) near[mesh_.corners[t][end]] = occt::kInSymmetryPlane * box_.diagonal();
     for (std::size_t n = 0; n < near.size(); ++n)
       if (std::abs(height(static_cast<std::int32_t>(n))) <= near[n]) put_on_plane(n);
   }

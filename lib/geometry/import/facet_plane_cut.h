@@ -1,13 +1,11 @@
 // Facets cut at a plane across an axis.
 #pragma once
 
+#include "base/axis.h"
 #include "geometry/facet/facet_mesh.h"
 #include "geometry/import/half_model.h"
 
 namespace st {
-
-inline double& component(Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-inline double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 /// Towards the kept side, model unit.
 inline double height_above(const occt::SymmetryPlane& plane, const Vec3& x) {

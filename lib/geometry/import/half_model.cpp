@@ -23,6 +23,7 @@
 #include <gp_Pln.hxx>
 #include <iterator>
 
+#include "base/axis.h"
 #include "base/boxes.h"
 #include "base/disjoint_sets.h"
 #include "base/error.h"
@@ -37,11 +38,8 @@ namespace {
 
 constexpr const char* kSymmetryName = "symmetry";
 constexpr const char* kFarFieldName = "farfield";
-constexpr double kInPlane = 1e-5;    ///< of the diagonal: an edge or a face this near is in the plane
-constexpr double kBothSides = 1e-4;  ///< of the diagonal: reaching less far beyond the plane is no other side
 
 double coordinate(const gp_Pnt& p, int axis) { return p.Coord(axis + 1); }
-double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 gp_Dir axis_direction(int axis, int sign) {
   gp_XYZ d(0, 0, 0);
@@ -56,7 +54,7 @@ struct Cut {
 
   double beyond(double x) const { return plane.side * (x - plane.value); }
   bool is_near(const gp_Pnt& p) const {
-    return std::fabs(coordinate(p, plane.axis) - plane.value) <= kInPlane * diagonal;
+    return std::fabs(coordinate(p, plane.axis) - plane.value) <= kInSymmetryPlane * diagonal;
   }
 };
 
@@ -120,23 +118,9 @@ void cut_model(ImportedShape& model, const Cut& cut, const Box3& box, const std:
                 path + ": OpenCASCADE cannot cut the model at the symmetry plane; cut it in the CAD system");
 }
 
-/// The side that the model is on; 0 when it is on both.
-int side_of(const Box3& box, const Cut& cut) {
-  const double tolerance = kBothSides * cut.diagonal;
-  const double below = cut.plane.value - component(box.lo, cut.plane.axis),
-               above = component(box.hi, cut.plane.axis) - cut.plane.value;
-  return below <= tolerance ? 1 : above <= tolerance ? -1 : 0;
-}
-
 void keep_one_side(ImportedShape& model, Cut& cut, const Box3& box, std::vector<ImportFinding>& findings,
                    const std::string& path) {
-  const int side = side_of(box, cut), asked = cut.plane.side;
-  if (side != 0 && asked != 0 && side != asked)
-    throw Error(
-        ExitCode::kGeometry,
-        path + ": the whole model is on the other side of the symmetry plane; use the other sign in --symmetry");
-  cut.plane.side = asked != 0 ? asked : side != 0 ? side : 1;
-  if (side != 0) return;
+  if (!choose_side(cut.plane, box, cut.diagonal, path + ": ")) return;
   cut_model(model, cut, box, path);
   findings.push_back({FindingKind::kCutAtSymmetry, "", box.center(), cut.diagonal, false});
 }
@@ -303,8 +287,9 @@ void require_none_inside(const ImportedShape& model, const Cut& cut, const std::
   }
   for (std::size_t i = 0; i < solids.size(); ++i)
     for (std::size_t k = 0; k < solids.size(); ++k) {
-      const bool is_at_plane = component(boxes[i].lo, cut.plane.axis) <= cut.plane.value + kInPlane * cut.diagonal &&
-                               component(boxes[i].hi, cut.plane.axis) >= cut.plane.value - kInPlane * cut.diagonal;
+      const bool is_at_plane =
+          component(boxes[i].lo, cut.plane.axis) <= cut.plane.value + kInSymmetryPlane * cut.diagonal &&
+          component(boxes[i].hi, cut.plane.axis) >= cut.plane.value - kInSymmetryPlane * cut.diagonal;
       if (i == k || !is_at_plane || !contains(boxes[k], boxes[i]) || !is_inside(solids[i], solids[k])) continue;
       const auto name = [&](const TopoDS_Solid& solid) {
         return name_of(model, TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current()));

@@ -10,6 +10,9 @@
 
 namespace st::occt {
 
+/// Of the diagonal: an edge or a face that ends this near to a symmetry plane is in it.
+inline constexpr double kInSymmetryPlane = 1e-5;
+
 /// A plane across one axis, and the side of it that is kept.
 struct SymmetryPlane {
   int axis = 0;      ///< 0, 1, 2: x, y, z
@@ -25,6 +28,11 @@ struct FarField {
 
 /// "y=0", "z=-1.5", "y=0+", "x=2-" of `option`. Throws Error(kUsage).
 SymmetryPlane parse_symmetry(const std::string& text, const std::string& option);
+
+/// Sets the kept side where none was asked for, by the box of the model. Returns whether the model is on both: it
+/// reaches further than 1e-4 of the diagonal beyond the plane. Throws Error(kGeometry), with `prefix`, where all of it
+/// is on the other side.
+bool choose_side(SymmetryPlane& plane, const Box3& box, double diagonal, const std::string& prefix = "");
 
 /// "box:20", "sphere:50" of `option`. Throws Error(kUsage) for anything else and for sizes outside [1, 1000].
 FarField parse_farfield(const std::string& text, const std::string& option);

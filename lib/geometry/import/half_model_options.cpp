@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "base/axis.h"
 #include "base/error.h"
 #include "geometry/import/half_model.h"
 
@@ -28,6 +29,18 @@ SymmetryPlane parse_symmetry(const std::string& text, const std::string& option)
   plane.side = text.back() == '+' ? 1 : text.back() == '-' ? -1 : 0;
   plane.value = number_after(text, 2, text.size() - (plane.side != 0), message);
   return plane;
+}
+
+bool choose_side(SymmetryPlane& plane, const Box3& box, double diagonal, const std::string& prefix) {
+  constexpr double kBothSides = 1e-4;  // of the diagonal: reaching less far beyond the plane is no other side
+  const double below = plane.value - component(box.lo, plane.axis), above = component(box.hi, plane.axis) - plane.value;
+  const int side = below <= kBothSides * diagonal ? 1 : above <= kBothSides * diagonal ? -1 : 0, asked = plane.side;
+  if (side != 0 && asked != 0 && side != asked)
+    throw Error(
+        ExitCode::kGeometry,
+        prefix + "the whole model is on the other side of the symmetry plane; use the other sign in --symmetry");
+  plane.side = asked != 0 ? asked : side != 0 ? side : 1;
+  return side == 0;
 }
 
 FarField parse_farfield(const std::string& text, const std::string& option) {

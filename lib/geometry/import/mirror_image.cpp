@@ -20,6 +20,7 @@
 #include <span>
 #include <tuple>
 
+#include "base/axis.h"
 #include "base/box_tree.h"
 #include "base/error.h"
 #include "geometry/brep/compound.h"
@@ -41,8 +42,6 @@ constexpr double kEdgeShares[] = {.3, .8};  // where edges are sampled
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TopoDS_Shape forward(const TopoDS_Shape& shape) { return shape.Oriented(TopAbs_FORWARD); }
-
-double component(Vec3 x, int axis) { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
 
 gp_Trsf reflection_at(const SymmetryPlane& plane) {
   gp_XYZ origin(0, 0, 0), normal(0, 0, 0);

@@ -18,6 +18,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "base/axis.h"
 #include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "geometry/brep/compound.h"
@@ -33,12 +34,9 @@ namespace {
 
 constexpr int kIntervals = 10;                   // of an edge
 constexpr double kFuzzy[] = {1e-6, 1e-5, 1e-7};  // of the diagonal, one after the other until the parts are sound
-constexpr double kInPlane = 1e-5;                // of the diagonal: what is this near is in the plane
 constexpr double kCpuSeconds = 60;               // for dividing
 
 TopoDS_Shape forward(const TopoDS_Shape& shape) { return shape.Oriented(TopAbs_FORWARD); }
-
-double component(Vec3 x, int axis) { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
 
 /// Smallest and largest height of points over the plane.
 struct Reach {
@@ -222,7 +220,7 @@ TopoDS_Shape with_faces(const TopoDS_Shape& shape,
 }
 
 int cut_at_plane(ImportedShape& model, const SymmetryPlane& plane, double diagonal, const std::string& path) {
-  const std::vector<PlaneSide> sides = sides_of(model, plane, kInPlane * diagonal);
+  const std::vector<PlaneSide> sides = sides_of(model, plane, kInSymmetryPlane * diagonal);
   const auto n_both = std::count(sides.begin(), sides.end(), PlaneSide::kBoth);
   if (n_both == 0) return 0;
   std::string fault;
@@ -231,7 +229,7 @@ int cut_at_plane(ImportedShape& model, const SymmetryPlane& plane, double diagon
     fault = done.failure;
     if (!fault.empty()) continue;
     ImportedShape divided = taken(model, done.result);
-    fault = fault_of(model, done.result, divided, plane, kInPlane * diagonal);
+    fault = fault_of(model, done.result, divided, plane, kInSymmetryPlane * diagonal);
     if (!fault.empty()) continue;
     model = std::move(divided);
     return static_cast<int>(n_both);

@@ -4,12 +4,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/axis.h"
+
 namespace st {
-namespace {
-
-double coordinate(Vec3 x, int axis) { return axis == 0 ? x.x : axis == 1 ? x.y : x.z; }
-
-}  // namespace
+namespace {}  // namespace
 
 NearestNode::NearestNode(std::span<const Vec3> xyz, std::vector<NodeId> nodes) : xyz_(xyz), node_(std::move(nodes)) {
   build(0, node_.size(), 0);
@@ -19,7 +17,7 @@ void NearestNode::build(std::size_t begin, std::size_t end, int axis) {
   if (end - begin < 2) return;
   const std::size_t middle = (begin + end) / 2;
   std::nth_element(node_.begin() + begin, node_.begin() + middle, node_.begin() + end, [&](NodeId a, NodeId b) {
-    const double xa = coordinate(xyz_[a], axis), xb = coordinate(xyz_[b], axis);
+    const double xa = component(xyz_[a], axis), xb = component(xyz_[b], axis);
     return xa < xb || (xa == xb && a < b);
   });
   build(begin, middle, (axis + 1) % 3);
@@ -37,7 +35,7 @@ void NearestNode::search(Vec3 x, std::size_t begin, std::size_t end, int axis, s
   const std::size_t middle = (begin + end) / 2;
   const NodeId n = node_[middle];
   if (const std::pair here(norm2(xyz_[n] - x), n); here < best) best = here;
-  const double side = coordinate(x, axis) - coordinate(xyz_[n], axis);
+  const double side = component(x, axis) - component(xyz_[n], axis);
   const int next = (axis + 1) % 3;
   side < 0 ? search(x, begin, middle, next, best) : search(x, middle + 1, end, next, best);
   if (side * side > best.first) return;

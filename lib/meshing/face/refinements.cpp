@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/axis.h"
+
 namespace st {
 namespace {
 
@@ -18,8 +20,6 @@ int longest_axis(const Box3& box) {
   const Vec3 d = extent(box);
   return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
 }
-
-double coordinate(Vec3 p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
 
 /// Of the cone whose top is cut off at the radius.
 double at_centre(const Refinement& r) { return r.length - kRefinementSlope * r.radius; }
@@ -85,7 +85,7 @@ std::int32_t RefinementTree::build(std::int32_t first, std::int32_t last) {
   const std::int32_t middle = first + (last - first) / 2;
   std::nth_element(
       places_.begin() + first, places_.begin() + middle, places_.begin() + last,
-      [&](const Refinement& a, const Refinement& b) { return coordinate(a.x, axis) < coordinate(b.x, axis); });
+      [&](const Refinement& a, const Refinement& b) { return component(a.x, axis) < component(b.x, axis); });
   build(first, middle);
   const std::int32_t right = build(middle, last);
   nodes_[own].right = right;

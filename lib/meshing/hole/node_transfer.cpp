@@ -1,33 +1,14 @@
 #include "meshing/hole/node_transfer.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 #include "base/box_tree.h"
+#include "base/closest_weights.h"
 #include "base/threads.h"
 
 namespace st {
 namespace {
-
-/// Of the point of the triangle nearest to p (Ericson, Real-Time Collision Detection, 2005, 5.1.5).
-std::array<double, 3> nearest_barycentric(Vec3 p, Vec3 a, Vec3 b, Vec3 c) {
-  const Vec3 ab = b - a, ac = c - a;
-  const double d1 = dot(ab, p - a), d2 = dot(ac, p - a), d3 = dot(ab, p - b), d4 = dot(ac, p - b), d5 = dot(ab, p - c),
-               d6 = dot(ac, p - c);
-  if (d1 <= 0 && d2 <= 0) return {1, 0, 0};
-  if (d3 >= 0 && d4 <= d3) return {0, 1, 0};
-  if (d6 >= 0 && d5 <= d6) return {0, 0, 1};
-  const double of_c = d1 * d4 - d3 * d2, of_b = d5 * d2 - d1 * d6, of_a = d3 * d6 - d5 * d4;
-  if (of_c <= 0 && d1 >= 0 && d3 <= 0) return {1 - d1 / (d1 - d3), d1 / (d1 - d3), 0};
-  if (of_b <= 0 && d2 >= 0 && d6 <= 0) return {1 - d2 / (d2 - d6), 0, d2 / (d2 - d6)};
-  if (of_a <= 0 && d4 >= d3 && d5 >= d6) {
-    const double share = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0, 1 - share, share};
-  }
-  const double sum = of_a + of_b + of_c;
-  return {of_a / sum, of_b / sum, of_c / sum};
-}
 
 class StencilSearch {
  public:
@@ -86,7 +67,7 @@ class StencilSearch {
         x, [&](std::int32_t, double d2) { return d2 <= least; },
         [&](std::int32_t item) {
           const NodeId* n = m.triangles[first + item].n;
-          const auto w = nearest_barycentric(x, m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]);
+          const auto w = closest_weights(x, m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]);
           const Vec3 foot = w[0] * m.node_xyz[n[0]] + w[1] * m.node_xyz[n[1]] + w[2] * m.node_xyz[n[2]];
           const double d2 = norm2(x - foot);
           if (d2 > least || (d2 == least && item > found)) return;
