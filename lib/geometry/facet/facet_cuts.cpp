@@ -10,6 +10,7 @@
 #include "base/eigen.h"
 #include "base/error.h"
 #include "geometry/shape/flatten.h"
+#include "geometry/shape/flatten_coarse.h"
 
 namespace st {
 namespace {
@@ -21,7 +22,9 @@ constexpr double kOnPlane = 0.02;        // of a side's height: a node so near t
 constexpr double kRounding = 1e-7;       // of the piece's diagonal: single precision; a node so near is on the plane
 constexpr double kFlatBox = 0.2;         // of the diagonal: a piece is not cut across a shorter extent
 constexpr std::size_t kSampled = 10000;  // triangles that tell where a cut may be
-constexpr std::size_t kLarge = 20000;    // triangles: a piece to be cut again and again is halved
+constexpr double kSharpRim = 0.9 * 2 * kPi;  // radians
+constexpr std::size_t kLarge = 20000;        // triangles: a piece to be cut again and again is halved
+constexpr std::size_t kSolved = 5000;        // triangles: larger patches are flattened by way of a coarse one
 constexpr double kShares[] = {0.5, 0.4, 0.6, 0.3, 0.7};  // of the area on one side
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -148,8 +151,24 @@ class CutCost {
   double near_;
 };
 
+/// The rim node around which the triangles turn most, where that is so near to a full turn that no plane map can leave
+/// both rim sides apart (at the end of a sharp wing's root); kNone where there is none.
+std::int32_t sharpest_rim_node(const FacetPatch& patch, const PatchTopology& topology) {
+  std::vector<double> turn(patch.x.size(), 0);
+  for (const Corners& c : patch.corners)
+    for (int k = 0; k < 3; ++k)
+      turn[c[k]] += angle_between(patch.x[c[(k + 1) % 3]] - patch.x[c[k]], patch.x[c[(k + 2) % 3]] - patch.x[c[k]]);
+  std::int32_t sharpest = kNone;
+  double most = kSharpRim;
+  for (const auto& loop : topology.loops)
+    for (const std::int32_t n : loop)
+      if (turn[n] > most) most = turn[n], sharpest = n;
+  return sharpest;
+}
+
 /// Empty where every plane leaves all on one side.
 std::vector<double> best_cut(const FacetPatch& patch, const PatchTopology& topology) {
+  const std::int32_t sharpest = sharpest_rim_node(patch, topology);
   const Spread spread = spread_of(patch);
   const CutCost cost_of(patch, topology);
   Box3 box;
@@ -160,7 +179,9 @@ std::vector<double> best_cut(const FacetPatch& patch, const PatchTopology& topol
     double low = kInfinite, high = -kInfinite;
     for (const Vec3 x : patch.x) low = std::min(low, dot(x, axis)), high = std::max(high, dot(x, axis));
     if (high - low < kFlatBox * box.diagonal()) continue;
-    for (const double place : candidate_places(spread, axis)) {
+    const std::vector<double> places =
+        sharpest != kNone ? std::vector{dot(patch.x[sharpest], axis)} : candidate_places(spread, axis);
+    for (const double place : places) {
       std::vector<double> height = heights(patch, axis, place, kRounding * box.diagonal());
       if (const double cost = cost_of(height); cost < least) least = cost, best = std::move(height);
     }
@@ -203,7 +224,7 @@ class Cutter {
     const std::vector<std::int32_t> triangles = std::exchange(members_[piece], {});
     const FacetPatch patch = std::move(find_patches(mesh_, triangles).front());
     const PatchTopology topology = find_topology(patch.x, patch.corners);
-    if (const auto uv = flatten(patch.x, patch.corners, topology)) {
+    if (const auto uv = lay_flat(patch, topology)) {
       for (std::size_t i = 0; i < patch.triangles.size(); ++i)
         for (int k = 0; k < 3; ++k) mesh_.uv[patch.triangles[i]][k] = (*uv)[patch.corners[i][k]];
       chart_[piece] = n_charts_++;
@@ -217,6 +238,12 @@ class Cutter {
     for (std::int32_t t = n_before; t < mesh_.n_triangles(); ++t)
       (mesh_.face[t] == piece ? own : members_[mesh_.face[t]]).push_back(t);
     add_pieces(own, open);
+  }
+
+  static std::optional<std::vector<Vec2>> lay_flat(const FacetPatch& patch, const PatchTopology& topology) {
+    if (patch.corners.size() > kSolved)
+      if (auto uv = flatten_coarse(patch.x, patch.corners, topology)) return uv;
+    return flatten(patch.x, patch.corners, topology);
   }
 
   [[noreturn]] void fail(const FacetPatch& patch) const {

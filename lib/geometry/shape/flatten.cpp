@@ -126,27 +126,20 @@ bool rim_pinches(std::span<const Vec3> x, const PatchTopology& topology, std::sp
   return false;
 }
 
+double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
+
 /// Whether the triangles around a rim node leave less than a tenth of a turn between its two rim sides: these would
-/// fold over each other next.
-bool rim_folds(std::span<const Corners> corners, const PatchTopology& topology, std::span<const Vec2> p) {
+/// fold over each other next. `p`: places in the plane or in space.
+template <class Place>
+bool rim_folds(std::span<const Corners> corners, const PatchTopology& topology, std::span<const Place> p) {
   constexpr double kMostTurn = 0.9 * 2 * kPi;
   std::vector<double> turn(p.size(), 0);
   for (const Corners& c : corners)
-    for (int k = 0; k < 3; ++k) {
-      const Vec2 a = p[c[(k + 1) % 3]] - p[c[k]], b = p[c[(k + 2) % 3]] - p[c[k]];
-      turn[c[k]] += std::atan2(std::abs(cross(a, b)), dot(a, b));
-    }
+    for (int k = 0; k < 3; ++k) turn[c[k]] += angle_between(p[c[(k + 1) % 3]] - p[c[k]], p[c[(k + 2) % 3]] - p[c[k]]);
   for (const auto& loop : topology.loops)
     for (const std::int32_t n : loop)
       if (turn[n] > kMostTurn) return true;
   return false;
-}
-
-/// A map that samplers and meshers can work in: no flips, and no place of the plane that is two.
-bool is_clear(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology,
-              std::span<const Vec2> p) {
-  return !has_flips(corners, p) && !rim_folds(corners, topology, p) && !rim_crosses(topology, p) &&
-         !rim_pinches(x, topology, p);
 }
 
 /// Whether a triangle's sides and area are nearly the same in the plane.
@@ -220,6 +213,7 @@ std::optional<Places> unfold(std::span<const Vec3> x, std::span<const Corners> c
     next.pop();
     if (is_done[t] != 0 || !(length > 0)) continue;
     lay(t, k);
+    if (!is_like(x, p, corners[t])) return std::nullopt;
     add_neighbours(t);
   }
   if (!std::ranges::all_of(is_laid, [](std::uint8_t laid) { return laid != 0; })) return std::nullopt;
@@ -458,6 +452,16 @@ void relax(std::span<const Vec3> x, std::span<const Corners> corners, const Patc
 
 }  // namespace
 
+bool is_disc_with_holes(const PatchTopology& t) {
+  return t.n_components == 1 && t.genus == 0 && !t.loops.empty() && t.is_manifold;
+}
+
+bool is_clear(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology,
+              std::span<const Vec2> p) {
+  return !has_flips(corners, p) && !rim_folds(corners, topology, p) && !rim_crosses(topology, p) &&
+         !rim_pinches(x, topology, p);
+}
+
 // On a circle the inside of what is deep, and the end of a tube, shrink to nothing.
 bool is_shallow(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology) {
   double area = 0;
@@ -486,12 +490,16 @@ double largest_stretch(std::span<const Vec3> x, std::span<const Corners> corners
   return largest;
 }
 
+std::optional<std::vector<Vec2>> unroll(std::span<const Vec3> x, std::span<const Corners> corners,
+                                        const PatchTopology& topology) {
+  if (auto p = project(x, corners, topology)) return p;
+  return unfold(x, corners, topology);
+}
+
 std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<const Corners> corners,
                                          const PatchTopology& topology) {
-  if (topology.n_components != 1 || topology.genus != 0 || topology.loops.empty() || !topology.is_manifold)
-    return std::nullopt;
-  if (auto p = project(x, corners, topology)) return p;
-  if (auto p = unfold(x, corners, topology)) return p;
+  if (!is_disc_with_holes(topology)) return std::nullopt;
+  if (auto p = unroll(x, corners, topology)) return p;
   if (corners.size() > kMostSolved || !is_shallow(x, corners, topology)) return std::nullopt;
   auto p = map_to_circle(x, corners, topology);
   if (!p) return std::nullopt;

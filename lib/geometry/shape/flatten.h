@@ -24,6 +24,18 @@ inline constexpr double kMostStretch = 10;
 std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<const Corners> corners,
                                          const PatchTopology& topology);
 
+/// flatten() without solving: the patch is projected, or its triangles are laid into the plane one by one across their
+/// sides, where that changes them little. Precondition: is_disc_with_holes().
+std::optional<std::vector<Vec2>> unroll(std::span<const Vec3> x, std::span<const Corners> corners,
+                                        const PatchTopology& topology);
+
+/// Whether a patch can have parameters without a cut, as far as its topology tells.
+bool is_disc_with_holes(const PatchTopology& topology);
+
+/// A map that samplers and meshers can work in: no flips, and no place of the plane that is two. `p`: [nodes].
+bool is_clear(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology,
+              std::span<const Vec2> p);
+
 /// Whether a patch is no deep cup or long tube, as far as area and rims tell. Precondition: it has a loop.
 bool is_shallow(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology);
 

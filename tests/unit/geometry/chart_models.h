@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "geometry/shape/chart_surface.h"
@@ -62,6 +63,17 @@ inline ChartPatch as_tube(const ChartPatch& patch, int n_u) {
     tube.normal.push_back(patch.normal[n]);
   }
   return tube;
+}
+
+/// Nodes moved to all sides, by up to `most`; the same ones each time.
+inline ChartPatch with_noise(ChartPatch patch, double most) {
+  std::uint32_t state = 1;
+  const auto next = [&] {
+    state = 1664525u * state + 1013904223u;
+    return most * (static_cast<double>(state >> 8) / (1 << 23) - 1);
+  };
+  for (Vec3& x : patch.x) x += Vec3{next(), next(), next()};
+  return patch;
 }
 
 /// With its parameters. Precondition: flatten() gives them.

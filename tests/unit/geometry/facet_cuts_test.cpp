@@ -54,6 +54,12 @@ TEST(FacetCuts, open_a_sphere_a_torus_and_a_tube) {
   }
 }
 
+TEST(FacetCuts, of_many_facets_are_those_of_few) {
+  const FacetMesh few = charts_of(test::torus_facets(48, 24)), many = charts_of(test::torus_facets(320, 160));
+  EXPECT_LE(n_charts(many), n_charts(few));
+  expect_charts(many);
+}
+
 TEST(FacetCuts, keep_the_surface) {
   const FacetInput torus = test::torus_facets(48, 24);
   EXPECT_NEAR(test::area_of(charts_of(torus)), test::area_of(find_smooth_faces(torus, radians(40))), 1e-11);
@@ -65,6 +71,33 @@ TEST(FacetCuts, of_a_tube_run_along_it) {
     return Vec3{std::cos(a), std::sin(a), 0.2 * j};
   });
   EXPECT_EQ(n_charts(charts_of(tube)), 2);
+}
+
+/// A plate of 40 x 40 squares, bent to an arc that rises by `rise`, with a hole that opens along its middle and is 1
+/// degree wide at its end, as behind the root of a sharp wing.
+FacetInput plate_with_narrow_hole(double rise) {
+  FacetInput plate = test::grid_facets(40, 40, [=](int i, int j) {
+    return Vec3{0.1 * i, 0.1 * j, rise * std::sin(kPi * i / 40)};
+  });
+  std::vector<std::int32_t> above(plate.x.size(), kNone);
+  for (std::int32_t n = 0; n < 41 * 41; ++n) {
+    const Vec3 x = plate.x[n];
+    if (std::abs(x.y - 2) > 0.01 || x.x < 1.05 || x.x > 2.95) continue;
+    above[n] = static_cast<std::int32_t>(plate.x.size());
+    plate.x.push_back(x + Vec3{0, std::tan(radians(1)) * (3 - x.x), 0});
+  }
+  for (Corners& c : plate.corners)
+    if (std::any_of(c.begin(), c.end(), [&](std::int32_t n) { return plate.x[n].y > 2.05; }))
+      for (std::int32_t& n : c)
+        if (above[n] != kNone) n = above[n];
+  return plate;
+}
+
+TEST(FacetCuts, begin_at_the_end_of_a_narrow_hole) {
+  const FacetMesh bent = charts_of(plate_with_narrow_hole(0.2));
+  EXPECT_EQ(n_charts(bent), 2);
+  expect_charts(bent);
+  EXPECT_EQ(n_charts(charts_of(plate_with_narrow_hole(0))), 1) << "a plane needs no cut";
 }
 
 }  // namespace
