@@ -2,7 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 
 #include "base/error.h"
 #include "io/file/temporary_file.h"
@@ -32,10 +32,14 @@ std::ifstream open_to_read(const std::string& path) {
 
 std::string read_text_file(const std::string& path) {
   std::ifstream file = open_to_read(path);
-  std::stringstream text;
-  text << file.rdbuf();
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  std::string text(none ? 0 : size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  text.append(std::istreambuf_iterator<char>(file), {});  // what the size does not count
   if (file.bad()) throw Error(ExitCode::kInput, path + kUnreadable);
-  return std::move(text).str();
+  return text;
 }
 
 void write_text_file(const std::string& path, const std::string& text) {

@@ -1,10 +1,10 @@
 #include "io/foreign/stl_file.h"
 
 #include <algorithm>
+#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <tuple>
 #include <utility>
 
 #include "base/error.h"
@@ -38,6 +38,7 @@ struct StlContent {
 StlContent binary_content(const std::string& bytes) {
   StlContent content;
   std::vector<Vec3>& corners = content.corners;
+  corners.reserve((bytes.size() - kHeader) / kRecord * 3);
   for (std::size_t at = kHeader; at < bytes.size(); at += kRecord) {
     float xyz[9];
     std::memcpy(xyz, bytes.data() + at + 12, sizeof xyz);
@@ -90,33 +91,43 @@ StlContent text_content(const std::string& path, const std::string& bytes) {
   return content;
 }
 
-/// Nodes by coordinates: -0 equals 0.
+/// Bits of a place, in which -0 equals 0, mixed (splitmix64, Steele et al. 2014).
+std::uint64_t hash_of(Vec3 x) {
+  std::uint64_t hash = 0;
+  for (const double c : {x.x, x.y, x.z}) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) + 0x9e3779b97f4a7c15u;
+    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+    hash ^= hash >> 31;
+  }
+  return hash;
+}
+
+/// Nodes by coordinates, in the order in which they come.
 std::vector<NodeId> weld(const std::vector<Vec3>& corners, std::vector<Vec3>& nodes) {
-  std::vector<std::int32_t> order(corners.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::int32_t>(i);
-  const auto key = [&](std::int32_t i) { return std::tuple(corners[i].x, corners[i].y, corners[i].z); };
-  std::sort(order.begin(), order.end(),
-            [&](std::int32_t a, std::int32_t b) { return std::tuple(key(a), a) < std::tuple(key(b), b); });
-  std::vector<std::int32_t> first(corners.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
-  std::vector<NodeId> node(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    if (first[i] == static_cast<std::int32_t>(i)) {
-      nodes.push_back(corners[i]);
-      node[i] = static_cast<NodeId>(nodes.size() - 1);
-    } else {
-      node[i] = node[first[i]];
+  std::vector<NodeId> table(std::bit_ceil(corners.size() + corners.size() / 2), kNone), node;  // open addressing
+  node.reserve(corners.size());
+  for (const Vec3 x : corners) {
+    std::size_t at = hash_of(x) & (table.size() - 1);
+    while (table[at] != kNone && !(nodes[table[at]] == x)) at = (at + 1) & (table.size() - 1);
+    if (table[at] == kNone) {
+      table[at] = static_cast<NodeId>(nodes.size());
+      nodes.push_back(x);
     }
+    node.push_back(table[at]);
   }
   return node;
+}
+
+StlContent read_content(const std::string& path) {
+  const std::string bytes = read_text_file(path);
+  return is_binary(bytes) ? binary_content(bytes) : text_content(path, bytes);
 }
 
 }  // namespace
 
 SurfaceMesh read_stl(const std::string& path) {
-  const std::string bytes = read_text_file(path);
-  const StlContent content = is_binary(bytes) ? binary_content(bytes) : text_content(path, bytes);
+  const StlContent content = read_content(path);
   const std::vector<Vec3>& corners = content.corners;
   if (corners.empty() || corners.size() % 3 != 0) fail(path, "no whole triangles in it");
   for (const Vec3& x : corners)

@@ -49,6 +49,22 @@ TEST(StlFile, makes_one_node_of_equal_points_in_the_order_of_the_file) {
   EXPECT_EQ(std::vector<NodeId>(m.triangles[1].n, m.triangles[1].n + 3), (std::vector<NodeId>{1, 3, 2}));
 }
 
+TEST(StlFile, welds_many_points_to_as_many_as_differ) {
+  constexpr int kSquares = 60;
+  FloatCorners c;
+  for (int i = 0; i < kSquares; ++i)
+    for (int j = 0; j < kSquares; ++j) {
+      const auto a = static_cast<float>(i), b = static_cast<float>(j);
+      c.push_back({a, b, 0, a + 1, b, 0, a, b + 1, 0});
+      c.push_back({a + 1, b, 0, a + 1, b + 1, 0, a, b + 1, 0});
+    }
+  const SurfaceMesh m = read(binary(c));
+  EXPECT_EQ(m.n_nodes(), (kSquares + 1) * (kSquares + 1));
+  for (std::size_t t = 0; t < c.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(m.node_xyz[m.triangles[t].n[k]], (Vec3{c[t][3 * k], c[t][3 * k + 1], 0}));
+}
+
 TEST(StlFile, takes_minus_zero_for_zero) {
   EXPECT_EQ(read(binary({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {1, -0.0f, 0, 1, 1, 0, -0.0f, 1, 0}})).n_nodes(), 4);
 }

@@ -18,6 +18,10 @@ TEST(TextFile, has_the_bytes_that_were_written) {
   EXPECT_EQ(dir.files(), std::vector<std::string>{"t"}) << "no temporary is left";
 }
 
+TEST(TextFile, has_more_bytes_than_the_system_tells) {
+  EXPECT_NE(read_text_file("/proc/self/status").find("VmPeak"), std::string::npos) << "its size is 0 there";
+}
+
 TEST(TextFile, refuses_folders_devices_and_missing_files) {
   const TemporaryDirectory dir;
   EXPECT_ERROR(read_text_file(dir.path()), kInput, "is a directory");
