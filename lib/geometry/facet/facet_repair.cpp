@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <tuple>
 
@@ -19,24 +20,37 @@ constexpr double kNoNormal = 1e-4;   // height over longest side: below, the nor
 constexpr int kCapPasses = 4;        // over all facets: caps may lie on caps
 constexpr double kGap = 1e-6;        // of the diagonal: single precision, and the rounding of decimals in text
 
+/// Numbers of elements by their keys, below n_keys; those of one key ascend.
+std::vector<std::int32_t> ordered_by_key(const std::vector<std::int32_t>& key, std::size_t n_keys,
+                                         std::vector<std::int32_t>& offsets) {
+  offsets.assign(n_keys + 1, 0);
+  for (const std::int32_t k : key) ++offsets[static_cast<std::size_t>(k) + 1];
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::vector<std::int32_t> order(key.size()), next(offsets.begin(), offsets.end() - 1);
+  for (std::size_t i = 0; i < key.size(); ++i) order[next[key[i]]++] = static_cast<std::int32_t>(i);
+  return order;
+}
+
 /// A side with its nodes in ascending order.
 struct FacetSide {
   std::int32_t low, high, triangle;
   bool is_forward;
-  bool operator<(const FacetSide& o) const {
-    return std::tie(low, high, triangle) < std::tie(o.low, o.high, o.triangle);
-  }
+  bool operator<(const FacetSide& o) const { return std::tie(high, triangle) < std::tie(o.high, o.triangle); }
 };
 
-std::vector<FacetSide> sorted_sides(const std::vector<Corners>& corners) {
+/// By lower node, higher node and triangle.
+std::vector<FacetSide> sorted_sides(const std::vector<Corners>& corners, std::size_t n_nodes) {
+  std::vector<std::int32_t> low, offsets;
+  low.reserve(3 * corners.size());
+  for (const Corners& c : corners)
+    for (int k = 0; k < 3; ++k) low.push_back(std::min(c[k], c[(k + 1) % 3]));
   std::vector<FacetSide> sides;
-  sides.reserve(3 * corners.size());
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(corners.size()); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t a = corners[t][k], b = corners[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
-    }
-  std::sort(sides.begin(), sides.end());
+  sides.reserve(low.size());
+  for (const std::int32_t i : ordered_by_key(low, n_nodes, offsets)) {
+    const std::int32_t a = corners[i / 3][i % 3], b = corners[i / 3][(i % 3 + 1) % 3];
+    sides.push_back({low[i], std::max(a, b), i / 3, a < b});
+  }
+  for (std::size_t n = 0; n < n_nodes; ++n) std::sort(sides.begin() + offsets[n], sides.begin() + offsets[n + 1]);
   return sides;
 }
 
@@ -72,10 +86,16 @@ class FacetRepair {
 
   void drop_duplicates() {
     std::vector<Corners> sorted = in_.corners;
-    for (Corners& c : sorted) std::sort(c.begin(), c.end());
-    std::vector<std::int32_t> order(sorted.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return sorted[a] < sorted[b]; });
+    std::vector<std::int32_t> lowest, offsets;
+    lowest.reserve(sorted.size());
+    for (Corners& c : sorted) {
+      std::sort(c.begin(), c.end());
+      lowest.push_back(c[0]);
+    }
+    std::vector<std::int32_t> order = ordered_by_key(lowest, in_.x.size(), offsets);
+    for (std::size_t n = 0; n < in_.x.size(); ++n)
+      std::sort(order.begin() + offsets[n], order.begin() + offsets[n + 1],
+                [&](std::int32_t a, std::int32_t b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
     std::vector<std::uint8_t> is_kept(sorted.size(), 1);
     std::size_t n_duplicates = 0;
     Vec3 place;
@@ -99,7 +119,7 @@ class FacetRepair {
   /// Nodes of sides that one facet has; whether any was joined.
   bool join_free_nodes() {
     std::vector<std::uint8_t> is_free(in_.x.size(), 0);
-    for_each_pair(sorted_sides(in_.corners), [&](const FacetSide* s, std::size_t n) {
+    for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](const FacetSide* s, std::size_t n) {
       if (n == 1) is_free[s->low] = is_free[s->high] = 1;
     });
     std::vector<std::int32_t> order, one(in_.x.size());
@@ -143,17 +163,22 @@ class FacetRepair {
 
   /// Neighbours across sides that two facets have, whichever way round.
   void link() {
-    const std::vector<FacetSide> sides = sorted_sides(in_.corners);
-    links_.resize(in_.corners.size());
+    const std::vector<FacetSide> sides = sorted_sides(in_.corners, in_.x.size());
+    links_.assign(in_.corners.size(), {});
     is_open_.assign(in_.corners.size(), 0);
     for_each_pair(sides, [&](const FacetSide* s, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) is_open_[s[i].triangle] |= n != 2;
       if (n != 2) return;
       const bool agree = s[0].is_forward != s[1].is_forward;
-      links_[s[0].triangle].push_back({s[1].triangle, agree});
-      links_[s[1].triangle].push_back({s[0].triangle, agree});
+      for (const int own : {0, 1})
+        std::ranges::find(links_[s[own].triangle], kNone, &Link::other)[0] = {s[1 - own].triangle, agree};
     });
   }
+
+  struct Link {
+    std::int32_t other = kNone;
+    bool agree = true;
+  };
 
   struct Part {
     std::vector<std::int32_t> triangles;
@@ -192,6 +217,7 @@ class FacetRepair {
       const std::int32_t t = part.triangles[i];
       part.is_closed = part.is_closed && !is_open_[t];
       for (const auto& [other, agree] : links_[t]) {
+        if (other == kNone) break;
         const std::uint8_t wanted = is_turned[t] ^ (agree ? 0 : 1);
         if (!is_seen[other]) {
           is_seen[other] = 1;
@@ -319,15 +345,10 @@ class FacetRepair {
       for (const std::int32_t n : in_.corners[t]) around_[next[n]++] = static_cast<std::int32_t>(t);
   }
 
-  struct Link {
-    std::int32_t other;
-    bool agree;
-  };
-
   FacetInput& in_;
   Box3 box_;
   std::vector<ImportFinding> findings_;
-  std::vector<std::vector<Link>> links_;
+  std::vector<std::array<Link, 3>> links_;             // of each facet, those without another one last
   std::vector<std::uint8_t> is_open_;                  // has a side that not exactly two facets have
   std::vector<std::int32_t> around_offsets_, around_;  // facets of each node, when a pass began
   Vec3 place_;
