@@ -10,6 +10,8 @@
 #include "base/child_process.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "base/memory.h"
+#include "base/threads.h"
 #include "features/wing_edges.h"
 #include "geometry/import/facet_import.h"
 #include "geometry/import/import.h"
@@ -391,9 +393,8 @@ std::vector<std::int32_t> previous_faces(const std::vector<std::int32_t>& file_f
 }
 
 /// Where facets cross each other no size makes the mesh valid.
-void find_facets_that_cross(const std::string& path, const SurfaceMesh& mesh, ImportResult& r) {
-  bool was_ended = false;
-  const std::vector<TrianglePair> pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended);
+void report_crossing(const std::string& path, const SurfaceMesh& mesh, const std::vector<TrianglePair>& pairs,
+                     bool was_ended, ImportResult& r) {
   if (pairs.empty()) return;
   const Vec3 x = mesh.node_xyz[mesh.triangles[pairs[0].a].n[0]];
   const std::string what =
@@ -406,11 +407,18 @@ void find_facets_that_cross(const std::string& path, const SurfaceMesh& mesh, Im
 }
 
 ImportResult import_triangles(const std::string& path, const ImportOptions& options) {
-  const SurfaceMesh mesh = read_triangulation(path);
+  keep_freed_memory();
+  SurfaceMesh mesh = read_triangulation(path);
+  mesh.corner_uv = {};  // that of a file is not used
   FacetInput facets{mesh.node_xyz, {}, mesh.triangle_face, mesh.labels.face_name};
+  facets.corners.reserve(mesh.triangles.size());
   for (const Triangle& t : mesh.triangles) facets.corners.push_back({t.n[0], t.n[1], t.n[2]});
-  ImportResult r = import_facets(std::move(facets), options, path);
-  find_facets_that_cross(path, mesh, r);
+  ImportResult r;
+  std::vector<TrianglePair> pairs;
+  bool was_ended = false;
+  run_jobs({[&] { r = import_facets(std::move(facets), options, path); },
+            [&] { pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended); }});
+  report_crossing(path, mesh, pairs, was_ended, r);
   return r;
 }
 

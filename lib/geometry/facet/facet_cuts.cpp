@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/eigen.h"
 #include "base/error.h"
+#include "base/threads.h"
 #include "geometry/shape/flatten.h"
 #include "geometry/shape/flatten_coarse.h"
+#include "geometry/shape/known_neighbours.h"
 
 namespace st {
 namespace {
@@ -81,17 +84,29 @@ std::vector<double> candidate_places(const Spread& s, Vec3 axis) {
   return places;
 }
 
-/// Of own nodes above a plane; 0 where the plane passes so near that it would leave a sliver. `least`: what is nearer
-/// than this is rounding, also where a side runs along the plane.
-std::vector<double> heights(const FacetPatch& patch, Vec3 axis, double place, double least) {
-  std::vector<double> height, reach(patch.x.size(), kInfinite);
-  for (const Vec3 x : patch.x) height.push_back(dot(x, axis) - place);
+double longest_side(const FacetPatch& patch) {
+  double longest2 = 0;
   for (const Corners& c : patch.corners)
+    for (int k = 0; k < 3; ++k) longest2 = std::max(longest2, norm2(patch.x[c[(k + 1) % 3]] - patch.x[c[k]]));
+  return std::sqrt(longest2);
+}
+
+/// Of own nodes above a plane; 0 where the plane passes so near that it would leave a sliver. `least`: what is nearer
+/// than this is rounding, also where a side runs along the plane. `longest`: side of the patch.
+std::vector<double> heights(const FacetPatch& patch, Vec3 axis, double place, double least, double longest) {
+  std::vector<double> height;
+  height.reserve(patch.x.size());
+  for (const Vec3 x : patch.x) height.push_back(dot(x, axis) - place);
+  const double near = std::max(kOnPlane * longest, least);  // nodes further away are not on the plane
+  std::vector<double> reach(patch.x.size(), kInfinite);
+  for (const Corners& c : patch.corners) {
+    if (std::min({std::abs(height[c[0]]), std::abs(height[c[1]]), std::abs(height[c[2]])}) > near) continue;
     for (int k = 0; k < 3; ++k) {
       const std::int32_t a = c[k], b = c[(k + 1) % 3];
       const double step = std::abs(height[a] - height[b]);
       if (step > 0) reach[a] = std::min(reach[a], step), reach[b] = std::min(reach[b], step);
     }
+  }
   for (std::size_t i = 0; i < height.size(); ++i)
     if (reach[i] < kInfinite && std::abs(height[i]) < std::max(kOnPlane * reach[i], least)) height[i] = 0;
   return height;
@@ -101,7 +116,7 @@ std::vector<double> heights(const FacetPatch& patch, Vec3 axis, double place, do
 class CutCost {
  public:
   CutCost(const FacetPatch& patch, const PatchTopology& topology)
-      : patch_(patch), neighbours_(find_neighbours(patch.corners)), is_tube_(topology.loops.size() > 1) {
+      : patch_(patch), loops_(topology.loops), is_tube_(topology.loops.size() > 1) {
     Box3 box;
     for (const Vec3 x : patch.x) box.add(x);
     near_ = kNearCut * box.diagonal();
@@ -112,20 +127,20 @@ class CutCost {
     if (!(*low < 0 && *high > 0)) return kInfinite;
     double cost = 0;
     bool meets_rim = false;
-    for (std::size_t t = 0; t < patch_.corners.size(); ++t) {
-      cost += cut_length(patch_.corners[t], height);
-      for (int k = 0; k < 3; ++k) {
-        if (neighbours_[t][k] != kNone) continue;
-        const std::int32_t a = patch_.corners[t][k], b = patch_.corners[t][(k + 1) % 3];
+    for (const Corners& c : patch_.corners) cost += cut_length(c, height);
+    for (const auto& loop : loops_)
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::int32_t a = loop[i], b = loop[(i + 1) % loop.size()];
         cost += kNearRim * near_length(a, b, height);
         meets_rim = meets_rim || height[a] * height[b] <= 0;
       }
-    }
     return is_tube_ && !meets_rim ? kAcross * cost : cost;
   }
 
  private:
   double cut_length(const Corners& c, const std::vector<double>& height) const {
+    const double ha = height[c[0]], hb = height[c[1]], hc = height[c[2]];
+    if ((ha > 0 && hb > 0 && hc > 0) || (ha < 0 && hb < 0 && hc < 0)) return 0;
     std::array<Vec3, 6> on;
     std::size_t n = 0;
     for (int k = 0; k < 3; ++k) {
@@ -146,7 +161,7 @@ class CutCost {
   }
 
   const FacetPatch& patch_;
-  std::vector<Corners> neighbours_;
+  const std::vector<std::vector<std::int32_t>>& loops_;
   bool is_tube_;
   double near_;
 };
@@ -154,10 +169,14 @@ class CutCost {
 /// The rim node around which the triangles turn most, where that is so near to a full turn that no plane map can leave
 /// both rim sides apart (at the end of a sharp wing's root); kNone where there is none.
 std::int32_t sharpest_rim_node(const FacetPatch& patch, const PatchTopology& topology) {
+  std::vector<std::uint8_t> is_rim(patch.x.size(), 0);
+  for (const auto& loop : topology.loops)
+    for (const std::int32_t n : loop) is_rim[n] = 1;
   std::vector<double> turn(patch.x.size(), 0);
   for (const Corners& c : patch.corners)
     for (int k = 0; k < 3; ++k)
-      turn[c[k]] += angle_between(patch.x[c[(k + 1) % 3]] - patch.x[c[k]], patch.x[c[(k + 2) % 3]] - patch.x[c[k]]);
+      if (is_rim[c[k]] != 0)
+        turn[c[k]] += angle_between(patch.x[c[(k + 1) % 3]] - patch.x[c[k]], patch.x[c[(k + 2) % 3]] - patch.x[c[k]]);
   std::int32_t sharpest = kNone;
   double most = kSharpRim;
   for (const auto& loop : topology.loops)
@@ -166,14 +185,22 @@ std::int32_t sharpest_rim_node(const FacetPatch& patch, const PatchTopology& top
   return sharpest;
 }
 
-/// Empty where every plane leaves all on one side.
-std::vector<double> best_cut(const FacetPatch& patch, const PatchTopology& topology) {
-  const std::int32_t sharpest = sharpest_rim_node(patch, topology);
+struct CutPlane {
+  Vec3 axis;  ///< unit
+  double place;
+  double least, longest;  ///< of heights()
+
+  std::vector<double> heights_of(const FacetPatch& patch) const { return heights(patch, axis, place, least, longest); }
+};
+
+/// Through the node `sharpest` if there is one. nullopt where every plane leaves all on one side.
+std::optional<CutPlane> best_cut(const FacetPatch& patch, const PatchTopology& topology, std::int32_t sharpest) {
   const Spread spread = spread_of(patch);
   const CutCost cost_of(patch, topology);
   Box3 box;
   for (const Vec3 x : patch.x) box.add(x);
-  std::vector<double> best;
+  const double longest = longest_side(patch);
+  std::optional<CutPlane> best;
   double least = kInfinite;
   for (const Vec3 axis : candidate_axes(spread)) {
     double low = kInfinite, high = -kInfinite;
@@ -182,68 +209,129 @@ std::vector<double> best_cut(const FacetPatch& patch, const PatchTopology& topol
     const std::vector<double> places =
         sharpest != kNone ? std::vector{dot(patch.x[sharpest], axis)} : candidate_places(spread, axis);
     for (const double place : places) {
-      std::vector<double> height = heights(patch, axis, place, kRounding * box.diagonal());
-      if (const double cost = cost_of(height); cost < least) least = cost, best = std::move(height);
+      const CutPlane plane{axis, place, kRounding * box.diagonal(), longest};
+      if (const double cost = cost_of(plane.heights_of(patch)); cost < least) least = cost, best = plane;
     }
   }
   return best;
 }
 
-/// Cuts what is open until nothing is.
+/// A large patch with a sharp rim is not coarsened: only a plane has a map then.
+std::optional<std::vector<Vec2>> lay_flat(const FacetPatch& patch, const PatchTopology& topology, bool has_sharp_rim) {
+  if (patch.corners.size() <= kSolved) return flatten(patch.x, patch.corners, topology);
+  if (has_sharp_rim && !is_disc_with_holes(topology)) return std::nullopt;
+  if (has_sharp_rim) return unroll(patch.x, patch.corners, topology);
+  if (auto uv = flatten_coarse(patch.x, patch.corners, topology)) return uv;
+  return flatten(patch.x, patch.corners, topology);
+}
+
+/// A piece with its parameters, or with the plane that cuts it; with neither where nothing helps.
+struct Piece {
+  FacetPatch patch;
+  std::optional<std::vector<Vec2>> uv;
+  std::optional<CutPlane> plane;
+
+  void work() {
+    const PatchTopology topology = find_topology(patch.x, patch.corners, patch.neighbours);
+    const std::int32_t sharpest = sharpest_rim_node(patch, topology);
+    uv = lay_flat(patch, topology, sharpest != kNone);
+    if (!uv) plane = best_cut(patch, topology, sharpest);
+  }
+};
+
+/// Cuts in rounds: all pieces are worked on, by several threads, then those without parameters are cut one by one.
 class Cutter {
  public:
-  explicit Cutter(FacetMesh& mesh) : mesh_(mesh) {}
+  explicit Cutter(FacetMesh& mesh) : mesh_(mesh), finder_(mesh), divider_(mesh) {}
 
   void run() {
     const std::int32_t n_regions = 1 + *std::max_element(mesh_.face.begin(), mesh_.face.end());
-    std::vector<std::vector<std::int32_t>> regions(static_cast<std::size_t>(n_regions));
-    for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t) regions[mesh_.face[t]].push_back(t);
-    std::vector<std::int32_t> open;
-    for (const auto& region : regions) add_pieces(region, open);
-    std::reverse(open.begin(), open.end());  // the first region first
-    while (!open.empty()) {
-      const std::int32_t piece = open.back();
-      open.pop_back();
-      work_on(piece, open);
-    }
-    for (std::int32_t& face : mesh_.face) face = chart_[face];
+    std::vector<Group> groups(static_cast<std::size_t>(n_regions));
+    for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t) groups[mesh_.face[t]].triangles.push_back(t);
+    while (!groups.empty()) groups = run_round(std::move(groups));
+    number_charts();
   }
 
  private:
-  /// New numbers for what hangs together.
-  void add_pieces(const std::vector<std::int32_t>& triangles, std::vector<std::int32_t>& open) {
-    for (const FacetPatch& patch : find_patches(mesh_, triangles)) {
-      open.push_back(static_cast<std::int32_t>(chart_.size()));
-      for (const std::int32_t t : patch.triangles) mesh_.face[t] = open.back();
-      members_.push_back(patch.triangles);
-      chart_.push_back(kNone);
+  /// Triangles that hang together or not.
+  struct Group {
+    std::int32_t parent = kNone;  ///< number of the piece that was cut
+    std::vector<std::int32_t> triangles;
+  };
+
+  std::vector<Group> run_round(std::vector<Group> groups) {
+    std::vector<std::vector<Piece>> pieces(groups.size());
+    parallel_for(groups.size(), 1 + groups.size() / kFinders, [&](std::size_t begin, std::size_t end) {
+      PatchFinder finder(mesh_);
+      for (std::size_t g = begin; g < end; ++g) {
+        for (FacetPatch& patch : finder.find(std::move(groups[g].triangles)))
+          pieces[g].push_back({std::move(patch), {}, {}});
+        parallel_for(pieces[g].size(), 1, [&](std::size_t i, std::size_t) { pieces[g][i].work(); });
+      }
+    });
+    const auto first = static_cast<std::int32_t>(parent_.size());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (Piece& piece : pieces[g]) take(piece, groups[g].parent);
+    std::vector<Group> next;
+    std::int32_t number = first;
+    for (std::vector<Piece>& of_group : pieces)
+      for (Piece& piece : of_group) {
+        if (!is_chart_[number]) next.push_back({number, cut(std::exchange(piece, {}), number)});
+        ++number;
+      }
+    for (Group& group : next) {
+      const std::vector<std::int32_t> added = std::exchange(added_[group.parent], {});
+      group.triangles.insert(group.triangles.end(), added.begin(), added.end());
     }
+    return next;
   }
 
-  void work_on(std::int32_t piece, std::vector<std::int32_t>& open) {
-    const std::vector<std::int32_t> triangles = std::exchange(members_[piece], {});
-    const FacetPatch patch = std::move(find_patches(mesh_, triangles).front());
-    const PatchTopology topology = find_topology(patch.x, patch.corners);
-    if (const auto uv = lay_flat(patch, topology)) {
-      for (std::size_t i = 0; i < patch.triangles.size(); ++i)
-        for (int k = 0; k < 3; ++k) mesh_.uv[patch.triangles[i]][k] = (*uv)[patch.corners[i][k]];
-      chart_[piece] = n_charts_++;
-      return;
+  /// As the next number.
+  void take(Piece& piece, std::int32_t parent) {
+    const FacetPatch& patch = piece.patch;
+    for (const std::int32_t t : patch.triangles) mesh_.face[t] = static_cast<std::int32_t>(parent_.size());
+    parent_.push_back(parent);
+    is_chart_.push_back(piece.uv ? 1 : 0);
+    added_.emplace_back();
+    if (!piece.uv) return;
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i)
+      for (int k = 0; k < 3; ++k) mesh_.uv[patch.triangles[i]][k] = (*piece.uv)[patch.corners[i][k]];
+    piece = {};
+  }
+
+  /// Its triangles after that.
+  std::vector<std::int32_t> cut(Piece piece, std::int32_t number) {
+    FacetPatch& patch = piece.patch;
+    if (!piece.plane) fail(patch);
+    if (!added_[number].empty()) {  // cuts of others have divided triangles at its rim
+      std::vector<std::int32_t> triangles = std::exchange(added_[number], {});
+      triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
+      patch = std::move(finder_.find(std::move(triangles)).front());
     }
-    const std::vector<double> height = best_cut(patch, topology);
-    if (height.empty()) fail(patch);
     const std::int32_t n_before = mesh_.n_triangles();
-    divide(mesh_, patch, height);
-    std::vector<std::int32_t> own = triangles;
+    divider_.divide(patch, piece.plane->heights_of(patch));
+    std::vector<std::int32_t> own = std::move(patch.triangles);
     for (std::int32_t t = n_before; t < mesh_.n_triangles(); ++t)
-      (mesh_.face[t] == piece ? own : members_[mesh_.face[t]]).push_back(t);
-    add_pieces(own, open);
+      (mesh_.face[t] == number ? own : added_[mesh_.face[t]]).push_back(t);
+    return own;
   }
 
-  static std::optional<std::vector<Vec2>> lay_flat(const FacetPatch& patch, const PatchTopology& topology) {
-    if (patch.corners.size() > kSolved)
-      if (auto uv = flatten_coarse(patch.x, patch.corners, topology)) return uv;
-    return flatten(patch.x, patch.corners, topology);
+  /// The first region first; of the parts of a piece the last one.
+  void number_charts() {
+    std::vector<std::vector<std::int32_t>> parts(parent_.size());
+    std::vector<std::int32_t> open, chart(parent_.size(), kNone);
+    for (std::size_t i = parent_.size(); i-- > 0;)
+      if (parent_[i] == kNone) open.push_back(static_cast<std::int32_t>(i));
+    for (std::size_t i = 0; i < parent_.size(); ++i)
+      if (parent_[i] != kNone) parts[parent_[i]].push_back(static_cast<std::int32_t>(i));
+    std::int32_t n_charts = 0;
+    while (!open.empty()) {
+      const std::int32_t piece = open.back();
+      open.pop_back();
+      if (is_chart_[piece]) chart[piece] = n_charts++;
+      open.insert(open.end(), parts[piece].begin(), parts[piece].end());
+    }
+    for (std::int32_t& face : mesh_.face) face = chart[face];
   }
 
   [[noreturn]] void fail(const FacetPatch& patch) const {
@@ -254,10 +342,14 @@ class Cutter {
                     patch.corners.size(), x.x, x.y, x.z));
   }
 
+  static constexpr std::size_t kFinders = 64;  // at most so many at once: each knows all nodes
+
   FacetMesh& mesh_;
-  std::vector<std::vector<std::int32_t>> members_;  // triangles of pieces that are open
-  std::vector<std::int32_t> chart_;                 // number of each piece that is done
-  std::int32_t n_charts_ = 0;
+  PatchFinder finder_;
+  PatchDivider divider_;
+  std::vector<std::int32_t> parent_;              // of each piece; kNone: it is of a region
+  std::vector<std::uint8_t> is_chart_;            // pieces with parameters
+  std::vector<std::vector<std::int32_t>> added_;  // triangles that cuts of others made of theirs in this round
 };
 
 }  // namespace

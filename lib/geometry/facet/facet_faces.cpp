@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/disjoint_sets.h"
+#include "geometry/shape/known_neighbours.h"
 
 namespace st {
 namespace {
@@ -109,24 +110,19 @@ class Splitter {
   }
 
   void find_corner_normals() {
-    DisjointSets fans(3 * static_cast<std::int64_t>(mesh_.n_triangles()));
-    for_each_smooth([&](std::int32_t t, int k, std::int32_t other) {
-      for (int m = 0; m < 3; ++m)
-        for (const int own : {k, (k + 1) % 3})
-          if (node(other, m) == node(t, own)) fans.join(3 * t + own, 3 * other + m);
-    });
-    std::vector<std::int32_t> row(3 * mesh_.corners.size(), kNone);
+    std::vector<Corners> smooth = neighbours_;  // but for those across lines
+    for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (mesh_.is_line[t][k]) smooth[t][k] = kNone;
+    const std::vector<std::int32_t> fans = find_fans(mesh_.corners, smooth);
     mesh_.corner_normal.resize(mesh_.corners.size());
     for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
       for (int k = 0; k < 3; ++k) {
-        std::int32_t& r = row[fans.find(3 * t + k)];
-        if (r == kNone) {
-          r = static_cast<std::int32_t>(mesh_.normal.size());
-          mesh_.normal.emplace_back();
-        }
+        const std::int32_t fan = fans[3 * t + k];
+        if (fan == static_cast<std::int32_t>(mesh_.normal.size())) mesh_.normal.emplace_back();
         const Vec3 x = mesh_.x[node(t, k)];
-        mesh_.normal[r] += angle_between(mesh_.x[node(t, k + 1)] - x, mesh_.x[node(t, k + 2)] - x) * normal_[t];
-        mesh_.corner_normal[t][k] = r;
+        mesh_.normal[fan] += angle_between(mesh_.x[node(t, k + 1)] - x, mesh_.x[node(t, k + 2)] - x) * normal_[t];
+        mesh_.corner_normal[t][k] = fan;
       }
     for (Vec3& n : mesh_.normal) n = normalized(n);
     for (int pass = 0; pass < kEvenPasses; ++pass) even_out_normals();

@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -40,17 +43,52 @@ struct FacetMesh {
 struct FacetPatch {
   std::vector<std::int32_t> triangles;     ///< of the mesh, ascending
   std::vector<Corners> corners;            ///< [triangles] own nodes
+  std::vector<Corners> neighbours;         ///< [triangles] own triangles, as find_neighbours() has them
   std::vector<Vec3> x;                     ///< [own nodes]
   std::vector<std::int32_t> node, normal;  ///< [own nodes] of the mesh
 };
 
-/// The patches of some triangles, by their lowest triangle.
-std::vector<FacetPatch> find_patches(const FacetMesh& mesh, std::vector<std::int32_t> triangles);
+/// Finds patches of one mesh, again and again.
+class PatchFinder {
+ public:
+  explicit PatchFinder(const FacetMesh& mesh) : mesh_(mesh) {}
 
-/// Divides a patch along a plane: sides that cross it get a node, in all triangles that have them, and sides between
-/// both halves become lines. `height`: of each own node above the plane, exactly 0 where it counts as on it. New
-/// triangles are at the end of the mesh and have the face of the one they are part of.
-void divide(FacetMesh& mesh, const FacetPatch& patch, const std::vector<double>& height);
+  /// Of some triangles, by their lowest triangle. Cost: that of these triangles, however large the mesh is.
+  std::vector<FacetPatch> find(std::vector<std::int32_t> triangles);
+
+ private:
+  const FacetMesh& mesh_;
+  std::vector<std::int32_t> number_;  // [nodes] kNone between calls
+};
+
+/// A new node on a side.
+struct CutNode {
+  std::int32_t node;
+  double share;  ///< of the way from the lower node to the higher one
+};
+
+/// By the side's nodes, the lower one first.
+using CutNodes = std::map<std::pair<std::int32_t, std::int32_t>, CutNode>;
+
+/// Divides patches of one mesh, again and again.
+class PatchDivider {
+ public:
+  explicit PatchDivider(FacetMesh& mesh);
+
+  /// Along a plane: sides that cross it get a node, in all triangles that have them, and sides between both halves
+  /// become lines. `height`: of each own node above the plane, exactly 0 where it counts as on it. New triangles are at
+  /// the end of the mesh and have the face of the one they are part of. Cost: that of the patch, however large the mesh
+  /// is.
+  void divide(const FacetPatch& patch, const std::vector<double>& height);
+
+ private:
+  void add_lines(std::int32_t triangle);
+  std::vector<std::int32_t> find_divided(const FacetPatch& patch, const std::vector<double>& height,
+                                         const CutNodes& nodes) const;
+
+  FacetMesh& mesh_;
+  std::unordered_map<std::uint64_t, std::vector<std::int32_t>> beside_;  // triangles that have or had a line, by nodes
+};
 
 /// Drops the other triangles; nodes stay. `is_kept`: [n_triangles].
 void keep_triangles(FacetMesh& mesh, const std::vector<std::uint8_t>& is_kept);

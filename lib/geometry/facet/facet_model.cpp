@@ -8,6 +8,7 @@
 #include "base/disjoint_sets.h"
 #include "base/sort_once.h"
 #include "geometry/model/rectangle_width.h"
+#include "geometry/shape/known_neighbours.h"
 #include "geometry/shape/polyline.h"
 
 namespace st {
@@ -54,9 +55,11 @@ class FacetModelMaker {
     const std::int32_t n = 1 + *std::max_element(mesh_.face.begin(), mesh_.face.end());
     std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(n));
     for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t) members[mesh_.face[t]].push_back(t);
-    for (const auto& triangles : members) {
-      charts_.push_back(std::move(find_patches(mesh_, triangles).front()));
-      topology_.push_back(find_topology(charts_.back().x, charts_.back().corners));
+    PatchFinder finder(mesh_);
+    for (auto& triangles : members) {
+      charts_.push_back(std::move(finder.find(std::move(triangles)).front()));
+      const FacetPatch& chart = charts_.back();
+      topology_.push_back(find_topology(chart.x, chart.corners, chart.neighbours));
     }
   }
 

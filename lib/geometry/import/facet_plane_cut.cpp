@@ -30,7 +30,7 @@ class PlaneCut {
       all.node.push_back(static_cast<std::int32_t>(n));
       heights.push_back(height(all.node.back()));
     }
-    divide(mesh_, all, heights);
+    PatchDivider(mesh_).divide(all, heights);
     for (std::size_t n = heights.size(); n < mesh_.x.size(); ++n) put_on_plane(n);
     std::vector<std::uint8_t> is_kept(mesh_.corners.size());
     for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "geometry/shape/known_neighbours.h"
 
 namespace st {
 namespace {
@@ -70,41 +71,58 @@ void add_loops(std::span<const Vec3> x, std::vector<std::int32_t> next, PatchTop
   }
 }
 
-/// Corners of one node that are joined across sides are one fan; there are as many fans as nodes where all is manifold.
-std::int64_t count_fans(std::span<const Corners> corners, std::span<const Corners> neighbours) {
-  const auto n = static_cast<std::int32_t>(corners.size());
-  DisjointSets fans(3 * static_cast<std::int64_t>(n));
-  for (std::int32_t t = 0; t < n; ++t)
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t other = neighbours[t][k];
-      if (other == kNone) continue;
-      for (int m = 0; m < 3; ++m)
-        for (const int own : {k, (k + 1) % 3})
-          if (corners[other][m] == corners[t][own]) fans.join(3 * t + own, 3 * other + m);
-    }
-  std::int64_t count = 0;
-  for (std::int32_t c = 0; c < 3 * n; ++c) count += fans.find(c) == c;
-  return count;
+/// The corner at the same node in the triangle across a side of corner i's triangle that begins or ends there; kNone
+/// where there is none.
+std::int32_t corner_across(std::span<const Corners> corners, std::span<const Corners> neighbours, std::int32_t i,
+                           bool ends_there) {
+  const std::int32_t t = i / 3, k = i % 3, other = neighbours[t][ends_there ? (k + 2) % 3 : k];
+  if (other == kNone) return kNone;
+  const Corners& c = corners[other];
+  const std::int32_t next = corners[t][(k + (ends_there ? 2 : 1)) % 3];  // the side's other end
+  for (int m = 0; m < 3; ++m)
+    if (c[m] == next) return 3 * other + (ends_there ? m + 2 : m + 1) % 3;
+  return kNone;
 }
 
 }  // namespace
 
 std::vector<Corners> find_neighbours(std::span<const Corners> corners) {
   std::vector<Corners> result(corners.size(), {kNone, kNone, kNone});
-  const SideTable table = sides_by_node(corners);
+  SideTable table = sides_by_node(corners);
   for (std::size_t node = 0; node + 1 < table.offsets.size(); ++node)
-    for (std::int32_t i = table.offsets[node]; i < table.offsets[node + 1]; ++i) {
-      std::int32_t n_uses = 0, other = kNone;
-      for (std::int32_t j = table.offsets[node]; j < table.offsets[node + 1]; ++j) {
-        if (table.high[j] != table.high[i]) continue;
-        ++n_uses;
-        if (j != i) other = table.side[j];
-      }
-      const std::int32_t own = table.side[i];
-      if (n_uses == 2 && corners[own / 3][own % 3] != corners[other / 3][other % 3])
-        result[own / 3][own % 3] = other / 3;
+    for (std::int32_t i = table.offsets[node], end = table.offsets[node + 1]; i < end; ++i) {
+      const std::int32_t high = table.high[i], own = table.side[i];
+      if (high == kNone) continue;  // met before
+      std::int32_t n_uses = 1, other = kNone;
+      for (std::int32_t j = i + 1; j < end; ++j)
+        if (table.high[j] == high) {
+          ++n_uses;
+          other = table.side[j];
+          table.high[j] = kNone;
+        }
+      if (n_uses != 2 || corners[own / 3][own % 3] == corners[other / 3][other % 3]) continue;
+      result[own / 3][own % 3] = other / 3;
+      result[other / 3][other % 3] = own / 3;
     }
   return result;
+}
+
+std::vector<std::int32_t> find_fans(std::span<const Corners> corners, std::span<const Corners> neighbours) {
+  const auto n = static_cast<std::int32_t>(3 * corners.size());
+  std::vector<std::int32_t> fan(3 * corners.size(), kNone);
+  std::int32_t n_fans = 0;
+  for (std::int32_t first = 0; first < n; ++first) {
+    if (fan[first] != kNone) continue;
+    std::int32_t i = first;
+    do fan[i] = n_fans, i = corner_across(corners, neighbours, i, true);
+    while (i != kNone && fan[i] == kNone);
+    if (i == kNone)  // not all around
+      for (i = corner_across(corners, neighbours, first, false); i != kNone && fan[i] == kNone;
+           i = corner_across(corners, neighbours, i, false))
+        fan[i] = n_fans;
+    ++n_fans;
+  }
+  return fan;
 }
 
 std::size_t PatchTopology::outer_loop() const {
@@ -112,8 +130,12 @@ std::size_t PatchTopology::outer_loop() const {
 }
 
 PatchTopology find_topology(std::span<const Vec3> x, std::span<const Corners> corners) {
+  return find_topology(x, corners, find_neighbours(corners));
+}
+
+PatchTopology find_topology(std::span<const Vec3> x, std::span<const Corners> corners,
+                            std::span<const Corners> neighbours) {
   PatchTopology result;
-  const std::vector<Corners> neighbours = find_neighbours(corners);
   const auto n = static_cast<std::int32_t>(corners.size());
   DisjointSets parts(n);
   std::int64_t n_inner_sides = 0;
@@ -126,7 +148,9 @@ PatchTopology find_topology(std::span<const Vec3> x, std::span<const Corners> co
   for (std::int32_t t = 0; t < n; ++t) result.n_components += parts.find(t) == t;
   const auto n_nodes = static_cast<std::int64_t>(x.size());
   std::vector<std::int32_t> next(x.size(), kNone);
-  result.is_manifold = follow_rim(corners, neighbours, next) && count_fans(corners, neighbours) == n_nodes;
+  std::int32_t last_fan = kNone;
+  for (const std::int32_t fan : find_fans(corners, neighbours)) last_fan = std::max(last_fan, fan);
+  result.is_manifold = follow_rim(corners, neighbours, next) && last_fan + 1 == n_nodes;  // one at each node
   add_loops(x, std::move(next), result);
   const std::int64_t n_edges = 3 * std::int64_t{n} - n_inner_sides / 2, euler = n_nodes - n_edges + n;
   result.genus =

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/shape/known_neighbours.h"
 #include "unit/geometry/chart_models.h"
 
 namespace st {
@@ -54,6 +55,17 @@ TEST(PatchNeighbours, are_none_where_a_side_is_used_thrice_or_twice_the_same_way
   EXPECT_TRUE(none({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}));
   EXPECT_TRUE(none({{0, 1, 2}, {0, 1, 3}}));
   EXPECT_FALSE(none({{0, 1, 2}, {1, 0, 3}}));
+}
+
+TEST(PatchFans, are_one_at_a_node_and_two_where_a_line_parts_them) {
+  // four triangles around node 4 of a square, then the two sides at it between the left and the right half parted
+  const std::vector<Corners> corners{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  std::vector<Corners> neighbours = find_neighbours(corners);
+  const std::vector<std::int32_t> whole = find_fans(corners, neighbours);
+  EXPECT_EQ(whole, (std::vector<std::int32_t>{0, 1, 2, 1, 3, 2, 3, 4, 2, 4, 0, 2}));
+  neighbours[0][1] = neighbours[1][2] = neighbours[2][1] = neighbours[3][2] = kNone;
+  const std::vector<std::int32_t> parted = find_fans(corners, neighbours);
+  EXPECT_EQ(parted, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 4, 6, 5, 7, 0, 2}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/threads.h"
 #include "geometry/facet/facet_faces.h"
 #include "geometry/shape/flatten.h"
 #include "unit/geometry/facet_inputs.h"
@@ -25,7 +26,7 @@ void expect_charts(const FacetMesh& mesh) {
     std::vector<std::int32_t> own;
     for (std::int32_t t = 0; t < mesh.n_triangles(); ++t)
       if (mesh.face[t] == f) own.push_back(t);
-    const std::vector<FacetPatch> patches = find_patches(mesh, own);
+    const std::vector<FacetPatch> patches = PatchFinder(mesh).find(own);
     ASSERT_EQ(patches.size(), 1u);
     const FacetPatch& p = patches.front();
     std::vector<Vec2> uv(p.x.size());
@@ -58,6 +59,15 @@ TEST(FacetCuts, of_many_facets_are_those_of_few) {
   const FacetMesh few = charts_of(test::torus_facets(48, 24)), many = charts_of(test::torus_facets(320, 160));
   EXPECT_LE(n_charts(many), n_charts(few));
   expect_charts(many);
+}
+
+TEST(FacetCuts, are_the_same_at_any_number_of_threads) {
+  const FacetInput torus = test::torus_facets(320, 160);
+  const FacetMesh one = charts_of(torus);
+  set_thread_count(3);
+  const FacetMesh three = charts_of(torus);
+  set_thread_count(1);
+  EXPECT_TRUE(one.face == three.face && one.corners == three.corners && one.uv == three.uv && one.x == three.x);
 }
 
 TEST(FacetCuts, keep_the_surface) {
