@@ -1,8 +1,8 @@
 // fuzz_readers --reader=NAME [libFuzzer's options] [CORPUS_DIR]: what own code reads, in one process, led by coverage.
 //
-// Text readers (stl msh vtu vtkhdf fro bac toml groups sizes flite) get the bytes as a file. Readers of artifacts
-// (geometry raster sizing patches mesh) get a good artifact, ST_FUZZ_SEEDS/NAME.hdf, with edits that the bytes tell:
-// 12 bytes each, see Edit. Checksums fit then, so that readers have to check what they use themselves.
+// Text readers (stl obj ply msh vtu vtkhdf fro bac toml groups sizes flite) get the bytes as a file. Readers of
+// artifacts (geometry raster sizing patches mesh) get a good artifact, ST_FUZZ_SEEDS/NAME.hdf, with edits that the
+// bytes tell: 12 bytes each, see Edit. Checksums fit then, so that readers have to check what they use themselves.
 #include <unistd.h>
 #include <cstdint>
 #include <cstdio>
@@ -46,6 +46,8 @@ void ask_sizes(const std::string& path) {
 
 const std::map<std::string, Reader> kReaders{
     {"stl", {".stl", [](const std::string& p) { st::read_triangulation(p); }}},
+    {"obj", {".obj", [](const std::string& p) { st::read_triangulation(p); }}},
+    {"ply", {".ply", [](const std::string& p) { st::read_triangulation(p); }}},
     {"msh", {".msh", [](const std::string& p) { st::read_triangulation(p); }}},
     {"vtu",
      {".vtu",

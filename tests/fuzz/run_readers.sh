@@ -11,7 +11,7 @@ build=$(cd "$1" && pwd) bin=$2 model=$3 seconds=$4
 shift 4
 readers=("$@")
 if [ ${#readers[@]} -eq 0 ]; then
-  readers=(stl msh vtu vtkhdf fro bac toml groups sizes flite geometry raster sizing patches mesh)
+  readers=(stl obj ply msh vtu vtkhdf fro bac toml groups sizes flite geometry raster sizing patches mesh)
 fi
 root=$(cd "$(dirname "$0")/../.." && pwd)
 work=$build/corpus
@@ -34,6 +34,12 @@ seed() { # READER
     bac) "$bin/st-export" sizing.hdf -o "$work/$1/good.bac" -q ;;
     vtkhdf) cp "$root/tests/fuzz/seeds/box.vtkhdf.hdf" "$work/$1" ;;
     toml) printf '[[source]]\ntype = "line"\npoints = [[0, 0, 0], [30, 8, 0]]\nlength = ["5mm", 2]\nradius = 0.3\n' ;;
+    obj) printf 'g a\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2//2 3\ng b\nf -4 -2 -1\nf 1 2 3 4\n' ;;
+    ply)
+      printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n'
+      printf 'element face 2\nproperty list uchar int vertex_indices\nend_header\n'
+      printf '0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n'
+      ;;
     groups) printf '[[group]]\nname = "a"\nfaces = [1, "3-5"]\n' ;;
     sizes) printf '[[size]]\nfaces = ["1"]\nlmax = 0.2\nalpha = 10\n[[size]]\ngroups = ["b"]\nlmin = "1%%"\n' ;;
   esac > "$work/$1/good.text"

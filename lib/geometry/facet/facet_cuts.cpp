@@ -1,7 +1,5 @@
 #include "geometry/facet/facet_cuts.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,8 +7,8 @@
 #include <utility>
 
 #include "base/eigen.h"
-#include "base/error.h"
 #include "base/threads.h"
+#include "geometry/facet/facet_cones.h"
 #include "geometry/shape/flatten.h"
 #include "geometry/shape/flatten_coarse.h"
 #include "geometry/shape/known_neighbours.h"
@@ -28,6 +26,8 @@ constexpr std::size_t kSampled = 10000;  // triangles that tell where a cut may 
 constexpr double kSharpRim = 0.9 * 2 * kPi;  // radians
 constexpr std::size_t kLarge = 20000;        // triangles: a piece to be cut again and again is halved
 constexpr std::size_t kSolved = 5000;        // triangles: larger patches are flattened by way of a coarse one
+constexpr double kStubborn = 0.7;            // of the triangles: a cut that leaves more on one side is in vain
+constexpr int kMostInVain = 6;               // such cuts of a piece and of what it was: a fold stays, however small
 constexpr double kShares[] = {0.5, 0.4, 0.6, 0.3, 0.7};  // of the area on one side
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -225,9 +225,10 @@ std::optional<std::vector<Vec2>> lay_flat(const FacetPatch& patch, const PatchTo
   return flatten(patch.x, patch.corners, topology);
 }
 
-/// A piece with its parameters, or with the plane that cuts it; with neither where nothing helps.
+/// A piece with its parameters, or with the plane that cuts it; with neither where no plane helps.
 struct Piece {
   FacetPatch patch;
+  int n_in_vain;
   std::optional<std::vector<Vec2>> uv;
   std::optional<CutPlane> plane;
 
@@ -235,7 +236,16 @@ struct Piece {
     const PatchTopology topology = find_topology(patch.x, patch.corners, patch.neighbours);
     const std::int32_t sharpest = sharpest_rim_node(patch, topology);
     uv = lay_flat(patch, topology, sharpest != kNone);
-    if (!uv) plane = best_cut(patch, topology, sharpest);
+    if (!uv && patch.corners.size() == 1) uv = lay_alone();
+    if (!uv && n_in_vain < kMostInVain && !is_folded(patch)) plane = best_cut(patch, topology, sharpest);
+  }
+
+  std::vector<Vec2> lay_alone() const {
+    const Corners& c = patch.corners.front();
+    const std::array<Vec2, 3> place = lay_triangle(patch.x[c[0]], patch.x[c[1]], patch.x[c[2]]);
+    std::vector<Vec2> result(3);
+    for (int k = 0; k < 3; ++k) result[c[k]] = place[k];
+    return result;
   }
 };
 
@@ -255,8 +265,15 @@ class Cutter {
  private:
   /// Triangles that hang together or not.
   struct Group {
-    std::int32_t parent = kNone;  ///< number of the piece that was cut
     std::vector<std::int32_t> triangles;
+    std::int32_t parent = kNone;  ///< number of the piece that was cut
+    std::size_t n_before = 0;     ///< triangles of that; 0: it was parted without a plane
+    int n_in_vain = 0;
+
+    int n_in_vain_of(const FacetPatch& patch) const {
+      const bool is_stubborn = static_cast<double>(patch.corners.size()) > kStubborn * static_cast<double>(n_before);
+      return n_in_vain + (n_before > 0 && is_stubborn ? 1 : 0);
+    }
   };
 
   std::vector<Group> run_round(std::vector<Group> groups) {
@@ -265,7 +282,7 @@ class Cutter {
       PatchFinder finder(mesh_);
       for (std::size_t g = begin; g < end; ++g) {
         for (FacetPatch& patch : finder.find(std::move(groups[g].triangles)))
-          pieces[g].push_back({std::move(patch), {}, {}});
+          pieces[g].push_back({std::move(patch), groups[g].n_in_vain_of(patch), {}, {}});
         parallel_for(pieces[g].size(), 1, [&](std::size_t i, std::size_t) { pieces[g][i].work(); });
       }
     });
@@ -276,7 +293,7 @@ class Cutter {
     std::int32_t number = first;
     for (std::vector<Piece>& of_group : pieces)
       for (Piece& piece : of_group) {
-        if (!is_chart_[number]) next.push_back({number, cut(std::exchange(piece, {}), number)});
+        if (!is_chart_[number]) next.push_back(cut(std::exchange(piece, {}), number));
         ++number;
       }
     for (Group& group : next) {
@@ -299,21 +316,32 @@ class Cutter {
     piece = {};
   }
 
-  /// Its triangles after that.
-  std::vector<std::int32_t> cut(Piece piece, std::int32_t number) {
+  /// What it is after that. Without a plane it is parted along sides of its triangles.
+  Group cut(Piece piece, std::int32_t number) {
     FacetPatch& patch = piece.patch;
-    if (!piece.plane) fail(patch);
     if (!added_[number].empty()) {  // cuts of others have divided triangles at its rim
       std::vector<std::int32_t> triangles = std::exchange(added_[number], {});
       triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
       patch = std::move(finder_.find(std::move(triangles)).front());
     }
+    Group after{{}, number, piece.plane ? patch.corners.size() : 0, piece.n_in_vain};
     const std::int32_t n_before = mesh_.n_triangles();
-    divider_.divide(patch, piece.plane->heights_of(patch));
-    std::vector<std::int32_t> own = std::move(patch.triangles);
+    if (piece.plane)
+      divider_.divide(patch, piece.plane->heights_of(patch));
+    else
+      part(patch);
+    after.triangles = std::move(patch.triangles);
     for (std::int32_t t = n_before; t < mesh_.n_triangles(); ++t)
-      (mesh_.face[t] == number ? own : added_[mesh_.face[t]]).push_back(t);
-    return own;
+      (mesh_.face[t] == number ? after.triangles : added_[mesh_.face[t]]).push_back(t);
+    return after;
+  }
+
+  void part(const FacetPatch& patch) {
+    const std::vector<std::int32_t> group = part_by_normals(patch);
+    for (std::size_t i = 0; i < group.size(); ++i)
+      for (int k = 0; k < 3; ++k)
+        if (const std::int32_t other = patch.neighbours[i][k]; other != kNone && group[other] != group[i])
+          mesh_.is_line[patch.triangles[i]][k] = 1;
   }
 
   /// The first region first; of the parts of a piece the last one.
@@ -332,14 +360,6 @@ class Cutter {
       open.insert(open.end(), parts[piece].begin(), parts[piece].end());
     }
     for (std::int32_t& face : mesh_.face) face = chart[face];
-  }
-
-  [[noreturn]] void fail(const FacetPatch& patch) const {
-    const Vec3 x = patch.x.front();
-    throw Error(
-        ExitCode::kGeometry,
-        fmt::format("{} facets at ({:.6g}, {:.6g}, {:.6g}) cannot be laid into a plane; repair the facets there",
-                    patch.corners.size(), x.x, x.y, x.z));
   }
 
   static constexpr std::size_t kFinders = 64;  // at most so many at once: each knows all nodes

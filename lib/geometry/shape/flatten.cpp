@@ -490,6 +490,13 @@ double largest_stretch(std::span<const Vec3> x, std::span<const Corners> corners
   return largest;
 }
 
+std::array<Vec2, 3> lay_triangle(Vec3 a, Vec3 b, Vec3 c) {
+  const Vec3 ab = b - a, ac = c - a;
+  const double least = kLeastHeight * std::sqrt(std::max({norm2(ab), norm2(ac), norm2(ac - ab)}));
+  const double base = std::max(norm(ab), least);
+  return {Vec2{0, 0}, Vec2{base, 0}, Vec2{dot(ab, ac) / base, std::max(norm(cross(ab, ac)) / base, least)}};
+}
+
 std::optional<std::vector<Vec2>> unroll(std::span<const Vec3> x, std::span<const Corners> corners,
                                         const PatchTopology& topology) {
   if (auto p = project(x, corners, topology)) return p;

@@ -1,6 +1,7 @@
 // Parameters for a triangulated patch: a plane map of it without flips and with little distortion.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -23,6 +24,9 @@ inline constexpr double kMostStretch = 10;
 /// The same input gives the same bits. Cost: microseconds per triangle for a projection, else up to a millisecond.
 std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<const Corners> corners,
                                          const PatchTopology& topology);
+
+/// A triangle alone, as it is; flatter than 1e-3 of its longest side it is taken to be so high.
+std::array<Vec2, 3> lay_triangle(Vec3 a, Vec3 b, Vec3 c);
 
 /// flatten() without solving: the patch is projected, or its triangles are laid into the plane one by one across their
 /// sides, where that changes them little. Precondition: is_disc_with_holes().

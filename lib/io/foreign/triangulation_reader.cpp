@@ -18,10 +18,10 @@
 namespace st {
 namespace {
 
-enum class Format { kNone, kHdf5, kMsh, kVtu, kStl, kFro };
+enum class Format { kNone, kHdf5, kMsh, kVtu, kStl, kFro, kObj, kPly };
 
 constexpr const char* kHdf5Signature = "\x89HDF\r\n\x1a\n";
-constexpr std::size_t kHead = 512;                       // bytes from which a format is known
+constexpr std::size_t kHead = 8192;                      // bytes from which a format is known; OBJ begins with remarks
 constexpr std::size_t kStlHeader = 84, kStlRecord = 50;  // of binary STL
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
@@ -56,6 +56,8 @@ Format format_of(std::string_view head, std::uint64_t file_size) {
   if (head.starts_with("<?xml") || head.starts_with("<VTKFile"))
     return head.find("VTKFile") != std::string_view::npos ? Format::kVtu : Format::kNone;
   if (head.starts_with("solid")) return Format::kStl;
+  if (is_ply(head)) return Format::kPly;
+  if (is_obj(head)) return Format::kObj;
   const std::size_t end = head.find('\n');
   return end != std::string_view::npos && is_fro_header(head.substr(0, end)) ? Format::kFro : Format::kNone;
 }
@@ -103,6 +105,8 @@ void number_faces(const TriangulationFile& file, const std::vector<std::size_t>&
       mesh.triangle_face.push_back(
           static_cast<FaceId>(std::lower_bound(numbers.begin(), numbers.end(), file.surface[t]) - numbers.begin()));
     n_faces = static_cast<std::int32_t>(numbers.size());
+    for (const std::int64_t n : numbers)
+      if (!file.surface_name.empty()) mesh.labels.face_name.push_back(file.surface_name[n]);
   } else {
     const std::vector<std::int32_t> part = node_components(mesh.triangles, mesh.n_nodes(), n_faces);
     for (const Triangle& t : mesh.triangles) mesh.triangle_face.push_back(part[t.n[0]]);
@@ -161,6 +165,10 @@ std::string triangulation_format(const std::string& path) {
       return "a VTK mesh";
     case Format::kFro:
       return "a FLITE .fro mesh";
+    case Format::kObj:
+      return "an OBJ mesh";
+    case Format::kPly:
+      return "a PLY mesh";
     case Format::kHdf5:
     case Format::kNone:
       break;
@@ -191,6 +199,10 @@ SurfaceMesh read_triangulation(const std::string& path) {
       return make_mesh(path, parse_vtu(path, read_bytes(path)));
     case Format::kFro:
       return make_mesh(path, parse_fro(path, read_bytes(path)));
+    case Format::kObj:
+      return make_mesh(path, parse_obj(path, read_bytes(path)));
+    case Format::kPly:
+      return make_mesh(path, parse_ply(path, read_bytes(path)));
     case Format::kStl: {
       SurfaceMesh mesh = read_stl(path);
       if (size != whole_stl_size(head)) require_whole_text_stl(path);
@@ -200,7 +212,7 @@ SurfaceMesh read_triangulation(const std::string& path) {
       break;
   }
   fail_if_cut_stl(path, head, size);
-  fail(path, "not a mesh of a known format; give STL, Gmsh MSH 2.2 or 4.1, VTU, .fro or a mesh artifact");
+  fail(path, "not a mesh of a known format; give STL, Gmsh MSH 2.2 or 4.1, VTU, .fro, OBJ, PLY or a mesh artifact");
 }
 
 }  // namespace st
