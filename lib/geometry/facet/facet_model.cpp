@@ -218,7 +218,9 @@ class FacetModelMaker {
     const Vec3 normal = normalized(sum);
     for (const Vec3 x : chart.x) aside = std::max(aside, std::abs(dot(x - chart.x[0], normal)));
     for (const EdgeId e : tables_.edges_of(f)) perimeter += tables_.edge_length[e];
-    tables_.face_type.push_back(std::max(aside, stretch) <= tolerance_ ? SurfaceType::kPlane : SurfaceType::kOther);
+    const bool faces_one_way = 2 * norm(sum) > area;  // the skin of a wing, rolled out, has no normal
+    tables_.face_type.push_back(faces_one_way && std::max(aside, stretch) <= tolerance_ ? SurfaceType::kPlane
+                                                                                        : SurfaceType::kOther);
     tables_.face_area.push_back(area);
     tables_.face_width.push_back(rectangle_width(area, perimeter));
     tables_.face_box.push_back(box);

@@ -10,6 +10,7 @@
 #include "geometry/facet/facet_cuts.h"
 #include "geometry/facet/facet_faces.h"
 #include "geometry/facet/facet_model.h"
+#include "geometry/facet/facet_points.h"
 #include "geometry/facet/facet_repair.h"
 #include "geometry/import/facet_air.h"
 #include "geometry/import/half_model.h"
@@ -83,6 +84,7 @@ ImportResult import_facets(FacetInput input, const ImportOptions& options, const
   ImportResult result;
   result.format = "facets";
   try {
+    join_equal_points(input);
     result.findings = repair_facets(input);
     FacetMesh mesh = find_smooth_faces(input, radians(options.feature_deg));
     if (plane || far) make_flow_domain(mesh, input.part_name, plane, far, result.findings);

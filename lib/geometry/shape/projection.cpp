@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/shape/samples.h"
 #include "geometry/shape/surface_forms.h"
@@ -22,7 +23,9 @@ struct Start {
 };
 
 /// The closest first, at most kStarts.
+/// The first sample where none is nearest: distances that are not finite.
 void keep_closest(std::vector<Start>& starts) {
+  if (starts.empty()) starts.push_back({std::numeric_limits<double>::infinity(), 0});
   std::sort(starts.begin(), starts.end());
   if (starts.size() > kStarts) starts.resize(kStarts);
 }

@@ -93,6 +93,17 @@ TEST(FacetModel, has_planes_through_all_nodes_of_their_faces) {
     ASSERT_LE(distance(surface->point(chart.uv[n]), chart.x[n]), 2e-6) << n;
 }
 
+// The normals of a closed skin add up to nothing, so that all nodes are in every plane across them.
+TEST(FacetModel, takes_the_skin_of_a_wing_for_no_plane) {
+  constexpr int kAround = 64;
+  const FacetModel m = model_of(test::grid_facets(kAround, 3, [](int i, int j) {
+    const double a = 2 * kPi * (i % kAround) / kAround, chord = 0.5 * (1 + std::cos(a));
+    return Vec3{chord, 1.0 * j, -0.6 * std::sqrt(chord) * (1 - chord) * (std::sin(a) < 0 ? -1 : 1)};
+  }));
+  ASSERT_EQ(m.tables.n_faces(), 1);
+  EXPECT_EQ(m.tables.face_type[0], SurfaceType::kOther);
+}
+
 TEST(FacetModel, has_groups_by_the_names_of_parts) {
   FacetInput in = test::cube_facets();
   in.part_name = {"body", "inlet", ""};
