@@ -207,16 +207,23 @@ class Blanker {
     sheet_.resize(cut_.leaf.size());
     if (!open_edges_.empty()) return;
     std::vector<Vec3> normal(surface_.triangles.size());
-    for (std::size_t t = 0; t < normal.size(); ++t) normal[t] = flow_sign_ * normal_of(static_cast<TriangleId>(t));
-    for (std::int32_t i = 0; i < cut_.n_cut(); ++i) {
-      Vec3 sum;
-      for (const TriangleId t : cut_.triangles(i)) sum += normal[t];
-      if (!(norm2(sum) > 0)) continue;
-      const Vec3 mean = normalized(sum);
-      const auto looks_along = [&](TriangleId t) { return dot(normal[t], mean) > kSheetCosine; };
-      const std::span<const TriangleId> all = cut_.triangles(i);
-      if (std::all_of(all.begin(), all.end(), looks_along)) sheet_[i] = mean;
-    }
+    parallel_for(normal.size(), kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) normal[t] = flow_sign_ * normal_of(static_cast<TriangleId>(t));
+    });
+    parallel_for(sheet_.size(), kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i)
+        sheet_[i] = sheet_of(cut_.triangles(static_cast<std::int32_t>(i)), normal);
+    });
+  }
+
+  /// Zero where they look different ways.
+  static Vec3 sheet_of(std::span<const TriangleId> triangles, const std::vector<Vec3>& normal) {
+    Vec3 sum;
+    for (const TriangleId t : triangles) sum += normal[t];
+    if (!(norm2(sum) > 0)) return {};
+    const Vec3 mean = normalized(sum);
+    const auto looks_along = [&](TriangleId t) { return dot(normal[t], mean) > kSheetCosine; };
+    return std::all_of(triangles.begin(), triangles.end(), looks_along) ? mean : Vec3{};
   }
 
   /// Zero for a triangle without area.

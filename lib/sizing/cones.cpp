@@ -11,8 +11,10 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/radix_sort.h"
+#include "base/threads.h"
 #include "sizing/cone_cell.h"
 #include "sizing/cone_faces.h"
+#include "sizing/cone_site.h"
 
 namespace st {
 namespace {
@@ -23,6 +25,8 @@ constexpr ConeShares kSpreadShares{0.99F, 0.99F};
 constexpr ConeShares kOwnShares{0.997F, 0.99F};
 
 class ConeSpread {
+  using Site = ConeSite;
+
  public:
   ConeSpread(const Neighbours& neighbours, std::span<const LengthSample> samples, std::span<const float> slope,
              double max_length, const Blanking* blanking)
@@ -39,12 +43,8 @@ class ConeSpread {
     sites_.reserve(n);
     prefer_large_pages(sites_.data(), n * sizeof(Site));
     sites_.resize(n);
-    for (std::size_t site = 0; site < n; ++site) sites_[site].cell = cell_of(static_cast<std::int32_t>(site));
     holds_sample_.resize(n);
-    for (Site& site : sites_) {
-      site.best.fill(four(largest_));
-      site.winner.fill(Int4{} + kNone);
-    }
+    find_beside();
   }
 
   void run() {
@@ -91,74 +91,51 @@ class ConeSpread {
   }
 
  private:
+  static constexpr std::size_t kSitesPerPiece = 2'048;
+  /// Of the sites of a piece of a loop.
+  struct Pruning {
+    std::vector<std::int32_t> kept, end;  // samples; of each site the one after its last
+    std::vector<std::int32_t> near;       // of the site at hand
+  };
   struct Event {
     std::int32_t site, sample;
     std::int32_t n;  // samples of the site with it; 0: it lies there and is not taken yet
   };
   static constexpr std::size_t kAhead = 4;  // events
-  /// What an offer needs comes first.
-  struct alignas(64) Site {
-    static constexpr std::int32_t kOwn = 8;
-
-    ConeCell cell;
-    Lengths best;               // smallest at the probes
-    std::int32_t n = 0;         // its samples, in order
-    std::int32_t more = kNone;  // the last of those beyond `own`, into entries_
-    std::int32_t n_refused = 0;
-    std::uint64_t may_have = 0;  // a bit for each of its samples, the same one for some
-    std::array<Int4, 2> own{Int4{} + kNone, Int4{} + kNone};
-    Int4 refused = Int4{} + kNone;                 // the last samples that were, which others may offer again
-    std::array<Int4, kGroups> winner;              // the sample of `best`; kNone: the largest length
-    std::pair<std::int32_t, std::int32_t> beside;  // first and after the last in beside_
-
-    [[gnu::always_inline]] void fetch() const {
-      constexpr std::size_t kLine = 64;  // bytes of the cache
-      for (std::size_t at = 0; at < sizeof(Site); at += kLine)
-        __builtin_prefetch(reinterpret_cast<const std::byte*>(this) + at);
-    }
-    std::int32_t own_sample(std::int32_t i) const { return own[i / 4][i % 4]; }
-    static std::uint64_t bit_of(std::int32_t sample) {
-      return std::uint64_t{1} << (static_cast<std::uint32_t>(sample) * 0x9E3779B1U >> 26);
-    }
-    /// At the corner closest to a cone.
-    std::int32_t winner_towards(const Cone& cone) const {
-      return winner[cone.x[2] > cell.c[2]][(cone.x[0] > cell.c[0]) + 2 * (cone.x[1] > cell.c[1])];
-    }
-    /// The sides with a probe where a sample wins.
-    std::int32_t sides_won(std::int32_t sample) const {
-      constexpr Int4 kSides[kGroups] = {{1 + 4 + 16, 2 + 4 + 16, 1 + 8 + 16, 2 + 8 + 16},
-                                        {1 + 4 + 32, 2 + 4 + 32, 1 + 8 + 32, 2 + 8 + 32},
-                                        {1, 2, 4, 8},
-                                        {16, 32, 0, 0}};
-      Int4 sides{};
-      for (int g = 0; g < kGroups; ++g) sides |= (winner[g] == sample) & kSides[g];
-      return sides[0] | sides[1] | sides[2] | sides[3];
-    }
-    bool is_winner(std::int32_t sample) const {
-      return is_any((winner[0] == sample) | (winner[1] == sample) | (winner[2] == sample) | (winner[3] == sample));
-    }
-  };
   SiteGraph make_graph() {
     SiteGraph graph;
     graph.cell.reserve(sites_.size());
     graph.of_beside.reserve(sites_.size());
-    for (std::size_t site = 0; site < sites_.size(); ++site) {
-      graph.cell.push_back(sites_[site].cell);
-      graph.of_beside.push_back(beside(static_cast<std::int32_t>(site)));
+    for (const Site& site : sites_) {
+      graph.cell.push_back(site.cell);
+      graph.of_beside.push_back(site.beside);
     }
     graph.beside = beside_;
     graph.holds_sample = std::move(holds_sample_);
     return graph;
   }
 
-  SiteSamples pruned_sites() {
+  SiteSamples pruned_sites() const {
     constexpr int kCenter = kProbes - 1;
+    std::vector<Pruning> pieces((sites_.size() + kSitesPerPiece - 1) / kSitesPerPiece);
+    parallel_for(sites_.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      Pruning& own = pieces[begin / kSitesPerPiece];
+      for (std::size_t site = begin; site < end; ++site) prune(sites_[site], own);
+    });
     SiteSamples kept;
-    for (std::size_t site = 0; site < sites_.size(); ++site) {
-      for (const std::int32_t s : pruned(static_cast<std::int32_t>(site))) kept.sample.push_back(s);
-      kept.first.push_back(static_cast<std::int32_t>(kept.sample.size()));
-      kept.at_center.push_back(sites_[site].winner[kCenter / 4][kCenter % 4]);
-      kept.center_length.push_back(sites_[site].best[kCenter / 4][kCenter % 4]);
+    std::size_t n = 0;
+    for (const Pruning& own : pieces) n += own.kept.size();
+    kept.sample.reserve(n);
+    for (const Pruning& own : pieces) {
+      const auto first = static_cast<std::int32_t>(kept.sample.size());
+      kept.sample.insert(kept.sample.end(), own.kept.begin(), own.kept.end());
+      for (const std::int32_t end : own.end) kept.first.push_back(first + end);
+    }
+    kept.at_center.reserve(sites_.size());
+    kept.center_length.reserve(sites_.size());
+    for (const Site& site : sites_) {
+      kept.at_center.push_back(site.winner[kCenter / 4][kCenter % 4]);
+      kept.center_length.push_back(site.best[kCenter / 4][kCenter % 4]);
     }
     return kept;
   }
@@ -228,7 +205,7 @@ class ConeSpread {
     float least = 0;
     if (e.n == 0 && !offer(site, sample, kOwnShares, least)) return;
     if (e.n != 0 && sites_[site].n != e.n && !sites_[site].is_winner(sample)) return;
-    const auto [first, last] = beside(site);
+    const auto [first, last] = sites_[site].beside;
     const std::int32_t ahead = sides_ahead(sites_[site], sample);
     for (std::int32_t k = first; k < last; ++k) {
       const auto [other, towards] = beside_[k];
@@ -246,23 +223,45 @@ class ConeSpread {
     return is_near ? sides : sides & (SiteBeside::kAlways | s.sides_won(sample));
   }
 
-  /// Where the sites begin and end in `beside_` that lie across the faces of this one: a corner that a sample wins
-  /// belongs to those, too. Beside a surface ways are not straight. Found when first asked for.
-  std::pair<std::int32_t, std::int32_t> beside(std::int32_t site) {
-    auto& [first, last] = sites_[site].beside;
-    if (last > first) return {first, last};
-    first = static_cast<std::int32_t>(beside_.size());
+  /// Sets the cells of all sites, and which sites lie across their faces: a corner that a sample wins belongs to those,
+  /// too. Beside a surface ways are not straight.
+  void find_beside() {
+    std::vector<std::vector<SiteBeside>> found((sites_.size() + kSitesPerPiece - 1) / kSitesPerPiece);
+    parallel_for(sites_.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      std::vector<SiteBeside>& own = found[begin / kSitesPerPiece];
+      own.reserve(8 * (end - begin));
+      for (std::size_t i = begin; i < end; ++i) {
+        Site& site = sites_[i];
+        site.cell = cell_of(static_cast<std::int32_t>(i));
+        site.best.fill(four(largest_));
+        site.winner.fill(Int4{} + kNone);
+        site.beside.first = static_cast<std::int32_t>(own.size());
+        add_beside(static_cast<std::int32_t>(i), own);
+        site.beside.second = static_cast<std::int32_t>(own.size());
+      }
+    });
+    std::size_t n = 0;
+    for (const auto& own : found) n += own.size();
+    require_countable(n, "cells beside cells");
+    beside_.reserve(n);
+    for (std::size_t i = 0, first = 0; i < sites_.size(); ++i) {
+      if (i % kSitesPerPiece == 0) {
+        const std::vector<SiteBeside>& own = found[i / kSitesPerPiece];
+        first = beside_.size();
+        beside_.insert(beside_.end(), own.begin(), own.end());
+      }
+      sites_[i].beside.first += static_cast<std::int32_t>(first);
+      sites_[i].beside.second += static_cast<std::int32_t>(first);
+    }
+  }
+
+  void add_beside(std::int32_t site, std::vector<SiteBeside>& all) const {
     if (!blanking_ || blanking_->site_links[site] == kNone)
-      neighbours_.for_each_across_side(site, [&](std::int32_t other, int side) {
-        beside_.push_back({other, 1 << side});
-      });
+      neighbours_.for_each_across_side(site, [&](std::int32_t other, int side) { all.push_back({other, 1 << side}); });
     else
       for_each_link_across_face(*blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) {
-        beside_.push_back({other, SiteBeside::kAlways});
+        all.push_back({other, SiteBeside::kAlways});
       });
-    require_countable(beside_.size(), "cells beside cells");
-    last = static_cast<std::int32_t>(beside_.size());
-    return {first, last};
   }
 
   static std::size_t bucket_bits(float length) { return std::bit_cast<std::uint32_t>(length) >> 20; }
@@ -326,33 +325,32 @@ class ConeSpread {
                                  std::min(s.n, Site::kOwn), entries_.data(), s.more});
   }
 
-  /// Those of the site that win at a probe, or clearly where the site is close to them.
-  const std::vector<std::int32_t>& pruned(std::int32_t site) {
-    const Site& s = sites_[site];
-    kept_.clear();
-    near_.clear();
+  /// Keeps those of the site that win at a probe, or clearly where the site is close to them.
+  void prune(const Site& s, Pruning& own) const {
+    const std::size_t first = own.kept.size();
+    own.near.clear();
     any_sample(s, [&](std::int32_t sample) {
       if (s.is_winner(sample))
-        kept_.push_back(sample);
+        own.kept.push_back(sample);
       else if (kernels_.is_near(s.cell.numbers(), cones_[sample].numbers()))
-        near_.push_back(sample);
+        own.near.push_back(sample);
       return false;
     });
-    std::sort(near_.begin(), near_.end(), [&](std::int32_t a, std::int32_t b) {
+    std::sort(own.near.begin(), own.near.end(), [&](std::int32_t a, std::int32_t b) {
       return cones_[a].length != cones_[b].length ? cones_[a].length < cones_[b].length : a < b;
     });
-    for (const std::int32_t sample : near_) {
+    for (const std::int32_t sample : own.near) {
       const KnownCones known{cones_.front().numbers(),
                              s.winner_towards(cones_[sample]),  // kept as all winners; most are beaten by it
                              kNone,
-                             kept_.data(),
-                             static_cast<std::int32_t>(kept_.size()),
+                             own.kept.data() + first,
+                             static_cast<std::int32_t>(own.kept.size() - first),
                              nullptr,
                              kNone};
       if (kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), kOwnShares.nearby, largest_, known))
-        kept_.push_back(sample);
+        own.kept.push_back(sample);
     }
-    return kept_;
+    own.end.push_back(static_cast<std::int32_t>(own.kept.size()));
   }
 
   const Neighbours& neighbours_;
@@ -369,7 +367,6 @@ class ConeSpread {
   std::vector<SampleLink> entries_;  // of sites with many samples
   std::vector<std::vector<Event>> buckets_;
   std::vector<Event> sorting_;
-  std::vector<std::int32_t> kept_, near_;
   std::size_t now_ = 0;
 };
 

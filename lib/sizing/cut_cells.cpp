@@ -6,11 +6,17 @@
 
 #include "base/axis.h"
 #include "base/predicates.h"
+#include "base/threads.h"
 
 namespace st {
 namespace {
 
 constexpr double kTouching = 1 + 1e-9;  // cells are that much larger: what touches them cuts them
+
+struct LeafTriangle {
+  std::int32_t leaf;
+  TriangleId triangle;
+};
 
 /// Finds the leaves of one triangle after the other.
 class TriangleWalk {
@@ -28,7 +34,7 @@ class TriangleWalk {
     const Vec3 center = octree_.lo + Vec3{half, half, half};
     if (meets_box(center, kTouching * half)) descend(octree_.node_children.empty() ? ~0 : 0, center, half);
   }
-  std::vector<std::pair<std::int32_t, TriangleId>> found;  // leaf, triangle
+  std::vector<LeafTriangle> found;
 
  private:
   /// Halves of a cube that the triangle's box meets: a bit for each axis.
@@ -62,7 +68,7 @@ class TriangleWalk {
     }
     if (!meets_plane(center, kTouching * half)) return;
     if (node < 0) {
-      if (!is_apart(center, kTouching * half)) found.emplace_back(~node, triangle_);
+      if (!is_apart(center, kTouching * half)) found.push_back({~node, triangle_});
       return;
     }
     const double q = 0.5 * half;
@@ -106,18 +112,29 @@ class TriangleWalk {
 }  // namespace
 
 CutCells find_cut_cells(const OctreeView& octree, const SurfaceView& surface) {
-  TriangleWalk walk(octree, surface);
-  for (TriangleId t = 0; t < static_cast<TriangleId>(surface.triangles.size()); ++t) walk.visit(t);
+  constexpr std::size_t kPerPiece = 1'024;  // triangles
+  const std::size_t n = surface.triangles.size();
+  std::vector<std::vector<LeafTriangle>> found((n + kPerPiece - 1) / kPerPiece);
+  parallel_for(n, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    TriangleWalk walk(octree, surface);
+    for (std::size_t t = begin; t < end; ++t) walk.visit(static_cast<TriangleId>(t));
+    found[begin / kPerPiece] = std::move(walk.found);
+  });
   std::vector<std::int64_t> next(octree.leaf_keys.size(), 0);  // of each leaf its triangles, then where the next goes
-  for (const auto& [leaf, triangle] : walk.found) ++next[leaf];
+  std::size_t n_found = 0;
+  for (const auto& piece : found) {
+    n_found += piece.size();
+    for (const auto& [leaf, triangle] : piece) ++next[leaf];
+  }
   CutCells cells;
   for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
     if (next[leaf] == 0) continue;
     cells.leaf.push_back(leaf);
     cells.offsets.push_back(cells.offsets.back() + std::exchange(next[leaf], cells.offsets.back()));
   }
-  cells.triangle.resize(walk.found.size());
-  for (const auto& [leaf, triangle] : walk.found) cells.triangle[next[leaf]++] = triangle;  // triangles came ascending
+  cells.triangle.resize(n_found);
+  for (const auto& piece : found)  // triangles come ascending
+    for (const auto& [leaf, triangle] : piece) cells.triangle[next[leaf]++] = triangle;
   return cells;
 }
 

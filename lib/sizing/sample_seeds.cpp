@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/threads.h"
+
 namespace st {
 namespace {
 
@@ -145,26 +147,38 @@ void forget_samples(RasterOctree& octree) {
 
 void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
                        const std::function<void(std::int32_t, std::int32_t)>& f) {
+  constexpr std::size_t kPerPiece = 2'048;  // samples
   const OctreeView& octree = neighbours.octree();
   const auto key_at = [&](Vec3 x) { return morton::encode(octree.grid_point(x)); };
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto own = [&](std::int32_t site) { f(site, static_cast<std::int32_t>(i)); };
+  const auto for_each_site = [&](const LengthSample& sample, const auto& own) {
     const auto visit = [&](const LengthSample& s, std::int32_t leaf) {
       if (blanking)
         SiteVisitor(octree, neighbours, *blanking, own).visit(s, leaf);
       else
         own(leaf);
     };
-    const std::int32_t leaf = octree.find_leaf(key_at(samples[i].xyz));
-    visit(samples[i], leaf);
-    if (samples[i].reach == SampleReach{}) continue;
-    for (const Vec3 corner : corners_of(samples[i]))
+    const std::int32_t leaf = octree.find_leaf(key_at(sample.xyz));
+    visit(sample, leaf);
+    if (sample.reach == SampleReach{}) return;
+    for (const Vec3 corner : corners_of(sample))
       if (const std::uint64_t key = key_at(corner); !octree.leaf_contains(leaf, key)) {
-        LengthSample moved = samples[i];
+        LengthSample moved = sample;
         moved.xyz = corner;
         visit(moved, octree.find_leaf(key));
       }
-  }
+  };
+  struct Own {
+    std::int32_t site, sample;
+  };
+  std::vector<std::vector<Own>> found((samples.size() + kPerPiece - 1) / kPerPiece);
+  parallel_for(samples.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    std::vector<Own>& own = found[begin / kPerPiece];
+    own.reserve(4 * (end - begin));
+    for (std::size_t i = begin; i < end; ++i)
+      for_each_site(samples[i], [&](std::int32_t site) { own.push_back({site, static_cast<std::int32_t>(i)}); });
+  });
+  for (const std::vector<Own>& piece : found)
+    for (const Own& own : piece) f(own.site, own.sample);
 }
 
 }  // namespace st

@@ -143,9 +143,20 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       check_volume(f.topology, f.measure, f.unit)};
 }
 
-/// Everything that is measured: jobs that do not depend on each other, the longest first. `cad`, `field`: may be null.
-void measure(const SurfaceMesh& mesh, const TriangleCorners& corners, const CadSide* cad, const SizeField* field,
-             Progress& progress, Findings& f) {
+/// The mesh as it is checked, what its file had that it has no more, and what it is checked against.
+struct CheckedMesh {
+  MeshArtifact artifact;
+  Defects turned;                ///< edges of a foreign mesh whose triangles face opposite ways: association turns them
+  std::unique_ptr<CadSide> cad;  ///< null: not given
+  std::unique_ptr<SizeField> field;  ///< null: not given
+  std::vector<WingRecord> wings;     ///< lifting surfaces that the sizes know
+};
+
+/// Everything that is measured: jobs that do not depend on each other, the longest first.
+void measure(const CheckedMesh& checked, const TriangleCorners& corners, Progress& progress, Findings& f) {
+  const SurfaceMesh& mesh = checked.artifact.mesh;
+  const CadSide* cad = checked.cad.get();
+  const SizeField* field = checked.field.get();
   const EdgeTable edges = edges_of(mesh);
   std::vector<std::function<void()>> jobs;
   jobs.emplace_back([&] { check_crossings_and_contacts(mesh, cad, f); });
@@ -160,6 +171,7 @@ void measure(const SurfaceMesh& mesh, const TriangleCorners& corners, const CadS
     jobs.emplace_back([&] {
       f.conformity = measure_conformity(mesh, edges, [&](Vec3 p, int& hint) { return field->local(p, hint); });
     });
+  if (!checked.wings.empty()) jobs.emplace_back([&] { f.wings = measure_wings(mesh, checked.wings); });
   jobs.emplace_back([&] { f.shape = check_shape(mesh, edges); });
   jobs.emplace_back([&] { f.topology = check_topology(mesh, edges, cad ? cad->edges() : CadEdges{}); });
   jobs.emplace_back([&] { f.measure = measure_mesh(mesh); });
@@ -186,13 +198,6 @@ Check check_pairs(const SurfaceMesh& mesh) {
   return c;
 }
 
-std::unique_ptr<CadSide> read_cad(const CheckStageOptions& options, const ArtifactHeader& mesh_header) {
-  if (options.geometry.empty()) return nullptr;
-  GeometryArtifact geometry = read_geometry(options.geometry);
-  require_same_geometry(options.mesh, mesh_header, options.geometry, geometry.header);
-  return std::make_unique<CadSide>(std::move(geometry), options.geometry);
-}
-
 /// Nodes lie on entities that the geometry has. Throws Error(kInput).
 void require_entities(const std::string& path, const SurfaceMesh& mesh, const ModelTables& t) {
   const std::int32_t n_entities[] = {t.n_vertices(), t.n_edges(), t.n_faces()};
@@ -205,12 +210,6 @@ void require_entities(const std::string& path, const SurfaceMesh& mesh, const Mo
                               path, n + 1));
   }
 }
-
-/// The mesh as it is checked, and what its file had that it has no more.
-struct CheckedMesh {
-  MeshArtifact artifact;
-  Defects turned;  ///< edges of a foreign mesh whose triangles face opposite ways: association turns them
-};
 
 /// The face of the triangle whose middle is nearest.
 FaceId nearest_face(const SurfaceMesh& mesh, Vec3 p) {
@@ -232,38 +231,54 @@ Defects misoriented_edges(const std::string& path, const SurfaceMesh& associated
   return found;
 }
 
-/// The mesh and its geometry (null: not given); a mesh of another program is associated to it first.
-CheckedMesh read_checked_mesh(const CheckStageOptions& o, std::unique_ptr<CadSide>& cad) {
+void read_sizes(const CheckStageOptions& o, CheckedMesh& checked) {
+  if (o.sizing.empty()) return;
+  ArtifactHeader header;
+  checked.field = open_sizing(o.sizing, &header);
+  require_same_geometry(o.mesh, checked.artifact.header, o.sizing, header);
+  checked.wings = read_asked_wings(o.sizing);
+}
+
+/// A mesh of this program with its geometry and sizes.
+CheckedMesh read_own_mesh(const CheckStageOptions& o) {
+  CheckedMesh result;
+  result.artifact = read_mesh(o.mesh);
+  std::optional<GeometryArtifact> geometry;
+  if (!o.geometry.empty()) {
+    geometry = read_geometry(o.geometry);
+    require_same_geometry(o.mesh, result.artifact.header, o.geometry, geometry->header);
+  }
+  run_jobs({[&] {  // reads no file: HDF5 is for one thread at a time
+              if (!geometry) return;
+              result.cad = std::make_unique<CadSide>(std::move(*geometry), o.geometry);
+              require_entities(o.mesh, result.artifact.mesh, result.cad->model.tables());
+            },
+            [&] { read_sizes(o, result); }});
+  return result;
+}
+
+/// A mesh of another program is associated to its geometry first.
+CheckedMesh read_checked_mesh(const CheckStageOptions& o) {
+  if (!is_foreign_mesh(o.mesh)) return read_own_mesh(o);
   CheckedMesh result;
   MeshArtifact& artifact = result.artifact;
-  if (!is_foreign_mesh(o.mesh)) {
-    artifact = read_mesh(o.mesh);
-    cad = read_cad(o, artifact.header);
-    if (cad) require_entities(o.mesh, artifact.mesh, cad->model.tables());
-  } else if (o.geometry.empty()) {
+  if (o.geometry.empty()) {
     if (!o.sizing.empty())
       throw Error(ExitCode::kUsage,
                   fmt::format("--sizing: {} is a mesh of another program, which also needs --geometry", o.mesh));
     artifact.mesh = read_triangulation(o.mesh);
-  } else {
-    GeometryArtifact geometry = read_geometry(o.geometry);
-    const std::string hash = geometry.header.content_hash;
-    cad = std::make_unique<CadSide>(std::move(geometry), o.geometry);
-    ForeignMesh foreign = read_foreign_mesh(o.mesh, cad->model, {});
-    log_info(association_text(o.mesh, foreign.artifact.mesh, foreign.report));
-    if (foreign.report.n_turned > 0) result.turned = misoriented_edges(o.mesh, foreign.artifact.mesh);
-    artifact = std::move(foreign.artifact);
-    artifact.header.geometry_hash = hash;
+    return result;
   }
+  GeometryArtifact geometry = read_geometry(o.geometry);
+  const std::string hash = geometry.header.content_hash;
+  result.cad = std::make_unique<CadSide>(std::move(geometry), o.geometry);
+  ForeignMesh foreign = read_foreign_mesh(o.mesh, result.cad->model, {});
+  log_info(association_text(o.mesh, foreign.artifact.mesh, foreign.report));
+  if (foreign.report.n_turned > 0) result.turned = misoriented_edges(o.mesh, foreign.artifact.mesh);
+  artifact = std::move(foreign.artifact);
+  artifact.header.geometry_hash = hash;
+  read_sizes(o, result);
   return result;
-}
-
-std::unique_ptr<SizeField> read_sizes(const CheckStageOptions& options, const ArtifactHeader& mesh_header) {
-  if (options.sizing.empty()) return nullptr;
-  ArtifactHeader header;
-  std::unique_ptr<SizeField> field = open_sizing(options.sizing, &header);
-  require_same_geometry(options.mesh, mesh_header, options.sizing, header);
-  return field;
 }
 
 /// [n_nodes]; empty where sizes are the same length in all directions, or unknown.
@@ -278,19 +293,16 @@ std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* fie
   return squeeze;
 }
 
-/// Lifting surfaces that the sizes know; their distance from the CAD, where that was measured.
-std::vector<WingMeasure> measured_wings(const std::string& sizing, const SurfaceMesh& mesh, const Findings& f) {
-  const std::vector<WingRecord> records = read_asked_wings(sizing);
-  std::vector<WingMeasure> wings = measure_wings(mesh, records);
-  for (std::size_t w = 0; f.deviation && w < wings.size(); ++w) {
+/// How far lifting surfaces are from the CAD, in shares of the chord, where that was measured.
+void add_deviations(std::span<const WingRecord> records, Findings& f) {
+  for (std::size_t w = 0; f.deviation && w < f.wings.size(); ++w) {
     double chord = 0, most = 0;
     for (const WingRecord::Station& s : records[w].stations) chord = std::max(chord, s.chord);
     for (const FaceId face : records[w].faces)
       if (static_cast<std::size_t>(face) < f.deviation->faces.size())
         most = std::max(most, f.deviation->faces[face].max_distance);
-    if (chord > 0 && !records[w].faces.empty()) wings[w].deviation = most / chord;
+    if (chord > 0 && !records[w].faces.empty()) f.wings[w].deviation = most / chord;
   }
-  return wings;
 }
 
 /// Says where a mesh is coarser at lifting surfaces than was asked for.
@@ -313,9 +325,11 @@ void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const Trian
   f.checks = list_mesh_checks(artifact, o.thresholds, has_flow_domain(artifact.mesh), f);
   if (!artifact.mesh.merged.pairs.empty()) f.checks.push_back(check_pairs(artifact.mesh));
   if (cad) {
-    check_against_cad(artifact.mesh, cad->model.tables(), cad->sewing, o.area_tolerance, f);
-    f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
-                                 o.list_below_deg);
+    run_jobs({[&] {
+                f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality,
+                                             f.conformity ? &*f.conformity : nullptr, o.list_below_deg);
+              },
+              [&] { check_against_cad(artifact.mesh, cad->model.tables(), cad->sewing, o.area_tolerance, f); }});
   }
   check_thresholds(artifact.mesh, corners, o.thresholds, cad ? &cad->model.tables() : nullptr, f);
   check_wings(f);
@@ -347,20 +361,18 @@ StageSummary run_check(const CheckStageOptions& options, std::string* report) {
   require_fitting({{options.mesh, "mesh"}, {options.geometry, "geometry"}, {options.sizing, "sizing"}});
   if (const std::string& bound = options.thresholds.max_deviation; !bound.empty())
     require_unit(parse_length(bound, "--max-deviation"), read_header(options.geometry).unit_in_m, "--max-deviation");
-  std::unique_ptr<CadSide> cad;
-  const CheckedMesh checked = read_checked_mesh(options, cad);
+  const CheckedMesh checked = read_checked_mesh(options);
   const MeshArtifact& artifact = checked.artifact;
-  const std::unique_ptr<SizeField> field = read_sizes(options, artifact.header);
-  const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, field.get());
+  const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, checked.field.get());
   const TriangleCorners corners(artifact.mesh, squeeze);
   Findings f;
   f.unit = artifact.header.unit;
   progress.step("measuring", 0.1);
-  measure(artifact.mesh, corners, cad.get(), field.get(), progress, f);
+  measure(checked, corners, progress, f);
   if (checked.turned.count > 0) f.topology.misoriented_edges = checked.turned;
   progress.step("causes", 0.9);
-  if (!options.sizing.empty()) f.wings = measured_wings(options.sizing, artifact.mesh, f);
-  judge(options, artifact, corners, cad.get(), f);
+  add_deviations(checked.wings, f);
+  judge(options, artifact, corners, checked.cad.get(), f);
   const double seconds = timer.seconds();
   std::string full;
   if (report || !options.reports.empty())
