@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   tool.output_option("--suggest-groups", o.suggest_groups,
                      "write a groups file that the shape suggests: wing, tail, fuselage, nacelle ...; to be edited");
   tool.flag("--check", o.check, "print a report of the defects and write nothing");
+  tool.threads();
   tool.main_options(
       {"--symmetry", "--farfield", "--groups", "--unit", "--sew", "--unite", "--join", "--check", "--require-closed"});
   tool.examples({"st-import wing.step", "st-import aircraft.step --symmetry y=0 --farfield sphere:50 -o geometry.hdf",

@@ -14,6 +14,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/threads.h"
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/model/cad_tolerance.h"
@@ -84,8 +85,13 @@ class CrossingFaces {
       : model_(model), t_(t), tolerance_(kSamePlace * t.box().diagonal()), domains_(t.n_faces()) {}
 
   std::vector<FaceCrossing> find() {
-    for (FaceId f = 0; f < t_.n_faces(); ++f)
-      if (!is_formula(t_.face_type[f])) look_within(f);
+    std::vector<std::optional<FaceCrossing>> within(domains_.size());
+    parallel_for(within.size(), 1, [&](std::size_t i, std::size_t) {
+      const auto f = static_cast<FaceId>(i);
+      if (!is_formula(t_.face_type[f])) within[i] = find_within(f);
+    });
+    for (const std::optional<FaceCrossing>& crossing : within)
+      if (crossing) found_.push_back(*crossing);
     std::vector<std::int32_t> offsets;
     std::vector<FaceId> faces;
     t_.edge_faces(offsets, faces);
@@ -127,17 +133,18 @@ class CrossingFaces {
 
   double tolerance_of(FaceId f) const { return kDeep * std::max(tolerance_, cad_tolerance(t_, f)); }
 
-  void look_within(FaceId f) {
+  /// Faces beside each other at the same time: it makes domain(f), and looks at no other.
+  std::optional<FaceCrossing> find_within(FaceId f) {
     const Domain& d = domain(f);
     const auto is_inside = [&](Vec2 uv) { return d.loops.contains(uv); };
-    if (const auto fold = find_fold(TopoDS::Face(model_.faces(f + 1)), d.face.bounds, is_inside)) {
-      found_.push_back({f, f, false, true, fold->xyz, fold->size});
-    } else if (const auto p = find_self_crossing(*d.face.surface, tolerance_of(f), is_inside)) {
+    if (const auto fold = find_fold(TopoDS::Face(model_.faces(f + 1)), d.face.bounds, is_inside))
+      return FaceCrossing{f, f, false, true, fold->xyz, fold->size};
+    if (const auto p = find_self_crossing(*d.face.surface, tolerance_of(f), is_inside)) {
       const double size = distance(d.face.surface->point(0.5 * (p->uv_a + p->uv_b)), p->x);
-      found_.push_back({f, f, false, false, p->x, size});
-    } else if (const auto pinch = find_pinch(*d.face.surface, tolerance_of(f), is_inside)) {
-      found_.push_back({f, f, true, false, *pinch, 0});
+      return FaceCrossing{f, f, false, false, p->x, size};
     }
+    const auto pinch = find_pinch(*d.face.surface, tolerance_of(f), is_inside);
+    return pinch ? std::optional<FaceCrossing>({f, f, true, false, *pinch, 0}) : std::nullopt;
   }
 
   /// Everywhere along the edge where both faces turn the same way beside it.

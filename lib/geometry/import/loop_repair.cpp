@@ -1,5 +1,6 @@
 #include "geometry/import/loop_repair.h"
 #include "base/boxes.h"
+#include "base/threads.h"
 
 #include <BRep_Builder.hxx>
 #include <BRep_TEdge.hxx>
@@ -15,6 +16,8 @@
 #include <cmath>
 #include <optional>
 
+#include "base/boxes.h"
+#include "base/threads.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
@@ -342,23 +345,36 @@ void make_walkable(const TopoDS_Face& face, double largest) {
       BRep_Builder().UpdateVertex(TopoDS::Vertex(v.Current()), tolerance);
 }
 
+TopoDS_Face forward_face(const ImportedShape& model, int i) {
+  return TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD));
+}
+
 }  // namespace
 
 void rebuild_lost_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
   const double diagonal = rough_box(model.shape).diagonal(), harmless = kHarmless * diagonal;
-  std::vector<Face> faces;
+  std::vector<int> numbers;  // of faces that may have lost loops, each shape once
   TopTools_MapOfShape seen;
   for (int i = 1; i <= model.faces.Extent(); ++i) {
-    const TopoDS_Face face = TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD));
-    if (!seen.Add(face.Located({})) || surface_type(BRep_Tool::Surface(face)) == SurfaceType::kPlane ||
-        !is_lost(face, harmless))
-      continue;
+    const TopoDS_Face face = forward_face(model, i);
+    if (seen.Add(face.Located({})) && surface_type(BRep_Tool::Surface(face)) != SurfaceType::kPlane)
+      numbers.push_back(i);
+  }
+  std::vector<std::uint8_t> lost(numbers.size(), 0);
+  parallel_for(lost.size(), 1, [&](std::size_t k, std::size_t) {
+    lost[k] = is_lost(forward_face(model, numbers[k]), harmless) ? 1 : 0;
+  });
+  std::vector<Face> faces;
+  for (std::size_t k = 0; k < lost.size(); ++k) {
+    const TopoDS_Face face = forward_face(model, numbers[k]);
+    if (!(faces.empty() ? lost[k] != 0 : is_lost(face, harmless))) continue;  // repair changes edges of others
     const std::optional<Face> f = rebuilt(face, harmless, 100 * diagonal);
     if (!f) continue;
     apply(*f);
     faces.push_back(*f);
     const Box3 box = rough_box(face);
-    findings.push_back({FindingKind::kLostLoops, "face " + std::to_string(i), box.center(), box.diagonal(), true});
+    findings.push_back(
+        {FindingKind::kLostLoops, "face " + std::to_string(numbers[k]), box.center(), box.diagonal(), true});
   }
   if (faces.empty()) return;
   lower_vertex_tolerances(model.shape, faces);

@@ -8,9 +8,11 @@
 #include <TopoDS_Vertex.hxx>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "base/error.h"
+#include "base/threads.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
@@ -18,6 +20,19 @@
 
 namespace st::occt {
 namespace {
+
+/// What a face's loops and surface tell of it.
+struct FaceMeasure {
+  struct Side {
+    EdgeId edge;
+    bool is_reversed;
+  };
+  UvBounds bounds;
+  double area = 0, width = 0, cone_volume = 0;
+  Box3 box;
+  std::optional<LoopCrossing> crossing;
+  std::vector<std::vector<Side>> loops;
+};
 
 class TableWriter {
  public:
@@ -107,17 +122,22 @@ class TableWriter {
     }
     t.face_loop_offsets.push_back(0);
     t.loop_coedge_offsets.push_back(0);
+    std::vector<FaceMeasure> measures(static_cast<std::size_t>(model_.faces.Extent()));
+    parallel_for(measures.size(), 1, [&](std::size_t i, std::size_t) { measures[i] = measure(static_cast<int>(i)); });
     for (int i = 0; i < model_.faces.Extent(); ++i) {
-      const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1).Oriented(TopAbs_FORWARD));
-      const FaceDomain domain = make_domain(f);
-      for (double b : {domain.bounds.u_min, domain.bounds.u_max, domain.bounds.v_min, domain.bounds.v_max})
-        t.face_uv_bounds.push_back(b);
+      const FaceMeasure& m = measures[static_cast<std::size_t>(i)];
+      const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1));
+      for (double b : {m.bounds.u_min, m.bounds.u_max, m.bounds.v_min, m.bounds.v_max}) t.face_uv_bounds.push_back(b);
       t.face_is_reversed.push_back(orientation[i] == TopAbs_REVERSED);
       t.face_type.push_back(surface_type(BRep_Tool::Surface(f)));
       t.face_tolerance.push_back(BRep_Tool::Tolerance(f));
       fill_labels(i);
-      fill_loops(domain);
-      measure(f, domain);
+      fill_loops(m);
+      t.face_area.push_back(m.area);
+      t.face_width.push_back(m.width);
+      t.face_box.push_back(m.box);
+      measures_.cone_volume.push_back(m.cone_volume);
+      measures_.crossing.push_back(m.crossing);
     }
   }
 
@@ -147,36 +167,44 @@ class TableWriter {
     return BRep_Tool::Degenerated(edge) || c.IsNull() ? Box3() : sampled_box(*make_curve(c, t0, t1));
   }
 
-  void fill_loops(const FaceDomain& domain) {
+  void fill_loops(const FaceMeasure& m) {
     ModelTables& t = tables_;
-    for (const LoopUv& loop : domain.loops) {
-      for (const CoedgeUv& c : loop.coedges) {
-        t.coedge_edge.push_back(edges_.FindIndex(c.edge) - 1);
-        t.coedge_is_reversed.push_back(c.edge.Orientation() == TopAbs_REVERSED);
+    for (const std::vector<FaceMeasure::Side>& loop : m.loops) {
+      for (const FaceMeasure::Side& side : loop) {
+        t.coedge_edge.push_back(side.edge);
+        t.coedge_is_reversed.push_back(side.is_reversed);
       }
       t.loop_coedge_offsets.push_back(static_cast<std::int32_t>(t.coedge_edge.size()));
     }
     t.face_loop_offsets.push_back(static_cast<std::int32_t>(t.loop_coedge_offsets.size()) - 1);
   }
 
-  /// Area, width, box, and what the report says of the loops.
-  void measure(const TopoDS_Face& f, const FaceDomain& domain) {
-    ModelTables& t = tables_;
+  /// Precondition: the edges' tables are filled.
+  FaceMeasure measure(int i) const {
+    const ModelTables& t = tables_;
+    const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1).Oriented(TopAbs_FORWARD));
+    const FaceDomain domain = make_domain(f);
     const FaceIntegral integral = integrate_face(domain, origin_);
+    FaceMeasure m;
+    m.bounds = domain.bounds;
+    m.area = std::fabs(integral.area);
+    m.cone_volume = integral.volume;
     Box3 sampled = sampled_box(domain);
     double perimeter = 0, tolerance = BRep_Tool::Tolerance(f);
-    for (const LoopUv& loop : domain.loops)
+    for (const LoopUv& loop : domain.loops) {
+      std::vector<FaceMeasure::Side>& sides = m.loops.emplace_back();
       for (const CoedgeUv& c : loop.coedges) {
         const EdgeId e = edges_.FindIndex(c.edge) - 1;
+        sides.push_back({e, c.edge.Orientation() == TopAbs_REVERSED});
         perimeter += t.edge_length[e];
         tolerance = std::max(tolerance, t.edge_tolerance[e]);
         sampled.add(edge_box_[e]);
       }
-    t.face_area.push_back(std::fabs(integral.area));
-    t.face_width.push_back(rectangle_width(std::fabs(integral.area), perimeter));
-    t.face_box.push_back(common_box(rough_box(f), sampled));
-    measures_.cone_volume.push_back(integral.volume);
-    measures_.crossing.push_back(find_loop_crossing(domain, 2 * tolerance));
+    }
+    m.width = rectangle_width(m.area, perimeter);
+    m.box = common_box(rough_box(f), sampled);
+    m.crossing = find_loop_crossing(domain, 2 * tolerance);
+    return m;
   }
 
   static Box3 common_box(const Box3& a, const Box3& b) {
