@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/threads.h"
+#include "mesh/node_sizes.h"
 
 namespace st {
 
@@ -194,6 +195,7 @@ void set_percentiles(std::span<const std::int32_t> key, std::span<const double> 
 void measure_jumps(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const double> area,
                    QualityReport& report) {
   std::vector<double> jumps;
+  jumps.reserve(area.size() / 2 * 3);  // of a closed mesh
   report.group_jumps.resize(report.groups.size());
   report.face_jumps.resize(report.faces.size());
   edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
@@ -257,9 +259,10 @@ QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, c
   add_shapes(mesh, corners, quality, area, report);
   set_percentiles(mesh.triangle_group, quality, report.groups);
   set_percentiles(mesh.triangle_face, quality, report.faces);
-  measure_jumps(mesh, edges, area, report);
   if (corners.is_stretched()) report.rows = measure_rows(mesh, edges, quality);
   if (!quality.empty()) report.model.p1 = nth_smallest(quality, quality.size() / 100);
+  std::vector<double>().swap(quality);
+  measure_jumps(mesh, edges, area, report);
   return report;
 }
 
@@ -338,32 +341,29 @@ class ForcedEdges {
   std::map<Key, ForcedPlace> places_;
 };
 
-}  // namespace
-
-namespace {
-
 /// Length over requested length of every edge, in the order of the table.
 std::vector<double> length_ratios(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested) {
   const auto n_nodes = static_cast<std::size_t>(mesh.n_nodes());
-  std::vector<LocalSize> at_node(n_nodes);
+  const NodeSizes at_node(mesh.node_xyz, requested);
+  std::vector<std::size_t> first((n_nodes + kPerPiece - 1) / kPerPiece, 0);  // edge of each piece
+  parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
+    edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
+                        [&](NodeId, NodeId, std::span<const SideId>) { ++first[begin / kPerPiece]; });
+  });
+  std::size_t n_edges = 0;
+  for (std::size_t& f : first) n_edges += std::exchange(f, n_edges);
+  std::vector<double> ratios(n_edges);
   parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
     int hint = 0;
-    for (std::size_t n = begin; n < end; ++n) at_node[n] = requested(mesh.node_xyz[n], hint);
+    double* ratio = ratios.data() + first[begin / kPerPiece];
+    edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
+                        [&](NodeId a, NodeId b, std::span<const SideId>) {
+                          const Vec3 p = mesh.node_xyz[a], q = mesh.node_xyz[b];
+                          const auto inverse = [&](NodeId n) { return 1 / at_node.length(n, q - p); };
+                          const double middle = requested(0.5 * (p + q), hint).in(q - p);
+                          *ratio++ = distance(p, q) * (inverse(a) + 4 / middle + inverse(b)) / 6;
+                        });
   });
-  std::vector<std::vector<double>> pieces((n_nodes + kPerPiece - 1) / kPerPiece);
-  parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
-    int hint = 0;
-    edges.for_each_edge(
-        static_cast<NodeId>(begin), static_cast<NodeId>(end), [&](NodeId a, NodeId b, std::span<const SideId>) {
-          const Vec3 p = mesh.node_xyz[a], q = mesh.node_xyz[b];
-          const auto inverse = [&](const LocalSize& size) { return 1 / size.in(q - p); };
-          const double middle = requested(0.5 * (p + q), hint).in(q - p);
-          pieces[begin / kPerPiece].push_back(distance(p, q) *
-                                              (inverse(at_node[a]) + 4 / middle + inverse(at_node[b])) / 6);
-        });
-  });
-  std::vector<double> ratios;
-  for (const std::vector<double>& piece : pieces) ratios.insert(ratios.end(), piece.begin(), piece.end());
   return ratios;
 }
 

@@ -152,12 +152,21 @@ struct CheckedMesh {
   std::vector<WingRecord> wings;     ///< lifting surfaces that the sizes know
 };
 
-/// Everything that is measured: jobs that do not depend on each other, the longest first.
+/// Jobs that do not depend on each other, the longest first; together they are a share of all checks.
+void run_measures(std::vector<std::function<void()>> jobs, double share, Progress& progress) {
+  for (auto& job : jobs)
+    job = [&progress, work = std::move(job), part = share / static_cast<double>(jobs.size())] {
+      work();
+      progress.advance(part);
+    };
+  run_jobs(jobs);
+}
+
+/// Everything that is measured. What needs no table of the edges comes first, without one: it takes the most memory.
 void measure(const CheckedMesh& checked, const TriangleCorners& corners, Progress& progress, Findings& f) {
   const SurfaceMesh& mesh = checked.artifact.mesh;
   const CadSide* cad = checked.cad.get();
   const SizeField* field = checked.field.get();
-  const EdgeTable edges = edges_of(mesh);
   std::vector<std::function<void()>> jobs;
   jobs.emplace_back([&] { check_crossings_and_contacts(mesh, cad, f); });
   if (cad)
@@ -166,22 +175,19 @@ void measure(const CheckedMesh& checked, const TriangleCorners& corners, Progres
       f.chords = estimate_chord_error(cad->model, mesh, &deviation);
       f.deviation = deviation.deviation();
     });
+  if (!checked.wings.empty()) jobs.emplace_back([&] { f.wings = measure_wings(mesh, checked.wings); });
+  jobs.emplace_back([&] { f.measure = measure_mesh(mesh); });
+  run_measures(std::move(jobs), 0.5, progress);
+  const EdgeTable edges = edges_of(mesh);
+  jobs.clear();
   jobs.emplace_back([&] { f.quality = measure_quality(mesh, edges, corners); });
   if (field)
     jobs.emplace_back([&] {
       f.conformity = measure_conformity(mesh, edges, [&](Vec3 p, int& hint) { return field->local(p, hint); });
     });
-  if (!checked.wings.empty()) jobs.emplace_back([&] { f.wings = measure_wings(mesh, checked.wings); });
   jobs.emplace_back([&] { f.shape = check_shape(mesh, edges); });
   jobs.emplace_back([&] { f.topology = check_topology(mesh, edges, cad ? cad->edges() : CadEdges{}); });
-  jobs.emplace_back([&] { f.measure = measure_mesh(mesh); });
-  constexpr double kShare = 0.8;  // of the whole check
-  for (auto& job : jobs)
-    job = [&progress, work = std::move(job), part = kShare / static_cast<double>(jobs.size())] {
-      work();
-      progress.advance(part);
-    };
-  run_jobs(jobs);
+  run_measures(std::move(jobs), 0.3, progress);
   f.is_stretched = corners.is_stretched();
 }
 

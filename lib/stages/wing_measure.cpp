@@ -35,23 +35,20 @@ struct Ball {
 class WingMesh {
  public:
   WingMesh(const SurfaceMesh& mesh, const WingRecord& wing) : mesh_(mesh) {
-    FaceId last = kNone;  // triangles come face by face
-    bool is_skin = false, is_base = false;
-    for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-      if (const FaceId f = mesh.triangle_face[t]; f != last) {
-        last = f;
-        is_skin = wing.faces.empty() || std::ranges::binary_search(wing.faces, f);
-        is_base = std::ranges::binary_search(wing.bases, f);
-      }
+    std::size_t n_skin = 0, n_base = 0;  // known first: the lists are large, and grow by copies
+    for_each_own(wing, [&](TriangleId, bool is_skin, bool is_base) { n_skin += is_skin, n_base += is_base; });
+    skin_.reserve(n_skin);
+    base_.reserve(n_base);
+    for_each_own(wing, [&](TriangleId t, bool is_skin, bool is_base) {
       if (is_skin) skin_.push_back(ball_of(t));
       if (is_base) base_.push_back(ball_of(t));
-    }
+    });
     Box3 box;
     for (const WingRecord::Station& s : wing.stations) box.add(s.trailing);
     const Vec3 size = box.hi - box.lo;
     axis_ = size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z;
     for (Ball& b : skin_) b.at = b.center.*axis_;
-    std::ranges::stable_sort(skin_, {}, &Ball::at);
+    std::ranges::sort(skin_, {}, [](const Ball& b) { return std::pair(b.at, b.triangle); });
   }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(skin_.size() + base_.size()); }
   bool is_empty() const { return skin_.empty(); }
@@ -134,6 +131,20 @@ class WingMesh {
     void add(double x) { sum += x, ++n; }
     double value() const { return n ? sum / static_cast<double>(n) : 0; }
   };
+  /// Calls f(triangle, is_skin, is_base).
+  template <class F>
+  void for_each_own(const WingRecord& wing, const F& f) const {
+    FaceId last = kNone;  // triangles come face by face
+    bool is_skin = false, is_base = false;
+    for (TriangleId t = 0; t < mesh_.n_triangles(); ++t) {
+      if (const FaceId face = mesh_.triangle_face[t]; face != last) {
+        last = face;
+        is_skin = wing.faces.empty() || std::ranges::binary_search(wing.faces, face);
+        is_base = std::ranges::binary_search(wing.bases, face);
+      }
+      if (is_skin || is_base) f(t, is_skin, is_base);
+    }
+  }
   Vec3 corner(TriangleId t, std::size_t k) const { return mesh_.node_xyz[mesh_.triangles[t].n[k]]; }
   Ball ball_of(TriangleId t) const {
     const Vec3 center = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
