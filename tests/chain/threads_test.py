@@ -31,6 +31,19 @@ class Threads(ToolTest):
             self.expect_one(rasters)
             self.expect_one(patches)
 
+    def test_geometry_and_sizes_are_the_same_bits(self):
+        for model in ("wing_with_flap.step", "assembly.step"):
+            geometries, sizes = {}, {}
+            for n_threads in (1, 2, 3, 8):
+                g, r, s = (self.folder / f"{name}.hdf" for name in ("g", "r", "s"))
+                must("st-import", MODELS / model, "-o", g, "--threads", n_threads)
+                geometries[n_threads] = content_hash(g)
+                must("st-raster", g, "-o", r, "--lmax", "1%")
+                must("st-prolong", r, "-o", s, "--threads", n_threads)
+                sizes[n_threads] = content_hash(s)
+            self.expect_one(geometries)
+            self.expect_one(sizes)
+
     def test_a_remeshing_is_the_same_bits(self):
         chain = make_chain(MODELS / "block_with_hole.step", self.folder / "chain", raster_options=["--lmax", "3%"])
         (self.folder / "s.toml").write_text(SOURCE)
