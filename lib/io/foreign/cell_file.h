@@ -39,8 +39,9 @@ CellFile parse_msh_cells(const std::string& path, const std::string& bytes, cons
 CellFile read_vtkhdf_cells(const std::string& path, const std::string& array);
 /// INRIA's Medit: nodes and cells of a .mesh or .meshb.
 CellFile parse_medit_mesh(const std::string& path, const std::string& bytes);
-/// The first length or metric of SolAtVertices of a .sol or .solb, as in CellFile.
-std::vector<double> parse_medit_solution(const std::string& path, const std::string& bytes, std::size_t n_nodes);
+/// Values of a .sol or .solb for the mesh in `file`: those of SolAtVertices, else those at cells. `number`: of the
+/// field, from 1; 0: the first that is no vector. With values at cells of volumes, cells of surfaces are left out.
+void parse_medit_solution(const std::string& path, const std::string& bytes, std::int64_t number, CellFile& file);
 
 /// Corners of a cell of VTK's type `type`, curved ones without their nodes between: 3 for triangles, 4 for tetrahedra
 /// and quadrilaterals, 5 for pyramids, 6 for wedges, 8 for hexahedra; 0: vertices and lines, -1: any other.

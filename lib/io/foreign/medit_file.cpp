@@ -1,5 +1,7 @@
 // INRIA's Medit, as text (.mesh, .sol) and in the binary form of libMeshb (.meshb, .solb), versions 1 to 4.
-#include <limits>
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <map>
 #include <string_view>
 
@@ -22,28 +24,51 @@ enum Keyword : std::int32_t {
   kPyramids = 49,
   kEnd = 54,
   kSolAtVertices = 62,
+  kSolAtTriangles = 64,
+  kSolAtQuadrilaterals = 65,
+  kSolAtTetrahedra = 66,
+  kSolAtPrisms = 67,
+  kSolAtHexahedra = 68,
 };
 const std::map<std::string_view, Keyword>& keywords() {
-  static const std::map<std::string_view, Keyword> all{
-      {"Dimension", kDimension},           {"Vertices", kVertices},     {"Triangles", kTriangles},
-      {"Quadrilaterals", kQuadrilaterals}, {"Tetrahedra", kTetrahedra}, {"Prisms", kPrisms},
-      {"Hexahedra", kHexahedra},           {"Pyramids", kPyramids},     {"End", kEnd},
-      {"SolAtVertices", kSolAtVertices}};
+  static const std::map<std::string_view, Keyword> all{{"Dimension", kDimension},
+                                                       {"Vertices", kVertices},
+                                                       {"Triangles", kTriangles},
+                                                       {"Quadrilaterals", kQuadrilaterals},
+                                                       {"Tetrahedra", kTetrahedra},
+                                                       {"Prisms", kPrisms},
+                                                       {"Hexahedra", kHexahedra},
+                                                       {"Pyramids", kPyramids},
+                                                       {"End", kEnd},
+                                                       {"SolAtVertices", kSolAtVertices},
+                                                       {"SolAtTriangles", kSolAtTriangles},
+                                                       {"SolAtQuadrilaterals", kSolAtQuadrilaterals},
+                                                       {"SolAtTetrahedra", kSolAtTetrahedra},
+                                                       {"SolAtPrisms", kSolAtPrisms},
+                                                       {"SolAtPentahedra", kSolAtPrisms},
+                                                       {"SolAtHexahedra", kSolAtHexahedra}};
   return all;
 }
 
-/// VTK's type, of a keyword that lists cells; 0: it lists none.
+bool has_values(Keyword keyword) { return keyword >= kSolAtVertices; }
+
+/// VTK's type, of a keyword that lists cells or values at cells; 0: it lists none.
 std::int64_t type_of(Keyword keyword) {
   switch (keyword) {
     case kTriangles:
+    case kSolAtTriangles:
       return 5;
     case kQuadrilaterals:
+    case kSolAtQuadrilaterals:
       return 9;
     case kTetrahedra:
+    case kSolAtTetrahedra:
       return 10;
     case kHexahedra:
+    case kSolAtHexahedra:
       return 12;
     case kPrisms:
+    case kSolAtPrisms:
       return 13;
     case kPyramids:
       return 14;
@@ -61,10 +86,10 @@ class MeditReader {
     std::int32_t first = 0;
     if (bytes.size() >= sizeof first) std::memcpy(&first, bytes.data(), sizeof first);
     in_.is_binary = first == kNative || first == kSwapped;
-    if (first == kSwapped) in_.fail("written on a machine of another byte order; write it as text");
+    is_swapped_ = first == kSwapped;
     if (in_.is_binary) {
-      in_.value<std::int32_t>();
-      version_ = in_.value<std::int32_t>();
+      value<std::int32_t>();
+      version_ = value<std::int32_t>();
       if (version_ < 1 || version_ > 4) in_.fail("version " + std::to_string(version_) + " is not read, 1 to 4 are");
     } else if (word() != "MeshVersionFormatted") {
       in_.fail("no file of Medit: it does not begin with MeshVersionFormatted");
@@ -86,19 +111,26 @@ class MeditReader {
       skip_comments();
       return in_.integer();
     }
-    return version_ >= 4 ? in_.value<std::int64_t>() : in_.value<std::int32_t>();
+    return version_ >= 4 ? value<std::int64_t>() : value<std::int32_t>();
   }
   /// Of the numbers that are small in every version.
-  std::int64_t small_integer() { return in_.is_binary ? in_.value<std::int32_t>() : integer(); }
+  std::int64_t small_integer() { return in_.is_binary ? value<std::int32_t>() : integer(); }
   double real() {
     if (!in_.is_binary) {
       skip_comments();
       return in_.real();
     }
-    return version_ == 1 ? in_.value<float>() : in_.value<double>();
+    return version_ == 1 ? value<float>() : value<double>();
   }
 
  private:
+  /// The next value of a binary file, in the byte order of either kind of machine.
+  template <class T>
+  T value() {
+    auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(in_.value<T>());
+    if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
+    return std::bit_cast<T>(bytes);
+  }
   void skip_comments() {
     while (!in_.is_at_end() && in_.bytes()[in_.position()] == '#') in_.line();
   }
@@ -117,8 +149,8 @@ class MeditReader {
     for (;;) {
       if (next_ > 0) in_.seek(next_);
       const std::size_t at = in_.position();
-      const auto code = in_.value<std::int32_t>();
-      const std::int64_t next = version_ >= 3 ? in_.value<std::int64_t>() : in_.value<std::int32_t>();
+      const auto code = value<std::int32_t>();
+      const std::int64_t next = version_ >= 3 ? value<std::int64_t>() : value<std::int32_t>();
       if (code == kEnd) return kEnd;
       if (next != 0 && (next <= static_cast<std::int64_t>(at) || next > static_cast<std::int64_t>(in_.bytes().size())))
         in_.fail("damaged: a section ends at byte " + std::to_string(next) + "; write it again");
@@ -131,6 +163,7 @@ class MeditReader {
 
   ByteCursor in_;
   std::int32_t version_ = 2;
+  bool is_swapped_ = false;
   std::size_t next_ = 0;  ///< where the next section of a binary file begins; 0: behind this one
 };
 
@@ -160,25 +193,84 @@ void read_cells(MeditReader& in, std::int64_t type, CellFile& file) {
   }
 }
 
-/// The values of a solution that are wanted of each node.
+/// The values of a section that are wanted of each node or cell.
 struct Wanted {
   std::size_t first = 0, n = 0, n_all = 0;
 };
 
-Wanted choose_values(MeditReader& in) {
+/// `number`: of the field, from 1; 0: the first that is no vector.
+Wanted choose_values(MeditReader& in, std::int64_t number) {
   constexpr std::int64_t kScalar = 1, kVector = 2, kSymmetric = 3, kMatrix = 4;
   Wanted wanted;
   const std::int64_t n_types = in.small_integer();
   if (n_types < 1 || n_types > 1000) in.fail("a solution of " + std::to_string(n_types) + " fields");
-  for (std::int64_t k = 0; k < n_types; ++k) {
+  if (number > n_types)
+    in.fail("has " + std::to_string(n_types) + " fields; there is no number " + std::to_string(number));
+  for (std::int64_t k = 1; k <= n_types; ++k) {
     const std::int64_t type = in.small_integer();
     if (type < kScalar || type > kMatrix) in.fail("a field of type " + std::to_string(type) + ", 1 to 4 are known");
     const std::size_t n = type == kScalar ? 1 : type == kVector ? 3 : type == kSymmetric ? 6 : 9;
-    if (wanted.n == 0 && type != kVector) wanted.first = wanted.n_all, wanted.n = n;
+    if (k == number && type == kVector)
+      in.fail("field " + std::to_string(number) + " is a vector; a number or a metric is expected");
+    if (number == 0 ? wanted.n == 0 && type != kVector : k == number) wanted.first = wanted.n_all, wanted.n = n;
     wanted.n_all += n;
   }
   if (wanted.n == 0) in.fail("has vectors alone; a length or a metric for each node is expected");
   return wanted;
+}
+
+std::vector<double> read_values(MeditReader& in, std::int64_t number, std::size_t expected, const char* of) {
+  const std::int64_t n = in.integer();
+  if (n < 0 || static_cast<std::size_t>(n) != expected)
+    in.fail("has values for " + std::to_string(n) + " " + of + ", the mesh " + std::to_string(expected));
+  const Wanted wanted = choose_values(in, number);
+  in.count(n, wanted.n_all, "values");
+  std::vector<double> values(expected * wanted.n);
+  for (std::size_t i = 0; i < expected; ++i) {
+    double* const v = values.data() + i * wanted.n;
+    for (std::size_t k = 0; k < wanted.n_all; ++k)
+      if (const double x = in.real(); k >= wanted.first && k < wanted.first + wanted.n) v[k - wanted.first] = x;
+    // Medit's triangle is xx, xy, yy, xz, yz, zz
+    if (wanted.n == 6) {
+      const double xx = v[0], xy = v[1], yy = v[2], xz = v[3], yz = v[4], zz = v[5];
+      v[0] = xx, v[1] = yy, v[2] = zz, v[3] = xy, v[4] = yz, v[5] = xz;
+    }
+  }
+  return values;
+}
+
+/// Keeps the cells that are meshed: of volumes, or of surfaces where there are none.
+void drop_borders(CellFile& file) {
+  if (std::none_of(file.type.begin(), file.type.end(), is_volume)) return;
+  CellFile kept;
+  kept.offset.push_back(0);
+  for (std::size_t c = 0; c < file.type.size(); ++c) {
+    if (!is_volume(file.type[c])) continue;
+    kept.type.push_back(file.type[c]);
+    kept.node.insert(kept.node.end(), file.node.begin() + file.offset[c], file.node.begin() + file.offset[c + 1]);
+    kept.offset.push_back(static_cast<std::int64_t>(kept.node.size()));
+  }
+  file.type = std::move(kept.type), file.offset = std::move(kept.offset), file.node = std::move(kept.node);
+}
+
+/// `of_type`: values of all cells of a type, in their order in the mesh.
+void place_cell_values(MeditReader& in, const std::map<std::int64_t, std::vector<double>>& of_type, CellFile& file) {
+  drop_borders(file);
+  std::map<std::int64_t, std::size_t> n_cells, next;
+  for (const std::int64_t type : file.type) ++n_cells[type];
+  std::size_t n_components = 0;
+  for (const auto& [type, n] : n_cells) {
+    const auto values = of_type.find(type);
+    if (values == of_type.end())
+      in.fail("has values neither at vertices nor at the " + std::to_string(n) + " cells of VTK's type " +
+              std::to_string(type));
+    if (n_components > 0 && values->second.size() != n * n_components) in.fail("has other fields for other cells");
+    n_components = values->second.size() / n;
+  }
+  for (const std::int64_t type : file.type) {
+    const auto value = of_type.at(type).begin() + static_cast<std::ptrdiff_t>(n_components * next[type]++);
+    file.cell_value.insert(file.cell_value.end(), value, value + static_cast<std::ptrdiff_t>(n_components));
+  }
 }
 
 }  // namespace
@@ -190,35 +282,26 @@ CellFile parse_medit_mesh(const std::string& path, const std::string& bytes) {
   for (Keyword keyword = in.next(); keyword != kEnd; keyword = in.next()) {
     if (keyword == kDimension) require_space(in);
     if (keyword == kVertices) read_vertices(in, file);
-    if (const std::int64_t type = type_of(keyword); type > 0) read_cells(in, type, file);
+    if (const std::int64_t type = type_of(keyword); type > 0 && !has_values(keyword)) read_cells(in, type, file);
   }
   return file;
 }
 
-std::vector<double> parse_medit_solution(const std::string& path, const std::string& bytes, std::size_t n_nodes) {
+void parse_medit_solution(const std::string& path, const std::string& bytes, std::int64_t number, CellFile& file) {
   MeditReader in(path, bytes);
+  std::map<std::int64_t, std::vector<double>> of_type;
   for (Keyword keyword = in.next(); keyword != kEnd; keyword = in.next()) {
     if (keyword == kDimension) require_space(in);
-    if (keyword != kSolAtVertices) continue;
-    const std::int64_t n = in.integer();
-    if (n < 0 || static_cast<std::size_t>(n) != n_nodes)
-      in.fail("has values for " + std::to_string(n) + " nodes, the mesh " + std::to_string(n_nodes));
-    const Wanted wanted = choose_values(in);
-    in.count(n, wanted.n_all, "values");
-    std::vector<double> values(n_nodes * wanted.n);
-    for (std::size_t i = 0; i < n_nodes; ++i) {
-      double* const v = values.data() + i * wanted.n;
-      for (std::size_t k = 0; k < wanted.n_all; ++k)
-        if (const double x = in.real(); k >= wanted.first && k < wanted.first + wanted.n) v[k - wanted.first] = x;
-      // Medit's triangle is xx, xy, yy, xz, yz, zz
-      if (wanted.n == 6) {
-        const double xx = v[0], xy = v[1], yy = v[2], xz = v[3], yz = v[4], zz = v[5];
-        v[0] = xx, v[1] = yy, v[2] = zz, v[3] = xy, v[4] = yz, v[5] = xz;
-      }
+    if (keyword == kSolAtVertices) {
+      file.value = read_values(in, number, file.node_xyz.size(), "nodes");
+      return;
     }
-    return values;
+    if (const std::int64_t type = type_of(keyword); type > 0 && has_values(keyword))
+      of_type[type] = read_values(
+          in, number, static_cast<std::size_t>(std::count(file.type.begin(), file.type.end(), type)), "cells");
   }
-  in.fail("has no SolAtVertices: no lengths at nodes");
+  if (of_type.empty()) in.fail("has neither SolAtVertices nor values at cells, such as SolAtTetrahedra");
+  place_cell_values(in, of_type, file);
 }
 
 }  // namespace st

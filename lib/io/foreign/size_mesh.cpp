@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -17,13 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// FILE:ARRAY in two; without an array where there is a file of the whole name.
-std::pair<std::string, std::string> split_name(const std::string& file) {
-  const std::size_t colon = file.rfind(':');
-  if (colon == std::string::npos || fs::exists(file)) return {file, ""};
-  return {file.substr(0, colon), file.substr(colon + 1)};
-}
-
 bool has_suffix(const std::string& path, std::initializer_list<const char*> suffixes) {
   const std::string own = fs::path(path).extension().string();
   return std::find(suffixes.begin(), suffixes.end(), own) != suffixes.end();
@@ -32,19 +26,48 @@ bool is_medit_mesh(const std::string& path) { return has_suffix(path, {".mesh", 
 bool is_msh(const std::string& path) { return has_suffix(path, {".msh", ".msh2"}); }
 bool is_medit_solution(const std::string& path) { return has_suffix(path, {".sol", ".solb"}); }
 
+/// What FILE, FILE:ARRAY, MESH:SOLUTION and MESH:SOLUTION:ARRAY name.
+struct FileName {
+  std::string path, array, solution;  ///< of a mesh of Medit whose solution has another name
+};
+
+FileName parse_name(const std::string& file) {
+  const std::size_t colon = file.rfind(':');
+  if (colon == std::string::npos || fs::exists(file)) return {file, "", ""};
+  const std::string before = file.substr(0, colon), after = file.substr(colon + 1);
+  if (is_medit_mesh(before) && is_medit_solution(after)) return {before, "", after};
+  const std::size_t first = before.rfind(':');
+  if (first == std::string::npos || fs::exists(before) || !is_medit_mesh(before.substr(0, first)))
+    return {before, after, ""};
+  return {before.substr(0, first), after, before.substr(first + 1)};
+}
+
+/// Number of a field of Medit, from 1; 0: none is named.
+std::int64_t field_number(const FileName& name) {
+  std::int64_t number = 0;
+  if (name.array.empty()) return number;
+  const char* const end = name.array.data() + name.array.size();
+  const auto [stop, error] = std::from_chars(name.array.data(), end, number);
+  if (error != std::errc() || stop != end || number < 1)
+    throw Error(ExitCode::kInput, fmt::format("{}: fields of Medit have numbers from 1; '{}' is none",
+                                              name.solution.empty() ? name.path : name.solution, name.array));
+  return number;
+}
+
 /// The file of the same name with one of these suffixes.
 std::string beside(const std::string& path, std::initializer_list<const char*> suffixes, const char* what) {
   for (const char* suffix : suffixes)
     if (const fs::path other = fs::path(path).replace_extension(suffix); fs::is_regular_file(other))
       return other.string();
-  throw Error(ExitCode::kInput, fmt::format("{}: has no {} beside it: {}", path, what,
-                                            fs::path(path).replace_extension(*suffixes.begin()).string()));
+  throw Error(ExitCode::kInput,
+              fmt::format("{}: has no {} beside it: {}; one of another name is given as MESH:SOLUTION", path, what,
+                          fs::path(path).replace_extension(*suffixes.begin()).string()));
 }
 
-CellFile read_medit(const std::vector<std::string>& mesh_and_solution) {
+CellFile read_medit(const std::vector<std::string>& mesh_and_solution, std::int64_t number) {
   const std::string &mesh = mesh_and_solution[0], &solution = mesh_and_solution[1];
   CellFile file = parse_medit_mesh(mesh, read_text_file(mesh));
-  file.value = parse_medit_solution(solution, read_text_file(solution), file.node_xyz.size());
+  parse_medit_solution(solution, read_text_file(solution), number, file);
   return file;
 }
 
@@ -136,9 +159,10 @@ void read_sizes(const std::string& path, const CellFile& file, BackgroundMesh& m
 
 /// The file as it is, with values at nodes; its cells as simplices in `mesh`.
 CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
-  const auto [path, array] = split_name(file);
+  const FileName name = parse_name(file);
+  const std::string &path = name.path, &array = name.array;
   const std::vector<std::string> files = files_of_size_mesh(file);
-  CellFile cells = files.size() == 2            ? read_medit(files)
+  CellFile cells = files.size() == 2            ? read_medit(files, field_number(name))
                    : has_suffix(path, {".pos"}) ? parse_pos_cells(path, read_text_file(path))
                    : is_msh(path)               ? parse_msh_cells(path, read_text_file(path), array)
                    : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, read_text_file(path), array)
@@ -158,13 +182,14 @@ CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
 }  // namespace
 
 bool is_size_mesh(const std::string& file) {
-  const std::string path = split_name(file).first;
+  const std::string path = parse_name(file).path;
   return is_medit_mesh(path) || is_medit_solution(path) || is_msh(path) ||
          has_suffix(path, {".pos", ".vtu", ".vtkhdf", ".hdf", ".h5"});
 }
 
 std::vector<std::string> files_of_size_mesh(const std::string& file) {
-  const std::string path = split_name(file).first;
+  const auto [path, array, solution] = parse_name(file);
+  if (!solution.empty()) return {path, solution};
   if (is_medit_mesh(path)) return {path, beside(path, {".sol", ".solb"}, "solution")};
   if (is_medit_solution(path)) return {beside(path, {".mesh", ".meshb"}, "mesh"), path};
   return {path};
@@ -173,7 +198,7 @@ std::vector<std::string> files_of_size_mesh(const std::string& file) {
 BackgroundMesh read_size_mesh(const std::string& file) {
   BackgroundMesh mesh;
   const CellFile cells = read_cells(file, mesh);
-  read_sizes(split_name(file).first, cells, mesh);
+  read_sizes(parse_name(file).path, cells, mesh);
   const std::vector<std::int32_t> kept = number_used_nodes(mesh);
   keep_only(kept, mesh.node_xyz);
   keep_only(kept, mesh.node_size);
@@ -182,7 +207,7 @@ BackgroundMesh read_size_mesh(const std::string& file) {
 }
 
 FieldMesh read_field_mesh(const std::string& file) {
-  const std::string path = split_name(file).first;
+  const std::string path = parse_name(file).path;
   FieldMesh field;
   CellFile cells = read_cells(file, field.mesh);
   if (cells.value.size() != cells.node_xyz.size())

@@ -15,7 +15,8 @@ std::vector<std::string> files_of_size_mesh(const std::string& file);
 
 /// Lengths or metrics at the nodes of a mesh of volumes or surfaces: `file` is
 ///   - Medit's .sol or .solb, with the .mesh or .meshb of the same name beside it, or that mesh, with the solution
-///     beside it; the first scalar or symmetric tensor counts,
+///     beside it, or MESH:SOLUTION. :N behind it names a field by its number from 1, else the first that is no vector
+///     counts; of the nodes, or of the cells, whose mean counts at nodes,
 ///   - Gmsh's .msh (2.2, 4.1, text, binary) with $NodeData: FILE:VIEW names one, else the first counts,
 ///   - a parsed view of Gmsh, .pos: scalars or tensors of the first time step,
 ///   - VTK's .vtu, or .vtkhdf, .hdf, .h5: FILE:ARRAY names the array of the point data, or else of the cell data, whose

@@ -1,7 +1,9 @@
 // Meshes and solutions of Medit as background meshes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 
 #include "base/error.h"
@@ -88,6 +90,49 @@ TEST_F(MeditMeshes, medit_may_have_metrics_after_other_fields) {
   EXPECT_NEAR(std::abs(mesh.node_size[0].direction.y), 1, 1e-12);
 }
 
+/// As parallel adapters write fields of a flow and a metric together, and keywords over two lines.
+std::string three_fields() {
+  std::string text = "MeshVersionFormatted\n 2\n\nDimension\n 3\n\nSolAtVertices\n6\n3 1 2 3\n";
+  for (int n = 0; n < 6; ++n) text += " 0.5 7 8 9 100 0 25 0 0 100\r\n";
+  return text + "\nReferenceStrings\n3\n62 1 density\n62 2 velocity\n62 3 metric\n\nEnd\n";
+}
+
+TEST_F(MeditMeshes, a_field_of_medit_is_named_by_its_number) {
+  write("m.mesh", kMeditMesh);
+  const std::string solution = write("m.sol", three_fields());
+  EXPECT_NEAR(read_size_mesh(solution).node_size[0].length, 0.5, 1e-15);
+  EXPECT_NEAR(read_size_mesh(solution + ":1").node_size[0].length, 0.5, 1e-15);
+  const BackgroundMesh metric = read_size_mesh(solution + ":3");
+  ASSERT_EQ(metric.node_metric.size(), 5u);
+  EXPECT_NEAR(metric.node_size[0].along, 0.2, 1e-15);
+  EXPECT_NEAR(read_size_mesh(dir_ / "m.mesh:3").node_size[0].along, 0.2, 1e-15);
+  EXPECT_ERROR(read_size_mesh(solution + ":2"), kInput, "m.sol: line 9: field 2 is a vector");
+  EXPECT_ERROR(read_size_mesh(solution + ":4"), kInput, "has 3 fields; there is no number 4");
+  EXPECT_ERROR(read_size_mesh(solution + ":0"), kInput, "fields of Medit have numbers from 1; '0' is none");
+  EXPECT_ERROR(read_size_mesh(solution + ":metric"), kInput, "'metric' is none");
+}
+
+TEST_F(MeditMeshes, a_solution_of_another_name_is_named_after_its_mesh) {
+  const std::string mesh = write("m.mesh", kMeditMesh), solution = write("m-metric.sol", three_fields());
+  EXPECT_ERROR(read_size_mesh(solution), kInput, "one of another name is given as MESH:SOLUTION");
+  EXPECT_NEAR(read_size_mesh(mesh + ":" + solution).node_size[0].length, 0.5, 1e-15);
+  EXPECT_NEAR(read_size_mesh(mesh + ":" + solution + ":3").node_size[0].along, 0.2, 1e-15);
+  EXPECT_EQ(files_of_size_mesh(mesh + ":" + solution + ":3"), (std::vector<std::string>{mesh, solution}));
+  EXPECT_TRUE(is_size_mesh(mesh + ":" + solution + ":3"));
+}
+
+TEST_F(MeditMeshes, values_at_tetrahedra_are_averaged_and_those_of_the_border_left_out) {
+  write("m.mesh", kMeditMesh);
+  const std::string head = "MeshVersionFormatted 1\nDimension 3\n", tets = "SolAtTetrahedra\n2\n1 1\n0.1\n0.3\n";
+  for (const std::string& text : {head + tets, head + "SolAtTriangles\n1\n1 1\n9\n" + tets + "End\n"}) {
+    const std::vector<double> lengths = lengths_in(read_size_mesh(write("m.sol", text)));
+    ASSERT_EQ(lengths.size(), 5u);
+    EXPECT_NEAR(lengths[0], 0.1, 1e-15);  // of the first cell alone
+    EXPECT_NEAR(lengths[1], 0.2, 1e-15);  // of both
+    EXPECT_NEAR(lengths[4], 0.3, 1e-15);  // of the second
+  }
+}
+
 TEST_F(MeditMeshes, tensors_of_medit_have_their_components_in_rows_of_the_lower_triangle) {
   write("m.mesh", kMeditMesh);
   // along (1, 0, 1): xx = zz = 62.5, xz = -37.5, so 25 there, 100 across
@@ -101,7 +146,7 @@ TEST_F(MeditMeshes, tensors_of_medit_have_their_components_in_rows_of_the_lower_
 /// The binary form, as libMeshb's page describes it.
 class MeditBinary {
  public:
-  explicit MeditBinary(std::int32_t version) : version_(version) {
+  explicit MeditBinary(std::int32_t version, bool is_swapped = false) : version_(version), is_swapped_(is_swapped) {
     put<std::int32_t>(1);
     put(version);
     begin(3);
@@ -114,9 +159,10 @@ class MeditBinary {
     version_ >= 3 ? put<std::int64_t>(0) : put<std::int32_t>(0);
   }
   void end() {
-    const auto at = static_cast<std::int64_t>(bytes_.size());
-    bytes_.replace(hole_, version_ >= 3 ? 8 : 4,
-                   std::string(reinterpret_cast<const char*>(&at), version_ >= 3 ? 8 : 4));
+    const std::string whole = bytes_;
+    bytes_.clear();
+    version_ >= 3 ? put(static_cast<std::int64_t>(whole.size())) : put(static_cast<std::int32_t>(whole.size()));
+    bytes_ = std::string(whole).replace(hole_, bytes_.size(), bytes_);
   }
   void integer(std::int64_t value) { version_ >= 4 ? put(value) : put(static_cast<std::int32_t>(value)); }
   void small(std::int32_t value) { put(value); }
@@ -129,9 +175,12 @@ class MeditBinary {
  private:
   template <class T>
   void put(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+    std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+    if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
+    bytes_ += bytes;
   }
   std::int32_t version_;
+  bool is_swapped_;
   std::string bytes_;
   std::size_t hole_ = 0;
 };
@@ -139,8 +188,9 @@ class MeditBinary {
 TEST_F(MeditMeshes, binary_medit_of_every_version_is_that_of_the_text) {
   write("t.mesh", kMeditMesh);
   const BackgroundMesh text = read_size_mesh(write("t.sol", kMeditLengths));
-  for (const std::int32_t version : {1, 2, 3, 4}) {
-    MeditBinary mesh(version), solution(version);
+  for (const std::int32_t kind : {1, 2, 3, 4, -1, -2, -3, -4}) {  // below 0: written on a machine of another byte order
+    const std::int32_t version = std::abs(kind);
+    MeditBinary mesh(version, kind < 0), solution(version, kind < 0);
     mesh.begin(4);
     mesh.integer(6);
     for (const Vec3 x : {Vec3{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {9, 9, 9}, {1, 1, 1}}) {
@@ -161,11 +211,11 @@ TEST_F(MeditMeshes, binary_medit_of_every_version_is_that_of_the_text) {
     solution.end();
     write("b.meshb", mesh.done());
     const BackgroundMesh binary = read_size_mesh(write("b.solb", solution.done()));
-    EXPECT_EQ(binary.node_xyz, text.node_xyz) << version;
-    EXPECT_EQ(binary.tets, text.tets) << version;
-    ASSERT_EQ(binary.node_size.size(), text.node_size.size()) << version;
+    EXPECT_EQ(binary.node_xyz, text.node_xyz) << kind;
+    EXPECT_EQ(binary.tets, text.tets) << kind;
+    ASSERT_EQ(binary.node_size.size(), text.node_size.size()) << kind;
     for (std::size_t i = 0; i < text.node_size.size(); ++i)
-      EXPECT_NEAR(binary.node_size[i].length, text.node_size[i].length, 1e-7) << version;
+      EXPECT_NEAR(binary.node_size[i].length, text.node_size[i].length, 1e-7) << kind;
   }
 }
 
@@ -187,7 +237,9 @@ TEST_F(MeditMeshes, bad_metrics_and_missing_partners_are_named) {
   expect("\n6\n", "\n5\n", "has values for 5 nodes, the mesh 6");
   expect("1 1\n", "1 2\n", "has vectors alone");
   expect("Dimension 3", "Dimension 2", "has 2 dimensions");
-  expect("SolAtVertices", "SolAtTriangles", "has no SolAtVertices");
+  expect("SolAtVertices", "SolAtEdges", "has neither SolAtVertices nor values at cells");
+  expect("SolAtVertices\n6", "SolAtTetrahedra\n3", "has values for 3 cells, the mesh 2");
+  expect("SolAtVertices\n6", "SolAtTriangles\n1", "has values neither at vertices nor at the 2 cells of VTK's type 10");
   expect("0.4\n0\n0.6\nEnd\n", "", "cut off");
   text = kMeditMesh;
   write("m.sol", kMeditLengths);
