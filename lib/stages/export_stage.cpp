@@ -81,6 +81,7 @@ ExportOptions mesh_options(const ExportStageOptions& o) {
 struct Additions {
   MidNodes mid_nodes;
   std::vector<TriangleValues> values;
+  std::vector<NodeValues> node_values;  ///< that st-remesh carried
 };
 
 /// Coordinates and sizes in the unit that is wanted; parameters stay those of the CAD. Returns the unit.
@@ -186,17 +187,18 @@ std::vector<std::string> export_mesh_artifact(const ExportStageOptions& o, Expor
   const QuadPairs elements = o.quads ? pair_triangles(artifact.mesh) : all_triangles(artifact.mesh);
   Additions added;
   if (shows_values(o.output)) added.values = measured_values(artifact.mesh);
+  added.node_values = read_stored_values(o.artifact);
   if (!o.geometry.empty()) use_geometry(o, elements, artifact, added);
   options.unit = change_unit(o, artifact, added);
   progress.step("writing", 0.5);
   std::vector<std::string> files;
+  const ExportMesh mesh{artifact.mesh, elements, added.mid_nodes, added.values, added.node_values};
   if (is_in_blocks)
-    export_blocks(o.output, artifact.mesh, added.values, options);
+    export_blocks(o.output, mesh, options);
   else if (o.split_groups)
-    for (const GroupFile& file : export_groups(o.output, artifact.mesh, added.values, options))
-      files.push_back(file.path);
+    for (const GroupFile& file : export_groups(o.output, mesh, options)) files.push_back(file.path);
   else
-    export_and_warn(o.output, {artifact.mesh, elements, added.mid_nodes, added.values}, options);
+    export_and_warn(o.output, mesh, options);
   return files;
 }
 

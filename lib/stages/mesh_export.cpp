@@ -46,24 +46,41 @@ std::string block_path(const std::string& path) {
   return (target.parent_path() / target.stem() / target.stem()).string() + ".vtu";
 }
 
-std::vector<GroupFile> export_groups(const std::string& path, const SurfaceMesh& mesh,
-                                     std::span<const TriangleValues> values, const ExportOptions& options) {
-  std::vector<GroupFile> files = group_files(path, mesh);
+namespace {
+
+/// Of the nodes of these triangles, in the order that mesh_of_triangles() gives them.
+std::vector<NodeValues> values_on(const ExportMesh& mesh, std::span<const TriangleId> triangles) {
+  std::vector<NodeValues> of_part;
+  if (mesh.node_values.empty()) return of_part;
+  std::vector<char> is_used(mesh.mesh.node_xyz.size(), 0);
+  for (const TriangleId t : triangles)
+    for (const NodeId n : mesh.mesh.triangles[t].n) is_used[n] = 1;
+  for (const NodeValues& v : mesh.node_values) {
+    NodeValues& part = of_part.emplace_back(NodeValues{v.name, v.n_components, {}});
+    for (std::size_t i = 0; i < v.values.size(); ++i)
+      if (is_used[i / v.n_components]) part.values.push_back(v.values[i]);
+  }
+  return of_part;
+}
+
+}  // namespace
+
+std::vector<GroupFile> export_groups(const std::string& path, const ExportMesh& mesh, const ExportOptions& options) {
+  std::vector<GroupFile> files = group_files(path, mesh.mesh);
   for (const GroupFile& file : files) {
-    const SurfaceMesh part = mesh_of_triangles(mesh, file.triangles);
+    const SurfaceMesh part = mesh_of_triangles(mesh.mesh, file.triangles);
     const QuadPairs elements = options.has_quads ? pair_triangles(part) : all_triangles(part);
     std::vector<TriangleValues> of_part;
-    for (const TriangleValues& v : values) {
+    for (const TriangleValues& v : mesh.values) {
       of_part.push_back({v.name, {}});
       for (const TriangleId t : file.triangles) of_part.back().of_triangle.push_back(v.of_triangle[t]);
     }
-    export_mesh(file.path, {part, elements, {}, of_part}, options);
+    export_mesh(file.path, {part, elements, {}, of_part, values_on(mesh, file.triangles)}, options);
   }
   return files;
 }
 
-void export_blocks(const std::string& path, const SurfaceMesh& mesh, std::span<const TriangleValues> values,
-                   const ExportOptions& options) {
+void export_blocks(const std::string& path, const ExportMesh& mesh, const ExportOptions& options) {
   const std::string block = block_path(path);
   const std::filesystem::path folder = std::filesystem::path(block).parent_path();
   std::error_code failure;
@@ -75,7 +92,7 @@ void export_blocks(const std::string& path, const SurfaceMesh& mesh, std::span<c
       "byte_order=\"LittleEndian\">\n<vtkMultiBlockDataSet>\n";
   int index = 0;
   try {
-    for (const GroupFile& file : export_groups(block, mesh, values, options)) {
+    for (const GroupFile& file : export_groups(block, mesh, options)) {
       const std::filesystem::path name(file.path);
       text += fmt::format("<DataSet index=\"{}\" name=\"{}\" file=\"{}\"/>\n", index++, xml_escaped(file.group),
                           xml_escaped((folder.filename() / name.filename()).string()));

@@ -25,13 +25,11 @@ std::vector<GroupFile> group_files(const std::string& path, const SurfaceMesh& m
 /// The name of the files of export_blocks(), before their groups: NAME/NAME.vtu.
 std::string block_path(const std::string& path);
 
-/// One file for each group that has triangles, named after it.
-std::vector<GroupFile> export_groups(const std::string& path, const SurfaceMesh& mesh,
-                                     std::span<const TriangleValues> values, const ExportOptions& options);
+/// One file for each group that has triangles, named after it. Its elements are made anew.
+std::vector<GroupFile> export_groups(const std::string& path, const ExportMesh& mesh, const ExportOptions& options);
 
 /// ParaView's .vtm: a block for each group under its name, as a .vtu in a folder beside it, NAME/NAME_GROUP.vtu. Throws
 /// Error(kOutput).
-void export_blocks(const std::string& path, const SurfaceMesh& mesh, std::span<const TriangleValues> values,
-                   const ExportOptions& options);
+void export_blocks(const std::string& path, const ExportMesh& mesh, const ExportOptions& options);
 
 }  // namespace st

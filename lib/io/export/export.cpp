@@ -26,6 +26,7 @@ enum Room : unsigned {
   kMapbc = 128,         ///< a list of boundaries is written next to the mesh: NAME.mapbc for NAME.ugrid
   kMsh = 512,           ///< the mesh itself is written next to it: NAME.msh for NAME.geo
   kFeaturesOnly = 256,  ///< no mesh at all: its feature lines
+  kNodeValues = 1024,   ///< values that st-remesh carried
   kNamed = kNumbers | kNames,
 };
 
@@ -44,7 +45,7 @@ constexpr Encoding kText = Encoding::kText, kBinary = Encoding::kBinary;
 constexpr Format kFormats[] = {
     {".ascii.stl", export_ascii_stl, kNamed, kText, ".stl"},
     {".stl", export_stl, 0, kBinary, ".ascii.stl"},
-    {".vtu", export_vtu, kNamed | kDivisions | kEntityGroups | kQuads | kMidNodes, kBinary},
+    {".vtu", export_vtu, kNamed | kDivisions | kEntityGroups | kQuads | kMidNodes | kNodeValues, kBinary},
     {".obj", export_obj, kNamed | kEntityGroups, kText},
     {".binary.ply", export_binary_ply, kNamed | kDivisions | kEntityGroups, kBinary, ".ply"},
     {".ply", export_ply, kNamed | kDivisions | kEntityGroups, kText, ".binary.ply"},
@@ -127,7 +128,8 @@ void require_room(const std::string& path, const Format& format, Room room, cons
 }
 
 /// What there is no room for.
-std::vector<std::string> losses(const SurfaceMesh& mesh, const Format& format) {
+std::vector<std::string> losses(const ExportMesh& all, const Format& format) {
+  const SurfaceMesh& mesh = all.mesh;
   std::vector<std::string> lost;
   if (format.room & kFeaturesOnly) return lost;
   const auto lose = [&](const char* what, std::size_t n) {
@@ -145,6 +147,7 @@ std::vector<std::string> losses(const SurfaceMesh& mesh, const Format& format) {
   }
   if (!(format.room & kEntityGroups))
     lose("groups of edges and vertices", mesh.labels.edge_groups.size() + mesh.labels.vertex_groups.size());
+  if (!(format.room & kNodeValues)) lose("arrays of values at nodes", all.node_values.size());
   return lost;
 }
 
@@ -228,7 +231,8 @@ std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& 
   wanted.has_mid_nodes |= !mesh.mid_nodes.empty();
   require_export_format(path, wanted);
   const Format& format = format_of(path, wanted);
-  const ExportTask task{mesh.mesh, mesh.elements, mesh.mid_nodes, options, mesh.values, name_of_file(stem_of(path))};
+  const ExportTask task{
+      mesh.mesh, mesh.elements, mesh.mid_nodes, options, mesh.values, mesh.node_values, name_of_file(stem_of(path))};
   Output out(path);
   format.write(out, task);
   for (const std::string& beside : files_beside(path, wanted)) {
@@ -237,7 +241,7 @@ std::vector<std::string> export_mesh(const std::string& path, const ExportMesh& 
     other.commit();
   }
   out.commit();
-  return losses(mesh.mesh, format);
+  return losses(mesh, format);
 }
 
 std::vector<std::string> export_mesh(const std::string& path, const SurfaceMesh& mesh) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/hdf5/node_values.h"
 #include "mesh/mid_nodes.h"
 #include "mesh/quad_pairs.h"
 #include "mesh/surface_mesh.h"
@@ -38,6 +39,7 @@ struct ExportMesh {
   const QuadPairs& elements;
   const MidNodes& mid_nodes;  ///< empty: straight elements; else of every side of every element
   std::span<const TriangleValues> values = {};
+  std::span<const NodeValues> node_values = {};
 };
 
 /// Throws Error(kUsage) unless a format is known that has all that is wanted: encoding, quadrilaterals, second order.

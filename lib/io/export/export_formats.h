@@ -98,7 +98,8 @@ struct ExportTask {
   const MidNodes& mid_nodes;
   const ExportOptions& options;
   std::span<const TriangleValues> values;
-  std::string stem;  ///< name of the file without folder and suffix
+  std::span<const NodeValues> node_values;  ///< of the nodes without those on sides
+  std::string stem;                         ///< name of the file without folder and suffix
 
   std::int64_t n_nodes() const { return mesh.n_nodes() + mid_nodes.size(); }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(elements.triangles.size()); }

@@ -21,6 +21,16 @@ std::vector<std::int32_t> one_based(const std::vector<std::int32_t>& ids) {
   return shifted;
 }
 
+/// Nodes on sides have the mean of the ends.
+std::vector<double> with_mid_nodes(const NodeValues& v, const MidNodes& mid) {
+  std::vector<double> values = v.values;
+  for (const auto& [a, b] : mid.ends)
+    for (std::size_t k = 0; k < v.n_components; ++k)
+      values.push_back(0.5 * (v.values[static_cast<std::size_t>(a) * v.n_components + k] +
+                              v.values[static_cast<std::size_t>(b) * v.n_components + k]));
+  return values;
+}
+
 void write_field_data(Output& out, const SurfaceMesh& m) {
   out.text("<FieldData>\n");
   write_vtu_names(out, "face", m.labels.face_name);
@@ -88,6 +98,8 @@ void export_vtu(Output& out, const ExportTask& task) {
     n.of_node.resize(static_cast<std::size_t>(task.n_nodes()), 0);
     write_vtu_array(out, n.name, n.of_node);
   }
+  for (const NodeValues& v : task.node_values)
+    write_vtu_array(out, v.name, with_mid_nodes(v, mid), static_cast<int>(v.n_components));
   out.text("</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
 

@@ -195,6 +195,15 @@ MeshColumns columns_of(const MeshArtifact& artifact) {
   return c;
 }
 
+constexpr std::string_view kPointData = "/VTKHDF/PointData/";
+
+/// Names of point data that meshes have without carried values.
+bool is_own_name(const std::string& name) {
+  constexpr std::string_view own[] = {"entity_dim", "entity_id", "size", "previous_id", "cad_face"};
+  return name.empty() || std::find(std::begin(own), std::end(own), name) != std::end(own) ||
+         name.starts_with("edge_group") || name.starts_with("vertex_group");
+}
+
 std::string write(const std::string& path, const MeshArtifact& artifact, const MeshColumns& columns,
                   std::span<const NodeValues> arrays) {
   const SurfaceMesh& m = artifact.mesh;
@@ -214,7 +223,7 @@ std::string write(const std::string& path, const MeshArtifact& artifact, const M
     w.write("/st/segment/edge", m.segment_edge);
   }
   c.add("/st/triangle/corner_uv", columns.corner_uv);
-  for (const NodeValues& a : arrays) w.write("/VTKHDF/PointData/" + a.name, a.values, a.n_components);
+  for (const NodeValues& a : arrays) w.write(std::string(kPointData) + a.name, a.values, a.n_components);
   write_merged(w, m.merged);
   w.set_attribute("/st", "is_complete", std::int64_t{artifact.is_complete});
   c.write();
@@ -232,13 +241,26 @@ std::string write_mesh(const std::string& path, const MeshArtifact& artifact, co
 }
 
 void require_free_name(const std::string& name) {
-  for (const char* own : {"entity_dim", "entity_id", "size", "previous_id", "cad_face"})
-    if (name == own || name.empty() || name.starts_with("edge_group") || name.starts_with("vertex_group"))
-      throw Error(ExitCode::kUsage, "array '" + name + "': meshes have one of this name; give it another");
+  if (is_own_name(name))
+    throw Error(ExitCode::kUsage, "array '" + name + "': meshes have one of this name; give it another");
 }
 
 std::string write_mesh_with(const std::string& path, const MeshArtifact& artifact, std::span<const NodeValues> arrays) {
   return write(path, artifact, columns_of(artifact), arrays);
+}
+
+std::vector<NodeValues> read_stored_values(const std::string& path) {
+  const Hdf5Reader r(path, "mesh", kMeshVersion);
+  const std::size_t n_nodes = r.info("/VTKHDF/Points").shape[0];
+  std::vector<NodeValues> arrays;
+  for (const DatasetInfo& set : r.datasets()) {
+    if (!set.name.starts_with(kPointData)) continue;
+    std::string name = set.name.substr(kPointData.size());
+    if (is_own_name(name)) continue;
+    const std::size_t n_components = set.shape.size() > 1 ? set.shape[1] : 1;
+    arrays.push_back({std::move(name), n_components, r.read_rows<double>(set.name, n_nodes, n_components)});
+  }
+  return arrays;
 }
 
 MeshArtifact read_mesh(const std::string& path) {

@@ -21,5 +21,7 @@ void require_free_name(const std::string& name);
 
 /// As write_mesh(), and the point data `arrays` of free names; readers of meshes pass over them.
 std::string write_mesh_with(const std::string& path, const MeshArtifact& mesh, std::span<const NodeValues> arrays);
+/// The arrays of a mesh that write_mesh_with() stored, by name. Throws Error(kInput).
+std::vector<NodeValues> read_stored_values(const std::string& path);
 
 }  // namespace st

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "io/foreign/triangulation_file.h"
+#include "io/hdf5/node_values.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 
@@ -60,6 +62,37 @@ TEST_F(ExportStage, writes_one_file_for_each_group) {
   EXPECT_EQ(read_bytes(dir_ / "m_body.off").substr(0, 10), "OFF\n4 2 0\n");
   EXPECT_EQ(read_bytes(dir_ / "m_wing.off").substr(0, 10), "OFF\n4 2 0\n");
   EXPECT_EQ(dir_.files().size(), 3u);
+}
+
+/// Whether the array "place" of a .vtu is where its nodes are.
+void expect_places(const std::string& path, std::size_t n_nodes) {
+  const std::string bytes = read_bytes(path);
+  const std::vector<Vec3> nodes = parse_vtu(path, bytes).node_xyz;
+  const std::vector<double> place = parse_vtu_point_array(path, bytes, "place");
+  ASSERT_EQ(nodes.size(), n_nodes) << path;
+  ASSERT_EQ(place.size(), 3 * n_nodes) << path;
+  for (std::size_t i = 0; i < n_nodes; ++i)
+    EXPECT_EQ(nodes[i], (Vec3{place[3 * i], place[3 * i + 1], place[3 * i + 2]})) << path << " " << i;
+}
+
+TEST_F(ExportStage, shows_the_values_that_remeshing_carried) {
+  MeshArtifact mesh = sample_mesh();
+  mesh.mesh.triangle_group = {1, 1, 0, 1};  // the body has nodes 1, 2, 3 alone
+  NodeValues place{"place", 3, {}};
+  for (const Vec3 x : mesh.mesh.node_xyz) place.values.insert(place.values.end(), {x.x, x.y, x.z});
+  write_mesh_with(o_.artifact, mesh, std::vector{NodeValues{"p", 1, {4, 3, 2, 1}}, place});
+  o_.output = dir_ / "m.vtu";
+  run_export(o_);
+  expect_places(o_.output, 4);
+  EXPECT_EQ(parse_vtu_point_array(o_.output, read_bytes(o_.output), "p"), (std::vector<double>{4, 3, 2, 1}));
+  o_.output = dir_ / "b.vtm";
+  run_export(o_);
+  expect_places(dir_ / "b/b_body.vtu", 3);
+  expect_places(dir_ / "b/b_wing.vtu", 4);
+  o_.output = dir_ / "m.off";
+  testing::internal::CaptureStderr();
+  run_export(o_);
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("arrays of values at nodes (2)"), std::string::npos);
 }
 
 TEST_F(ExportStage, refuses_options_of_meshes_for_other_artifacts) {
