@@ -45,9 +45,10 @@ class MshParser {
   /// Fails for types that cannot be read.
   virtual void require_readable(int) {}
   virtual bool keeps(int type) const = 0;
-  /// `nodes`: numbers in the file.
-  virtual void add(int type, std::int64_t entity, std::span<const std::int64_t> nodes) = 0;
-  virtual void read_node_data() {}
+  /// An element by its number, the surface or volume that it is of, and its nodes by their numbers in the file.
+  virtual void add(int type, std::int64_t number, std::int64_t entity, std::span<const std::int64_t> nodes) = 0;
+  /// `section`: "$NodeData", "$ElementData" or "$ElementNodeData".
+  virtual void read_view(const std::string& /*section*/) {}
 
   void read() {
     read_format();
@@ -60,8 +61,8 @@ class MshParser {
         version_ < 4 ? read_nodes_2() : read_nodes_4();
       else if (section == "$Elements")
         version_ < 4 ? read_elements_2() : read_elements_4();
-      else if (section == "$NodeData")
-        read_node_data();
+      else if (section == "$NodeData" || section == "$ElementData" || section == "$ElementNodeData")
+        read_view(section);
       skip_to_end_of(section);
     }
     if (tags_.empty()) in_.fail("cut off: there is no $Nodes section");
@@ -95,7 +96,8 @@ class MshParser {
   void read_format() {
     in_.word();
     version_ = in_.real();
-    if (version_ != 2.2 && version_ != 4.1)
+    const bool is_2 = version_ >= 2 && version_ <= 2.2;  // of one form, but for partitions, which nobody asks for
+    if (!is_2 && version_ != 4.1)
       in_.fail("only MSH 2.2 and 4.1 are read (gmsh -format msh41); this is " + std::to_string(version_).substr(0, 3));
     is_binary_ = in_.integer() == 1;
     if (in_.integer() != 8) in_.fail("only 8 bytes per number are read");
@@ -155,10 +157,10 @@ class MshParser {
 
   /// Nodes of one element; kept where the reader wants it.
   template <class Read>
-  void read_element_nodes(int type, int n, std::int64_t entity, const Read& read) {
+  void read_element_nodes(int type, int n, std::int64_t number, std::int64_t entity, const Read& read) {
     element_.clear();
     for (int k = 0; k < n; ++k) element_.push_back(read());
-    if (keeps(type)) add(type, entity, element_);
+    if (keeps(type)) add(type, number, entity, element_);
   }
 
   void read_elements_2() {
@@ -166,20 +168,20 @@ class MshParser {
     const std::size_t n = in_.count(count_line(), 4, "elements");
     const auto node = [&]() -> std::int64_t { return int_value(); };
     for (std::size_t i = 0; i < n;) {
-      if (!is_binary_) int_value();  // number
+      std::int64_t number = is_binary_ ? 0 : int_value();
       const int type = int_value();
       const std::size_t n_alike = is_binary_ ? in_.count(int_value(), 4, "elements") : 1;
       if (n_alike == 0 || n_alike > n - i) in_.fail("a block of elements has another number of them than announced");
       const int n_tags = int_value(), n_nodes = require_known(type);
       if (n_tags < 0 || n_tags > 1000) in_.fail("an element has " + std::to_string(n_tags) + " tags");
       for (std::size_t k = 0; k < n_alike; ++k, ++i) {
-        if (is_binary_) int_value();
+        if (is_binary_) number = int_value();
         std::int64_t surface = 0;
         for (int tag = 0; tag < n_tags; ++tag) {
           const std::int32_t value = int_value();
           if (tag == 1) surface = value;
         }
-        read_element_nodes(type, n_nodes, surface, node);
+        read_element_nodes(type, n_nodes, number, surface, node);
       }
     }
   }
@@ -194,8 +196,8 @@ class MshParser {
       const int type = int_value(), n_nodes = require_known(type);
       const std::size_t n = in_.count(size_value(), is_binary_ ? 8 * (1 + n_nodes) : 2, "elements");
       for (std::size_t i = 0; i < n; ++i) {
-        size_value();
-        read_element_nodes(type, n_nodes, entity, [&] { return size_value(); });
+        const std::int64_t number = size_value();
+        read_element_nodes(type, n_nodes, number, entity, [&] { return size_value(); });
       }
     }
   }
@@ -231,7 +233,7 @@ class TriangleParser final : public MshParser {
     if (is_other_surface_element(type)) in_.fail("has quadrangles or curved triangles; write triangles of first order");
   }
   bool keeps(int type) const override { return type == kTriangle; }
-  void add(int, std::int64_t entity, std::span<const std::int64_t> nodes) override {
+  void add(int, std::int64_t, std::int64_t entity, std::span<const std::int64_t> nodes) override {
     result_.triangles.push_back({nodes[0], nodes[1], nodes[2]});
     result_.surface.push_back(entity);
   }
@@ -251,10 +253,7 @@ class ViewParser final : public MshParser {
     if (n_components_ == 0) in_.fail(missing_view());
     for (std::int64_t& n : file_.node) n = place_of(n, "an element");
     file_.value.assign(n_components_ * node_xyz_.size(), std::numeric_limits<double>::quiet_NaN());
-    for (std::size_t i = 0; i < tags_.size(); ++i) {
-      const auto to = static_cast<std::size_t>(place_of(tags_[i], "$NodeData")) * n_components_;
-      std::copy_n(values_.data() + i * n_components_, n_components_, file_.value.data() + to);
-    }
+    section_ == "$NodeData" ? place_values() : average_elements();
     file_.node_xyz = std::move(node_xyz_);
     return std::move(file_);
   }
@@ -262,15 +261,51 @@ class ViewParser final : public MshParser {
  private:
   bool keeps(int type) const override { return vtk_type_of(type) != 0; }
   /// The corners stand first.
-  void add(int type, std::int64_t, std::span<const std::int64_t> nodes) override {
+  void add(int type, std::int64_t number, std::int64_t, std::span<const std::int64_t> nodes) override {
+    number_.push_back(number);
     file_.type.push_back(vtk_type_of(type));
     const int n = n_corners_of(file_.type.back());
     file_.node.insert(file_.node.end(), nodes.begin(), nodes.begin() + n);
     file_.offset.push_back(static_cast<std::int64_t>(file_.node.size()));
   }
 
-  /// Names, times, then step, number of components, number of nodes: a count, then as many lines.
-  void read_node_data() override {
+  void place_values() {
+    for (std::size_t i = 0; i < tags_.size(); ++i) {
+      const auto to = static_cast<std::size_t>(place_of(tags_[i], "$NodeData")) * n_components_;
+      std::copy_n(values_.data() + first_[i], n_components_, file_.value.data() + to);
+    }
+  }
+
+  /// Nodes get the mean of what the cells around them have there, volumes alone where there are some.
+  void average_elements() {
+    const bool has_volume = std::any_of(file_.type.begin(), file_.type.end(), is_volume);
+    std::vector<std::pair<std::int64_t, std::size_t>> cell_of;
+    for (std::size_t c = 0; c < number_.size(); ++c)
+      if (is_volume(file_.type[c]) == has_volume) cell_of.emplace_back(number_[c], c);
+    std::sort(cell_of.begin(), cell_of.end());
+    std::vector<double> n_values(node_xyz_.size(), 0);
+    for (std::size_t i = 0; i < tags_.size(); ++i) {
+      const auto at = std::lower_bound(cell_of.begin(), cell_of.end(), std::pair(tags_[i], std::size_t{0}));
+      if (at == cell_of.end() || at->first != tags_[i]) continue;
+      const auto begin = file_.offset[at->second], n_corners = file_.offset[at->second + 1] - begin;
+      const std::size_t n = (i + 1 < tags_.size() ? first_[i + 1] : values_.size()) - first_[i];
+      const bool is_alike = section_ == "$ElementData";
+      if (!is_alike && n < static_cast<std::size_t>(n_corners) * n_components_)
+        in_.fail("element " + std::to_string(tags_[i]) + " has too few values");
+      for (std::int64_t k = 0; k < n_corners; ++k)
+        add_to_mean(static_cast<std::size_t>(file_.node[begin + k]),
+                    values_.data() + first_[i] + (is_alike ? 0 : static_cast<std::size_t>(k) * n_components_),
+                    n_values);
+    }
+  }
+  void add_to_mean(std::size_t node, const double* v, std::vector<double>& n_values) {
+    const double n = n_values[node] += 1;
+    double* const mean = file_.value.data() + node * n_components_;
+    for (std::size_t k = 0; k < n_components_; ++k) mean[k] = n > 1 ? mean[k] + (v[k] - mean[k]) / n : v[k];
+  }
+
+  /// Names, times, then step, number of components, number of entries: a count, then as many lines.
+  void read_view(const std::string& section) override {
     std::string name;
     for (std::int64_t i = 0, n = count_line(); i < n; ++i) {
       std::string text(in_.line());
@@ -286,13 +321,17 @@ class ViewParser final : public MshParser {
     names_ += (names_.empty() ? "'" : ", '") + name + "'";
     if (n_components_ > 0 || (!view_.empty() && name != view_)) return;
     if (numbers[1] != 1 && numbers[1] != 9)
-      in_.fail("$NodeData '" + name + "' has " + std::to_string(numbers[1]) +
+      in_.fail(section + " '" + name + "' has " + std::to_string(numbers[1]) +
                " components; a length per node, or the nine components of a metric are expected");
+    section_ = section;
     n_components_ = static_cast<std::size_t>(numbers[1]);
     const std::size_t n = in_.count(numbers[2], is_binary() ? 4 + 8 * n_components_ : 2 + 2 * n_components_, "values");
     for (std::size_t i = 0; i < n; ++i) {
       tags_.push_back(int_value());
-      for (std::size_t k = 0; k < n_components_; ++k) values_.push_back(real_value());
+      first_.push_back(values_.size());
+      const std::int64_t n_each = section == "$ElementNodeData" ? int_value() : 1;
+      const std::size_t n_values = in_.count(n_each, 2 * n_components_, "values of an element") * n_components_;
+      for (std::size_t k = 0; k < n_values; ++k) values_.push_back(real_value());
     }
   }
 
@@ -304,8 +343,11 @@ class ViewParser final : public MshParser {
   const std::string& view_;
   std::string names_;  // of all views, for messages
   std::size_t n_components_ = 0;
-  std::vector<std::int64_t> tags_;
-  std::vector<double> values_;  // [tags][n_components]
+  std::string section_;               // of the view that is taken
+  std::vector<std::int64_t> tags_;    // numbers of its nodes or elements
+  std::vector<std::size_t> first_;    // [tags] into values_
+  std::vector<double> values_;        // n_components for a node or an element, or for each node of an element
+  std::vector<std::int64_t> number_;  // [n_cells]
   CellFile file_;
 };
 

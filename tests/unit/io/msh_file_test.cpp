@@ -146,6 +146,49 @@ TEST_F(MshFile, is_a_field_for_metrics_too) {
   EXPECT_EQ(field.value, (std::vector<double>{0.1, 0.2, 0.3, -3}));
 }
 
+/// Two tetrahedra on either side of the triangle 2, 5, 7, and a triangle of the border.
+const std::string kTwoTets = R"($MeshFormat
+2.1 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+5 0 1 0
+7 0 0 1
+8 1 1 1
+$EndNodes
+$Elements
+4
+1 15 2 0 1 1
+12 2 2 0 1 1 2 5
+14 4 2 0 1 1 2 5 7
+13 4 2 0 1 2 5 7 8
+$EndElements
+)";
+
+TEST_F(MshFile, values_at_elements_are_averaged_at_nodes) {
+  const std::string head = "1\n\"h\"\n1\n0\n3\n0\n1\n4\n";
+  const BackgroundMesh mesh = read(kTwoTets + "$ElementData\n" + head + "12 9\n13 0.3\n14 0.1\n1 9\n$EndElementData\n");
+  ASSERT_EQ(mesh.node_size.size(), 5u);
+  const double expected[] = {0.1, 0.2, 0.2, 0.2, 0.3};
+  for (std::size_t n = 0; n < 5; ++n) EXPECT_NEAR(mesh.node_size[n].length, expected[n], 1e-15) << n;
+}
+
+TEST_F(MshFile, values_at_corners_of_elements_are_averaged_at_nodes) {
+  const std::string data =
+      "$ElementNodeData\n1\n\"h\"\n1\n-1\n3\n0\n1\n4\n1 1 9\n12 3 9 9 9\n"
+      "14 4 0.1 0.2 0.3 0.4\n13 4 0.4 0.3 0.4 0.5\n$EndElementNodeData\n";
+  const BackgroundMesh mesh = read(kTwoTets + data);
+  ASSERT_EQ(mesh.node_size.size(), 5u);
+  const double expected[] = {0.1, 0.3, 0.3, 0.4, 0.5};
+  for (std::size_t n = 0; n < 5; ++n) EXPECT_NEAR(mesh.node_size[n].length, expected[n], 1e-15) << n;
+  EXPECT_ERROR(read(kTwoTets + with(data, "13 4 0.4 0.3 0.4 0.5", "13 3 0.4 0.3 0.4")), kInput,
+               "element 13 has too few values");
+  EXPECT_ERROR(read(kTwoTets + with(data, "4\n1 1 9\n12 3 9 9 9\n14 4 0.1 0.2 0.3 0.4\n", "1\n")), kInput,
+               "1 of 5 nodes have no length above 0, the first is node 0");
+}
+
 TEST_F(MshFile, damage_is_told_with_its_line) {
   const auto expect = [&](const std::string& text, const std::string& message, const std::string& view = "") {
     EXPECT_ERROR(read(text, view), kInput, message);
@@ -158,7 +201,7 @@ TEST_F(MshFile, damage_is_told_with_its_line) {
   expect(with(kMsh2, "4\n7 0.4\n", "3\n"), "1 of 4 nodes have no length above 0");
   expect(with(kMsh2, "0\n1\n4\n", "0\n3\n4\n"), "$NodeData 'length' has 3 components; a length per node");
   expect(with(kMsh2, "0\n1\n4\n", "0\n1\n4000\n"), "should have 4000 values");
-  expect(with(with(kMsh2, "$NodeData", "$ElementData"), "$EndNodeData", "$EndElementData"), "has no $NodeData; write");
+  expect(with(with(kMsh2, "$NodeData", "$Comments"), "$EndNodeData", "$EndComments"), "has no $NodeData; write");
   expect(kMsh2, "has no $NodeData 'size'; there are 'length'", ":size");
   expect(msh4(false), "$NodeData 'flow' has 3 components");
 }
