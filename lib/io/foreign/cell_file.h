@@ -34,7 +34,8 @@ CellFile parse_vtu_cells(const std::string& path, const std::string& bytes, cons
 /// Gmsh's parsed views (.pos), the first one: scalars or tensors at the corners of triangles, quadrilaterals and
 /// volumes, by the first time step. Corners at one place are one node with the value that stands first.
 CellFile parse_pos_cells(const std::string& path, const std::string& text);
-/// Gmsh's MSH 2.2 or 4.1, text or binary: the $NodeData named `view`, or the first. Nodes without a value have NaN.
+/// Gmsh's MSH 2.0 to 2.2 or 4.1, text or binary: the view named `view`, or the first: $NodeData, or the mean at nodes
+/// of $ElementData or $ElementNodeData. Nodes without a value have NaN.
 CellFile parse_msh_cells(const std::string& path, const std::string& bytes, const std::string& view);
 CellFile read_vtkhdf_cells(const std::string& path, const std::string& array);
 /// INRIA's Medit: nodes and cells of a .mesh or .meshb.

@@ -17,7 +17,8 @@ std::vector<std::string> files_of_size_mesh(const std::string& file);
 ///   - Medit's .sol or .solb, with the .mesh or .meshb of the same name beside it, or that mesh, with the solution
 ///     beside it, or MESH:SOLUTION. :N behind it names a field by its number from 1, else the first that is no vector
 ///     counts; of the nodes, or of the cells, whose mean counts at nodes,
-///   - Gmsh's .msh (2.2, 4.1, text, binary) with $NodeData: FILE:VIEW names one, else the first counts,
+///   - Gmsh's .msh (2.0 to 2.2, 4.1, text, binary) with $NodeData, $ElementData or $ElementNodeData, whose means count
+///     at nodes: FILE:VIEW names one, else the first counts,
 ///   - a parsed view of Gmsh, .pos: scalars or tensors of the first time step,
 ///   - VTK's .vtu, or .vtkhdf, .hdf, .h5: FILE:ARRAY names the array of the point data, or else of the cell data, whose
 ///     mean counts at nodes; without it `size` or `metric`; one, six (xx yy zz xy yz xz) or nine components.
