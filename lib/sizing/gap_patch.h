@@ -20,6 +20,8 @@ struct GapPatch {
   double k_ss = 0, k_st = 0, k_tt = 0;  ///< second derivatives of the height, 1/model unit
   double length = 0;                    ///< that the patch asks for otherwise, model unit
   double min_length = 0;                ///< floor, model unit
+  double slot_floor = 0;                ///< likewise of a patch on the other side, where less; 0: that keeps its own
+  bool keeps_floor = false;             ///< whatever slot_floor the other side has
   std::optional<int> gap_cells;         ///< lengths across gaps, ahead; nullopt: these do not matter
   std::optional<int> wall_cells;        ///< lengths across walls, behind; nullopt: these do not matter
   std::int32_t cause = 0;               ///< packed

@@ -23,6 +23,12 @@ int cells_to(const GapPatch& patch, double along_normal) {
 /// As far as a patch has to look, in its lengths.
 int most_cells(const GapPatch& patch) { return std::max(patch.gap_cells.value_or(0), patch.wall_cells.value_or(0)); }
 
+/// Smallest length of a patch that sees another one: both sides of a slot are to have the same lengths.
+double floor_before(const GapPatch& patch, const GapPatch& other) {
+  const bool is_own = patch.keeps_floor || other.slot_floor == 0;
+  return is_own ? patch.min_length : std::min(patch.min_length, other.slot_floor);
+}
+
 /// A patch that may face another one, and a sphere around it.
 struct Facing {
   Vec3 center;
@@ -81,7 +87,10 @@ class GapTiler {
     return d < kSagging * (patch_.sagging() + other.sagging());
   }
 
-  double length_at(double s, double t) const { return std::max(look(s, t).length, patch_.min_length); }
+  double length_at(double s, double t) const {
+    const Sight sight = look(s, t);
+    return std::max(sight.length, sight.other ? floor_before(patch_, *sight.other) : patch_.min_length);
+  }
 
   /// Cuts the tile into n_s x n_t, and each part again while it is larger than its raster box.
   void cut(const Tile& tile, int n_s, int n_t, int depth) {
@@ -123,7 +132,7 @@ class GapTiler {
     const Sight sight = look(s, t);
     if (!sight.other || !cells_to(*sight.other, sight.distance) || !is_large(*sight.other)) return;
     const double length =
-        std::max(std::abs(sight.distance) / cells_to(*sight.other, sight.distance), sight.other->min_length);
+        std::max(std::abs(sight.distance) / cells_to(*sight.other, sight.distance), floor_before(*sight.other, patch_));
     if (length < sight.other->length) add_box(sight.x, length, sight.other->cause);
   }
 

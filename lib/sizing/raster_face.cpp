@@ -364,7 +364,8 @@ class FaceRaster {
     for (std::size_t k = 0; k < 9; ++k) points[k] = patch.probe[k].x;
     GapPatch result = fit_patch(points, patch.probe[4].normal);
     result.length = length;
-    result.min_length = limits_.gap_floor > 0 ? std::min(limits_.gap_floor, limits_.min_length) : limits_.min_length;
+    if (limits_.gap_floor > 0) result.slot_floor = std::min(limits_.gap_floor, limits_.min_length);
+    result.min_length = limits_.gap_floor > 0 ? result.slot_floor : limits_.min_length;
     result.gap_cells = limits_.gap_cells;
     result.wall_cells = limits_.wall_cells;
     result.cause = cause_;

@@ -426,6 +426,7 @@ class RasterTasks {
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
     for (GapPatch& patch : patches) {
       patch.solid = model_.tables().face_solid[f];
+      patch.keeps_floor = limits->gap_floor == 0 && limits->min_length != limits_.far.min_length;  // a rule's lmin
       if (is_reversed != limits_.is_material_ahead) patch.flip();
     }
     if (strip && !limits_.edge_is_ruled[strip->edges[0]] && !limits_.edge_is_ruled[strip->edges[1]] &&

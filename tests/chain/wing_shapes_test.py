@@ -118,8 +118,8 @@ class WingShapes(ToolTest):
     def test_eight_lengths_are_across_a_slot_of_a_quarter_per_cent_of_the_model(self):
         self.raster("gapped_aileron", "rans")
         must("st-prolong", self.folder / "raster.hdf", "--preset", "rans", "-o", self.folder / "sizing.hdf")
-        for x in (0.75, 0.76):  # of the walls of a slot of 0.01
-            said = must("st-info", self.folder / "sizing.hdf", "--at", f"{x},2,0").out
+        for place in ("0.75,2,0", "0.76,2,0", "0.85,1.5,0", "0.85,1.51,0"):  # on the walls of slots of 0.01
+            said = must("st-info", self.folder / "sizing.hdf", "--at", place).out
             self.assertAlmostEqual(float(said.split("length ")[1].split()[0]), 0.01 / 8, delta=2e-5)
 
     def test_edges_of_coves_and_slats_are_warned_of(self):

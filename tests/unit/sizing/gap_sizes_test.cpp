@@ -138,6 +138,23 @@ TEST(GapSizes, stay_above_the_smallest_length_and_keep_to_the_faces_that_ask) {
   }
 }
 
+TEST(GapSizes, go_down_to_the_floor_of_a_slot_on_both_sides_unless_a_rule_has_its_own) {
+  for (const bool is_ruled : {false, true}) {
+    SamplingLimits wing = limits(1, 0.2);
+    wing.gap_floor = 0.05;
+    std::vector<GapPatch> patches;
+    add_patches(plate(0), Normals::kAlong, wing, patches, 0);
+    add_patches(plate(0.4), Normals::kAgainst, limits(1, 0.2), patches, 1);
+    for (GapPatch& p : patches) p.keeps_floor = is_ruled && p.cause == 1;
+    bool has_other = false;
+    for (const RasterBox& b : gaps(patches)) {
+      EXPECT_NEAR(b.length, is_ruled && b.cause == 1 ? 0.2 : 0.1, 1e-6);
+      has_other |= b.cause == 1;
+    }
+    EXPECT_TRUE(has_other);
+  }
+}
+
 TEST(GapSizes, see_only_the_part_inside_the_loops) {
   const LoopPolygons half({{{0, 0}, {5, 0}}, {{5, 0}, {5, 10}}, {{5, 10}, {0, 10}}, {{0, 10}, {0, 0}}});
   std::vector<GapPatch> patches;
