@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/eigen.h"
 
@@ -20,11 +21,20 @@ Vec3 GapPatch::normal_at(double s, double t) const {
   return normalized(normal - (k_ss * s + k_st * t) * axis_s - (k_st * s + k_tt * t) * axis_t);
 }
 
-bool GapPatch::is_inside(double s, double t) const {
-  const auto index = [](double x, double lo, double hi) {
-    return hi > lo ? std::clamp(static_cast<int>(2 * (x - lo) / (hi - lo) + 0.5), 0, 2) : 1;
+bool GapPatch::is_inside(double s0, double s1, double t0, double t1) const {
+  if (inside == ~std::uint64_t{0}) return true;
+  const auto cells = [](double x0, double x1, double lo, double hi) {  // first and last one
+    if (!(hi > lo)) return std::pair(0, 7);
+    const double per_cell = 8 / (hi - lo);
+    const int first = std::clamp(static_cast<int>(per_cell * (x0 - lo)), 0, 7);
+    return std::pair(first, std::clamp(static_cast<int>(std::ceil(per_cell * (x1 - lo))) - 1, first, 7));
   };
-  return (inside >> (3 * index(t, t_lo, t_hi) + index(s, s_lo, s_hi))) & 1;
+  const auto [first, last] = cells(s0, s1, s_lo, s_hi);
+  const auto [first_row, last_row] = cells(t0, t1, t_lo, t_hi);
+  const std::uint64_t columns = (2u << last) - (1u << first);
+  for (int row = first_row; row <= last_row; ++row)
+    if (inside >> (8 * row) & columns) return true;
+  return false;
 }
 
 double GapPatch::sagging() const {
@@ -57,7 +67,7 @@ std::optional<double> GapPatch::facing_distance(Vec3 from, Vec3 direction) const
   const double distance = -2 * c / (b + std::copysign(std::sqrt(discriminant), b));
   const double s = os + distance * ds, t = ot + distance * dt;
   if (!(s >= s_lo && s <= s_hi && t >= t_lo && t <= t_hi)) return std::nullopt;
-  if (dot(normal_at(s, t), direction) > kFacing || !is_inside(s, t)) return std::nullopt;
+  if (dot(normal_at(s, t), direction) > kFacing || !is_inside(s, s, t, t)) return std::nullopt;
   return distance;
 }
 

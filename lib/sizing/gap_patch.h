@@ -26,7 +26,8 @@ struct GapPatch {
   std::optional<int> wall_cells;        ///< lengths across walls, behind; nullopt: these do not matter
   std::int32_t cause = 0;               ///< packed
   std::int32_t solid = -1;              ///< that the face bounds; -1: none
-  std::uint32_t inside = 0x1ff;         ///< bit 3 * row + column: that probe lies inside the loops
+  std::uint64_t inside = ~std::uint64_t{0};  ///< bit 8 * row + column: that of 8 x 8 cells lies inside the loops; rows
+                                             ///< along t
 
   /// Turns the normal round.
   void flip() { normal = -normal, k_ss = -k_ss, k_st = -k_st, k_tt = -k_tt; }
@@ -36,8 +37,8 @@ struct GapPatch {
   Vec3 point(double s, double t) const { return x + s * axis_s + t * axis_t + height(s, t) * normal; }
   /// Unit normal of the paraboloid, to the same side as `normal`.
   Vec3 normal_at(double s, double t) const;
-  /// Does the probe nearest to (s, t) lie inside the loops?
-  bool is_inside(double s, double t) const;
+  /// Does any of [s0, s1] x [t0, t1] lie inside the loops, by cells?
+  bool is_inside(double s0, double s1, double t0, double t1) const;
   /// Box of the paraboloid.
   Box3 box() const;
   /// Distance along `direction` (unit) from `from` to the patch, either sign, where the ray meets it inside the loops

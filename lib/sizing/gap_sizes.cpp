@@ -108,7 +108,7 @@ class GapTiler {
   }
 
   void visit(const Tile& tile, double length, int depth) {
-    if (!(length < patch_.length) || !is_inside(tile)) return;
+    if (!(length < patch_.length) || !patch_.is_inside(tile.s_lo, tile.s_hi, tile.t_lo, tile.t_hi)) return;
     const double room = kFill * cell_per_length_ * length;
     const auto parts = [&](double width) {
       return std::clamp(static_cast<int>(std::ceil(width / room)), 1, kMaxParts);
@@ -138,12 +138,6 @@ class GapTiler {
 
   bool is_large(const GapPatch& other) const { return extent(other) > kLarge * extent(patch_); }
   static double extent(const GapPatch& p) { return std::max(p.s_hi - p.s_lo, p.t_hi - p.t_lo); }
-
-  bool is_inside(const Tile& tile) const {
-    const double s = 0.5 * (tile.s_lo + tile.s_hi), t = 0.5 * (tile.t_lo + tile.t_hi);
-    return patch_.is_inside(s, t) || patch_.is_inside(tile.s_lo, tile.t_lo) || patch_.is_inside(tile.s_lo, tile.t_hi) ||
-           patch_.is_inside(tile.s_hi, tile.t_lo) || patch_.is_inside(tile.s_hi, tile.t_hi);
-  }
 
   const GapPatch& patch_;
   const std::vector<Facing>& facing_;

@@ -133,6 +133,37 @@ PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
   return part;
 }
 
+/// Of 8 x 8 cells of a patch those that have their middle inside the loops; where none has, those that the loops cut:
+/// bit 8 * row + column, rows in v.
+template <class Probe>
+std::uint64_t cells_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
+  if (patch.sides.empty()) return ~std::uint64_t{0};
+  const Box2 whole{{patch.u[0], patch.v[0]}, {patch.u[2], patch.v[2]}};
+  const Vec2 cell = 0.125 * whole.size();
+  std::uint64_t inside = 0;
+  for (int k = 0; k < 64; ++k) {
+    const Vec2 middle = whole.lo + Vec2{(k % 8 + 0.5) * cell.x, (k / 8 + 0.5) * cell.y};
+    inside |= static_cast<std::uint64_t>(loops.contains(middle)) << k;
+  }
+  if (inside != 0) return inside;
+  for (const std::int32_t i : patch.sides) {
+    const LoopSide& side = loops.sides()[i];
+    Box2 piece;
+    add_clipped(side.a, side.b, whole, piece);
+    if (piece.is_empty()) continue;
+    const bool rises = (side.b.x - side.a.x) * (side.b.y - side.a.y) >= 0;
+    const Vec2 begin{piece.lo.x, rises ? piece.lo.y : piece.hi.y}, end{piece.hi.x, rises ? piece.hi.y : piece.lo.y};
+    constexpr int kSteps = 16;  // two per cell: a corner that is cut off counts as outside
+    for (int k = 0; k <= kSteps; ++k) {
+      const Vec2 x = begin + static_cast<double>(k) / kSteps * (end - begin) - whole.lo;
+      const int column = std::clamp(static_cast<int>(x.x / cell.x), 0, 7);
+      const int row = std::clamp(static_cast<int>(x.y / cell.y), 0, 7);
+      inside |= std::uint64_t{1} << (8 * row + column);
+    }
+  }
+  return inside;
+}
+
 /// Walks the patches of a trimmed surface that lie inside its loops or are cut by them. `Visitor` has
 ///   Probe probe(Vec2 uv)                                       evaluates one point;
 ///   bool must_split(const PatchSize&)                          true: split it, whatever of it is inside (is_inside is

@@ -369,8 +369,7 @@ class FaceRaster {
     result.gap_cells = limits_.gap_cells;
     result.wall_cells = limits_.wall_cells;
     result.cause = cause_;
-    if (patch.n_inside > 0) result.inside = 0;
-    for (std::uint32_t k = 0; k < 9; ++k) result.inside |= std::uint32_t{patch.is_inside[k]} << k;
+    result.inside = cells_inside(patch, loops_);
     return result;
   }
 

@@ -97,11 +97,14 @@ TEST(GapPatch, is_met_from_the_other_side_once_flipped) {
   EXPECT_FALSE(p.facing_distance({0, 0, 1}, {0, 0, -1}));
 }
 
-TEST(GapPatch, is_not_met_where_its_probe_lies_outside_the_loops) {
+TEST(GapPatch, is_not_met_where_its_cells_lie_outside_the_loops) {
   GapPatch p = fit_patch(grid([](double, double) { return 0.0; }), {0, 0, 1});
-  p.inside = 0x1ff & ~(1u << 5);  // row 1, column 2: the middle of the side s = s_hi
-  EXPECT_FALSE(p.is_inside(0.09, 0));
-  EXPECT_TRUE(p.is_inside(-0.09, 0) && p.is_inside(0.09, 0.09) && p.is_inside(0, 0));
+  p.inside = ~(std::uint64_t{0xc0c0} << (8 * 3));  // rows 3 and 4, columns 6 and 7: beside the middle of s = s_hi
+  const auto is_inside = [&](double s, double t) { return p.is_inside(s, s, t, t); };
+  EXPECT_FALSE(is_inside(0.09, 0.01) || is_inside(0.09, -0.01));
+  EXPECT_TRUE(is_inside(-0.09, 0) && is_inside(0.09, 0.09) && is_inside(0.09, -0.09) && is_inside(0, 0));
+  EXPECT_FALSE(p.is_inside(0.06, 0.1, -0.01, 0.01));
+  EXPECT_TRUE(p.is_inside(0.04, 0.1, -0.01, 0.01) && p.is_inside(0.06, 0.1, -0.04, 0.01)) << "some of it is";
   EXPECT_FALSE(p.facing_distance({0.09, 0, 1}, {0, 0, -1}));
   EXPECT_TRUE(p.facing_distance({-0.09, 0, 1}, {0, 0, -1}));
 }

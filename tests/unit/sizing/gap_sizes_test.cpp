@@ -166,6 +166,19 @@ TEST(GapSizes, see_only_the_part_inside_the_loops) {
   EXPECT_EQ(length_at(boxes, {6.2, 5, 0.4}, 1), 0);
 }
 
+TEST(GapSizes, leave_out_nothing_beside_a_slanted_border) {
+  const LoopPolygons triangle({{{0, 0}, {10, 0}}, {{10, 0}, {0, 10}}, {{0, 10}, {0, 0}}});
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, limits(1, 0.01), patches, 0);
+  add_patches(plate(0.4), Normals::kAgainst, limits(1, 0.01), patches, 1, triangle);
+  const std::vector<RasterBox> boxes = gaps(patches);
+  for (double x = 0.3; x < 9.6; x += 0.07)
+    for (const int side : {0, 1}) {
+      EXPECT_GT(length_at(boxes, {x, 9.8 - x, 0.4 * side}, side), 0) << x << " " << side;
+      EXPECT_EQ(length_at(boxes, {x, 10.6 - x, 0.4 * side}, side), 0) << x << " " << side;
+    }
+}
+
 TEST(GapSizes, of_a_curved_wall_are_its_thickness) {
   for (const double wall : {0.4, 0.05}) {  // far thinner than the sagitta of a patch
     const double height = 5 * wall;
