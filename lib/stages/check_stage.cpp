@@ -30,6 +30,7 @@
 #include "stages/foreign_mesh.h"
 #include "stages/layers_check.h"
 #include "stages/stored_model.h"
+#include "stages/wing_table.h"
 
 namespace st {
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -34,6 +35,7 @@
 #include "stages/same_inputs.h"
 #include "stages/stored_model.h"
 #include "stages/task_trace.h"
+#include "stages/wing_measure.h"
 
 namespace st {
 namespace {
@@ -186,6 +188,28 @@ std::unique_ptr<SizeField> make_common_field(const SizeField& field, const Mirro
   return std::make_unique<PairedField>(field, std::move(regions), kSamePlace * t.box().diagonal());
 }
 
+/// Where noses and trailing edges of lifting surfaces are coarser than was asked for.
+std::function<std::vector<RefinementPoint>(const SurfaceMesh&)> unheld_places(const std::string& sizing) {
+  return [wings = read_asked_wings(sizing)](const SurfaceMesh& mesh) {
+    std::vector<RefinementPoint> places;
+    for (const UnheldPlace& p : find_unheld(mesh, wings)) places.push_back({.x = p.xyz, .radius = p.radius});
+    return places;
+  };
+}
+
+MeshOptions make_options(const MeshStageOptions& o, const SizeField& field, const Mirror& mirror,
+                         double tile_triangles) {
+  MeshOptions options{.enhance_rounds = o.enhance_rounds,
+                      .max_turning_deg = o.max_turning_deg,
+                      .merge_below = o.merge_below,
+                      .tile_triangles = tile_triangles,
+                      .time_limit = o.time_limit,
+                      .when_late = WhenLate::kSignal,
+                      .patches = mirror.empty() ? PatchesGo::kNowhere : PatchesGo::kToRoot};
+  if (field.is_stretched()) options.find_unheld = unheld_places(o.sizing);
+  return options;
+}
+
 }  // namespace
 
 void MeshStageOptions::validate() const {
@@ -243,10 +267,8 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   progress.step("meshing", 0.1);
   Resumption resumption(trace, o.output, run_of(header, earlier.edges, pairs_hash), {o.journal_after, o.begins_new});
   MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
-  MeshOptions options{o.enhance_rounds,      o.max_turning_deg,
-                      o.merge_below,         tile_triangles,
-                      resumption.left_out(), o.time_limit,
-                      WhenLate::kSignal,     mirror.empty() ? PatchesGo::kNowhere : PatchesGo::kToRoot};
+  MeshOptions options = make_options(o, field, mirror, tile_triangles);
+  options.left_out = resumption.left_out();
   options.pairs = &pairs;
   MeshResult result = mesh_regions(model, topology, field, std::move(plan), options, resumption);
   resumption.end();

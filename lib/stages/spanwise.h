@@ -16,10 +16,13 @@ struct Spanwise {
   std::vector<const WingRecord::Station*> station;
   std::vector<double> share;
   bool is_ring = false;
+  const WingRecord::Station* first;  // of the record
+  std::ptrdiff_t n_recorded;
 
   enum class Kind { kOfEdges, kNosesAlone };
 
-  explicit Spanwise(const WingRecord& wing, Kind kind = Kind::kOfEdges) {
+  explicit Spanwise(const WingRecord& wing, Kind kind = Kind::kOfEdges)
+      : first(wing.stations.data()), n_recorded(std::ssize(wing.stations)) {
     for (const WingRecord::Station& s : wing.stations)
       if ((wing.has_noses && s.is_nose_alone()) == (kind == Kind::kNosesAlone)) station.push_back(&s);
     if (station.empty() || sort_around()) return;
@@ -50,6 +53,17 @@ struct Spanwise {
   /// Where noses, or trailing edges, run at a station; by those about 2 per cent of the span away.
   Vec3 direction(std::size_t i, Vec3 WingRecord::Station::*place) const {
     return normalized(station[away(i, 1)]->*place - station[away(i, -1)]->*place);
+  }
+
+  /// Likewise by those before and after it in the record, edge by edge; zero where these are no others.
+  Vec3 direction_of_edge(std::size_t i, Vec3 WingRecord::Station::*place) const {
+    const WingRecord::Station *own = station[i], *nearest = nullptr;
+    for (const WingRecord::Station* s : {own - 1, own + 1}) {
+      if (s < first || s >= first + n_recorded || s->is_nose_alone() != own->is_nose_alone()) continue;
+      if (!nearest || distance(s->*place, own->*place) < distance(nearest->*place, own->*place)) nearest = s;
+    }
+    const Vec3 way = nearest ? nearest->*place - own->*place : Vec3{};
+    return norm(way) > 0 ? normalized(way) : Vec3{};
   }
 
   /// Half of the way to the stations beside it, or to the end.

@@ -18,10 +18,11 @@ constexpr double kAround = 3;        // lengths around a place whose segments co
 constexpr double kAroundRows = 1.5;  // likewise of stretched triangles: the row there and some of the next
 constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
 constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
+constexpr double kLeaving = 0.5;     // cosine between an edge and the span, below
+constexpr double kBeside = 2;        // radii of the nearest triangle: a place further away is not on the mesh
 constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
 constexpr double kThick = 0.4;       // of the chord: a profile's points lie no further from it
-constexpr double kMissed = 1.5;      // length over that asked for
-constexpr double kHeld = 1.3;        // likewise, at most
+constexpr double kHeld = 1.3;        // length over that asked for, at most
 
 /// Around a triangle.
 struct Ball {
@@ -77,6 +78,13 @@ class WingMesh {
     }
     return {across.value(), along.value()};
   }
+
+  /// Whether a triangle is there.
+  bool is_at(Vec3 place) const {
+    const Ball ball = ball_of(nearest(place));
+    return distance(ball.center, place) <= kBeside * ball.radius;
+  }
+  bool is_stretched_at(Vec3 place) const { return is_flat(nearest(place)); }
 
   /// Lengths along the profile at a station: of each triangle that its plane cuts, the part of its own extent that the
   /// cut is long. Mean of both sides.
@@ -161,7 +169,7 @@ class WingMesh {
   /// Of those beside the nearest one, where that is stretched, the nearest across the span.
   TriangleId nearest(Vec3 place, Vec3 along_span) const {
     TriangleId best = nearest(place);
-    if (kStretched * norm(height_of(best)) >= mean_side(best)) return best;
+    if (!is_flat(best)) return best;
     double least = std::numeric_limits<double>::infinity();
     for (const Ball& b : skin_within(place, ball_of(best).radius)) {
       const double along = dot(b.center - place, along_span), across2 = norm2(b.center - place) - along * along;
@@ -183,6 +191,7 @@ class WingMesh {
     for (bool is_on = true; is_on && before != skin_.begin();) is_on = take(*--before);
     return best;
   }
+  bool is_flat(TriangleId t) const { return kStretched * norm(height_of(t)) < mean_side(t); }
   double mean_side(TriangleId t) const {
     return (distance(corner(t, 0), corner(t, 1)) + distance(corner(t, 1), corner(t, 2)) +
             distance(corner(t, 2), corner(t, 0))) /
@@ -248,12 +257,19 @@ class WingMesh {
   double Vec3::*axis_ = &Vec3::x;  // along which the wing is longest
 };
 
+/// Rows run along their edge, which leaves the span where a strut or fin joins.
+LengthsAt lengths_of(const WingMesh& mesh, const Spanwise& spanwise, std::size_t i, Vec3 WingRecord::Station::*place) {
+  const Vec3 x = spanwise.station[i]->*place, span = spanwise.direction(i, place);
+  const Vec3 edge = spanwise.direction_of_edge(i, place);
+  const bool leaves = edge != Vec3{} && std::abs(dot(edge, span)) < kLeaving && mesh.is_stretched_at(x);
+  return mesh.lengths_at(x, leaves ? edge : span);
+}
+
 LengthsAt nose_of(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, std::size_t i) {
-  if (!wing.has_noses) return {};
-  return mesh.lengths_at(spanwise.station[i]->nose, spanwise.direction(i, &WingRecord::Station::nose));
+  return wing.has_noses ? lengths_of(mesh, spanwise, i, &WingRecord::Station::nose) : LengthsAt{};
 }
 LengthsAt trailing_of(const WingMesh& mesh, const Spanwise& spanwise, std::size_t i) {
-  return mesh.lengths_at(spanwise.station[i]->trailing, spanwise.direction(i, &WingRecord::Station::trailing));
+  return lengths_of(mesh, spanwise, i, &WingRecord::Station::trailing);
 }
 
 WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise,
@@ -326,6 +342,23 @@ void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Sp
   if (all.span > 0) own.held = all.held / all.span;
 }
 
+/// Of stations with trailing edges, or of noses alone.
+void add_unheld(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, std::vector<UnheldPlace>& all) {
+  const auto add = [&](std::size_t i, Vec3 WingRecord::Station::*place, double has) {
+    const WingRecord::Station& s = *spanwise.station[i];
+    if (!(s.asked > 0) || has <= kHeld * s.asked || !mesh.is_at(s.*place)) return;
+    double radius = kAround * s.asked;
+    for (const int step : {-1, 1})
+      if (const auto next = spanwise.beside(i, step))
+        radius = std::max(radius, 0.5 * distance(s.*place, spanwise.station[*next]->*place));
+    all.push_back({s.*place, radius});
+  };
+  for (std::size_t i = 0; i < spanwise.station.size(); ++i) {
+    add(i, &WingRecord::Station::nose, nose_of(mesh, wing, spanwise, i).normal);
+    add(i, &WingRecord::Station::trailing, trailing_of(mesh, spanwise, i).normal);
+  }
+}
+
 /// The group that most triangles of these faces are in; empty: none, or one without a name of its own.
 std::string main_group(const SurfaceMesh& mesh, std::span<const FaceId> faces) {
   std::vector<std::int64_t> count(mesh.labels.group_name.size());
@@ -364,26 +397,15 @@ std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const 
   return all;
 }
 
-std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings) {
-  std::vector<WingMiss> misses;
-  for (std::size_t w = 0; w < wings.size(); ++w) {
-    const auto add = [&](WingMiss miss, bool is_base) {
-      const double factor = is_base ? miss.asked / miss.has : miss.has / miss.asked;
-      miss.wing = w;
-      if (factor > kMissed) misses.push_back(miss);
-    };
-    for (const WingStationMeasure& s : wings[w].stations) {
-      if (s.asked > 0) {
-        add({w, s.share, s.place, "nose", s.nose.normal / s.chord, s.asked / s.chord}, false);
-        add({w, s.share, s.place, "trailing edge", s.trailing.normal / s.chord, s.asked / s.chord}, false);
-      }
-      if (s.base_cells > 0) add({w, s.share, s.place, "base", s.base_cells, s.asked_base_cells}, true);
-    }
-    const std::optional<WingMiss>& worst = wings[w].worst;
-    const auto is_worst = [&](const WingStationMeasure& s) { return s.share == worst->share; };
-    if (worst && std::ranges::none_of(wings[w].stations, is_worst)) add(*worst, false);
+std::vector<UnheldPlace> find_unheld(const SurfaceMesh& mesh, std::span<const WingRecord> wings) {
+  std::vector<UnheldPlace> all;
+  for (const WingRecord& wing : wings) {
+    const WingMesh triangles(mesh, wing);
+    if (triangles.is_empty()) continue;
+    for (const auto kind : {Spanwise::Kind::kOfEdges, Spanwise::Kind::kNosesAlone})
+      add_unheld(triangles, wing, Spanwise(wing, kind), all);
   }
-  return misses;
+  return all;
 }
 
 }  // namespace st

@@ -59,7 +59,13 @@ struct WingMeasure {
 /// their lengths around a place. Local; linear in triangles for each of the five stations.
 std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const WingRecord> wings);
 
-/// Places where the mesh is coarser than 1.5 times what was asked for: those of the five stations, and the worst.
-std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings);
+/// A nose or trailing edge that is coarser than 1.3 times what was asked for, and half of the way to the next ones.
+struct UnheldPlace {
+  Vec3 xyz;
+  double radius;  ///< model unit
+};
+
+/// Of all stations that `mesh` has triangles at, of which it takes places, corners and faces alone. Local.
+std::vector<UnheldPlace> find_unheld(const SurfaceMesh& mesh, std::span<const WingRecord> wings);
 
 }  // namespace st

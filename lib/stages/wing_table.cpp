@@ -110,4 +110,27 @@ json wing_measures_json(std::span<const WingMeasure> wings) {
   return list;
 }
 
+std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings) {
+  constexpr double kMissed = 1.5;  // length over that asked for
+  std::vector<WingMiss> misses;
+  for (std::size_t w = 0; w < wings.size(); ++w) {
+    const auto add = [&](WingMiss miss, bool is_base) {
+      const double factor = is_base ? miss.asked / miss.has : miss.has / miss.asked;
+      miss.wing = w;
+      if (factor > kMissed) misses.push_back(miss);
+    };
+    for (const WingStationMeasure& s : wings[w].stations) {
+      if (s.asked > 0) {
+        add({w, s.share, s.place, "nose", s.nose.normal / s.chord, s.asked / s.chord}, false);
+        add({w, s.share, s.place, "trailing edge", s.trailing.normal / s.chord, s.asked / s.chord}, false);
+      }
+      if (s.base_cells > 0) add({w, s.share, s.place, "base", s.base_cells, s.asked_base_cells}, true);
+    }
+    const std::optional<WingMiss>& worst = wings[w].worst;
+    const auto is_worst = [&](const WingStationMeasure& s) { return s.share == worst->share; };
+    if (worst && std::ranges::none_of(wings[w].stations, is_worst)) add(*worst, false);
+  }
+  return misses;
+}
+
 }  // namespace st

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "stages/wing_measure.h"
 
@@ -18,5 +19,8 @@ std::string wing_lines(std::span<const WingMeasure> wings);
 
 /// Lengths in model unit.
 nlohmann::json wing_measures_json(std::span<const WingMeasure> wings);
+
+/// Places where the mesh is coarser than 1.5 times what was asked for: those of the five stations, and the worst.
+std::vector<WingMiss> find_misses(std::span<const WingMeasure> wings);
 
 }  // namespace st

@@ -77,7 +77,7 @@ void FaceRounds::report(PatchesGo patches) {
   trials.take_back();
   if (!is_restored_) {
     trials.loosen();
-    StretchEasing(tables_, field_, executor_, faces_, refinements_, mesh_again).run();
+    StretchEasing(tables_, field_, executor_, faces_, refinements_, options_.find_unheld, mesh_again).run();
   }
   refill_bad(faces_, executor_);
   part_touching(faces_, executor_);

@@ -1,6 +1,7 @@
 // What st-mesh and st-remesh make: edges, patches, failures, counts and times.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -35,6 +36,9 @@ struct MeshOptions {
   bool parts_bodies = true;              ///< bodies that the CAD keeps apart are refined where their triangles cross
   bool tells_damage = true;              ///< warns of faces that refining does not help
   const PeriodicPairs* pairs = nullptr;  ///< outlive the run; null: there are none
+  /// Places, with a radius, where lengths along shall become those across, from places, corners and faces of a mesh;
+  /// rank 0 asks, once it is meshed. Null: none.
+  std::function<std::vector<RefinementPoint>(const SurfaceMesh&)> find_unheld = {};
 
   FaceMeshOptions of_face() const { return {.enhance_rounds = enhance_rounds}; }
 };

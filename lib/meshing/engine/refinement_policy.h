@@ -34,7 +34,7 @@ struct RefinementPolicy {
   // triangles
   static constexpr double kMostRepeated = 30;      ///< in all rounds, by those of the first one
   static constexpr double kFewTriangles = 200000;  ///< that may be meshed again in any case
-  static constexpr double kMostEasedAgain = 2;     ///< meshed again to ease stretched ones, by those before
+  static constexpr double kMostEasedAgain = 12;    ///< meshed again to ease stretched ones, by those before
   static constexpr double kMostEasedGrowth = 2;    ///< times those before: more is not worth it
   static constexpr double kAround = 4;             ///< that a place of a wall makes shorter, about
   static constexpr double kMostForWalls = 1.5e6;   ///< that may part walls

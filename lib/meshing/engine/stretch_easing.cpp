@@ -61,19 +61,37 @@ std::int64_t StretchEasing::n_triangles(const std::vector<FaceId>& of) const {
 
 /// On rank 0.
 StretchFlaws StretchEasing::find_flaws(int n_tries) const {
-  const MeshedFaces::Patches patches = faces_.bring(all_faces());
+  const Patches patches = faces_.bring(all_faces());
   if (!executor_.is_root()) return {};
   std::vector<const FacePatch*> of_faces;
   for (const auto& [f, patch] : patches) of_faces.push_back(&patch);
   const WeldedPatches welded = weld_patches(faces_.edges(), tables_.vertex_xyz, of_faces);
-  return find_stretch_flaws(welded.points, welded.triangles, RefinedField(field_, refinements_.all()), n_tries);
+  const RefinedField present(field_, refinements_.all());
+  StretchFlaws flaws = find_stretch_flaws(welded.points, welded.triangles, present, n_tries);
+  if (find_unheld_) add_unheld(patches, welded, present, flaws);
+  return flaws;
+}
+
+/// Places that are not stretched count, too: what is not held there is not for stretch.
+void StretchEasing::add_unheld(const Patches& patches, const WeldedPatches& welded, const SizeField& present,
+                               StretchFlaws& flaws) const {
+  SurfaceMesh mesh;
+  mesh.node_xyz = welded.points;
+  mesh.triangles = welded.triangles;
+  for (const auto& [f, patch] : patches) mesh.triangle_face.insert(mesh.triangle_face.end(), patch.triangles.size(), f);
+  int hint = 0;
+  for (const RefinementPoint& place : find_unheld_(mesh)) {
+    ++flaws.n_unheld;
+    if (const LocalSize local = present.local(place.x, hint); local.along > local.length)
+      flaws.stretched.push_back(place);
+  }
 }
 
 StretchEasing::Count StretchEasing::count_flaws() const {
   std::int64_t n_bad = faces_.n_bad();
-  std::size_t n_obtuse = flaws_.n_obtuse, n_large = flaws_.n_large;
-  share(executor_, n_bad, n_obtuse, n_large);
-  return {n_bad, n_obtuse, n_large};
+  std::size_t n_far = flaws_.n_far, n_unheld = flaws_.n_unheld, n_obtuse = flaws_.n_obtuse, n_large = flaws_.n_large;
+  share(executor_, n_bad, n_far, n_unheld, n_obtuse, n_large);
+  return {n_bad, n_far, n_unheld, n_obtuse, n_large};
 }
 
 /// Sets is_best_. Lengths along make no more triangles than a mesh without stretch has: any number is worth it.

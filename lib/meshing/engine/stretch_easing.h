@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/executor.h"
+#include "mesh/merge.h"
 #include "meshing/engine/meshed_faces.h"
 #include "meshing/engine/refinement_trials.h"
 #include "meshing/engine/stretch_flaws.h"
@@ -16,26 +18,31 @@
 namespace st {
 
 /// Rounds, once the others have ended: lengths along become shorter about obtuse triangles and large steps of size,
-/// down to those across, and what they reach is meshed again. The best mesh stays: one that folds or crosses no more
-/// than at the beginning. Collective.
+/// down to those across, at once where these are not held, and what they reach is meshed again. The best mesh stays:
+/// one that folds or crosses no more than at the beginning. Collective.
 class StretchEasing {
  public:
+  /// See MeshOptions::find_unheld.
+  using FindUnheld = std::function<std::vector<RefinementPoint>(const SurfaceMesh&)>;
+
   /// All references outlive the object. `mesh_again`: see RefinementTrials.
   StretchEasing(const ModelTables& tables, const SizeField& field, const Executor& executor, MeshedFaces& faces,
-                Refinements& refinements, RefinementTrials::MeshAgain mesh_again)
+                Refinements& refinements, const FindUnheld& find_unheld, RefinementTrials::MeshAgain mesh_again)
       : tables_(tables),
         field_(field),
         executor_(executor),
         faces_(faces),
         refinements_(refinements),
+        find_unheld_(find_unheld),
         mesh_again_(std::move(mesh_again)) {}
 
   void run();
 
  private:
   using Places = std::vector<RefinementPoint>;
-  /// Folds, crossings and failures; obtuse triangles; large ones.
-  using Count = std::tuple<std::int64_t, std::size_t, std::size_t>;
+  using Patches = MeshedFaces::Patches;
+  /// Folds, crossings and failures; triangles above 150 degrees; unheld places; obtuse triangles; large ones.
+  using Count = std::tuple<std::int64_t, std::size_t, std::size_t, std::size_t, std::size_t>;
   struct Best {
     Count n_flaws;
     MeshedFaces::State state;
@@ -45,9 +52,11 @@ class StretchEasing {
   std::vector<FaceId> all_faces() const;
   std::int64_t n_triangles(const std::vector<FaceId>& of) const;
   StretchFlaws find_flaws(int n_tries) const;
+  void add_unheld(const Patches& patches, const WeldedPatches& welded, const SizeField& present,
+                  StretchFlaws& flaws) const;
   bool flaws_are_none() const;
   Count count_flaws() const;
-  std::size_t n_obtuse() const { return std::get<1>(best_.n_flaws); }
+  std::size_t n_obtuse() const { return std::get<3>(best_.n_flaws); }
   void run_rounds(Places StretchFlaws::*places, Shortens shortens);
   bool keep_if_better(Shortens shortens);
   std::vector<Refinement> shorten(const Places& places, Shortens shortens);
@@ -59,6 +68,7 @@ class StretchEasing {
   const Executor& executor_;
   MeshedFaces& faces_;
   Refinements& refinements_;
+  const FindUnheld& find_unheld_;
   RefinementTrials::MeshAgain mesh_again_;
   std::int64_t n_bad_ = 0;            // at the beginning
   std::int64_t n_first_ = 0;          // triangles, likewise

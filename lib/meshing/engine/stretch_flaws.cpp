@@ -39,6 +39,7 @@ class FlawFinder {
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (!is_obtuse_[t] && factor_[t] == 1) continue;
       ++(is_obtuse_[t] ? flaws.n_obtuse : flaws.n_large);
+      if (is_obtuse_[t] && is_obtuse(triangles_[t], kFarAngle)) ++flaws.n_far;
       const RefinementPoint place = place_at(t, is_long);
       if (is_long)
         flaws.stretched.push_back(place);
@@ -80,7 +81,7 @@ class FlawFinder {
     });
   }
 
-  /// `is_long`: lengths along differ from those across; they become no shorter than these.
+  /// `is_long`: lengths along differ from those across; they become no shorter than these, at last everywhere these.
   RefinementPoint place_at(std::size_t t, bool& is_long) const {
     const Triangle& r = triangles_[t];
     const double longest =
@@ -93,7 +94,7 @@ class FlawFinder {
     const double shorter = factor * std::min(local.along, longest);
     const bool is_last = wider_ > 1 && is_obtuse_[t] && is_obtuse(r, kFarAngle);
     if (is_last)
-      place.length = is_long ? local.length : kLast * local.length;
+      place.length = is_long ? 0 : kLast * local.length;
     else
       place.length = std::max(is_long ? local.length : 0, shorter);
     place.radius = kAround * (is_last ? wider_ : 1) * longest;

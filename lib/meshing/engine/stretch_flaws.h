@@ -16,6 +16,8 @@ struct StretchFlaws {
   std::vector<RefinementPoint> stretched;  ///< where lengths along should be shorter
   std::vector<RefinementPoint> obtuse;     ///< where triangles are, although lengths are alike in all directions
   std::size_t n_obtuse = 0;                ///< triangles with an angle above 140 degrees
+  std::size_t n_far = 0;                   ///< of these, with one above 150 degrees
+  std::size_t n_unheld = 0;                ///< places coarser than was asked for, where somebody looked for them
   std::size_t n_large = 0;                 ///< others with 2.2 squared times the area of a neighbour
 };
 

@@ -52,8 +52,9 @@ bool Refinements::add(const RefinementPoint& place, double floor, Shortens short
     least = std::min(least, length_at(r, place.x));
   }
   present = std::min(present, std::max(along, local.length));
-  const double length = std::max(place.length, (shortens == Shortens::kAll ? floor : 1) * local.length);
-  if (length > kWorthwhile * present) return false;
+  const double length = shortens == Shortens::kAll ? std::max(place.length, floor * local.length) : place.length;
+  const double least = shortens == Shortens::kAll ? length : std::max(length, local.length);
+  if (least > kWorthwhile * present) return false;
   all_.push_back(
       {place.x, length, place.radius + std::max(0.0, (request - length) / kRefinementSlope), place.radius, shortens});
   return true;

@@ -39,8 +39,8 @@ class Refinements {
  public:
   explicit Refinements(const SizeField& field) : field_(field) {}
 
-  /// Takes the place, no finer than `floor` times the request there. False when it is about as fine already. Local,
-  /// linear in the places.
+  /// Takes the place, all lengths no finer than `floor` times the request there. False when it is about as fine
+  /// already. Where lengths along become 0 they are those across, all over the radius. Local, linear in the places.
   bool add(const RefinementPoint& place, double floor, Shortens shortens = Shortens::kAll);
   /// Those that reach into the box, in the order in which they were taken.
   std::vector<Refinement> near(const Box3& box) const;

@@ -129,6 +129,20 @@ TEST(RefinedField, keeps_lengths_across_where_those_along_become_shorter) {
   EXPECT_EQ(f.size({200, 0, 0}), 0.5) << "others shorten all";
 }
 
+TEST(RefinedField, takes_all_stretch_within_the_radius_where_lengths_along_are_0) {
+  const GrowingField base;
+  Refinements refinements(base);
+  ASSERT_TRUE(refinements.add({.x = {0, 0, 0}, .radius = 10}, 0.1, Shortens::kAlong));
+  EXPECT_FALSE(refinements.add({.x = {0, 0, 0}, .radius = 10}, 0.1, Shortens::kAlong)) << "no stretch is left";
+  const RefinedField f(base, refinements.all());
+  int hint = 0;
+  for (const double x : {-5.0, 0.0, 8.0}) {  // shorter across, as long, longer
+    EXPECT_EQ(f.local({x, 0, 0}, hint).along, base.size({x, 0, 0})) << x;
+    EXPECT_EQ(f.size({x, 0, 0}), base.size({x, 0, 0})) << x;
+  }
+  EXPECT_GT(f.local({30, 0, 0}, hint).along, f.size({30, 0, 0})) << "beyond it grows again";
+}
+
 TEST(Refinements, of_a_stretched_field_count_where_they_shorten_the_longer_length) {
   const test::StretchedField base({1, 10, {1, 0, 0}});
   Refinements refinements(base);

@@ -63,10 +63,18 @@ TEST(StretchFlaws, take_all_of_the_stretch_after_some_tries_further_and_further_
   const RefinementPoint fourth = find_stretch_flaws(obtuse, one, field, 4).stretched.at(0);
   const RefinementPoint fifth = find_stretch_flaws(obtuse, one, field, 5).stretched.at(0);
   EXPECT_NEAR(third.length, 1.2, 1e-12);
-  EXPECT_EQ(fourth.length, 0.1);
+  EXPECT_EQ(fourth.length, 0) << "that across, all over its radius";
   EXPECT_EQ(fourth.radius, 2 * third.radius);
   EXPECT_EQ(fifth.radius, 4 * third.radius);
   EXPECT_NEAR(find_stretch_flaws(less, one, field, 5).stretched.at(0).length, 1.2, 1e-12) << "below 150 degrees";
+}
+
+TEST(StretchFlaws, above_150_degrees_are_counted_among_the_obtuse) {
+  const test::StretchedField field({0.1, 4, {1, 0, 0}});
+  const std::vector<Vec3> points{{0, 0, 0}, {2, 0, 0}, {1, 0.2, 0}, {0, 9, 0}, {2, 9, 0}, {1, 9 + kSlope140, 0}};
+  const StretchFlaws flaws = find_stretch_flaws(points, std::vector<Triangle>{{{0, 1, 2}}, {{3, 4, 5}}}, field, 0);
+  EXPECT_EQ(flaws.n_obtuse, 2u);
+  EXPECT_EQ(flaws.n_far, 1u);
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "stages/wing_table.h"
 #include "unit/stages/plank.h"
 
 namespace st {
@@ -75,6 +77,18 @@ TEST(WingMeasure, of_sheared_rows_has_their_heights) {
   }
 }
 
+/// A strut's rows, where the surface that it joins runs across it.
+TEST(WingMeasure, of_rows_that_leave_the_span_has_their_heights) {
+  std::vector<double> x{0};
+  for (double height = 0.001; x.back() + height < 0.5; height *= 1.2) x.push_back(x.back() + height);
+  for (int i = static_cast<int>(x.size()) - 1; i >= 0; --i) x.push_back(1 - x[i]);
+  WingRecord wing = record(0.001);
+  for (const double far : {50.0, 100.0}) wing.stations.push_back({{far - 1, 2, 0}, {far, 2, 0}, 1, 0});
+  const SurfaceMesh mesh = test::plank_of(x, 16, 0.1);
+  EXPECT_EQ(measure_wings(mesh, {&wing, 1})[0].held, 1);
+  EXPECT_TRUE(find_unheld(mesh, {&wing, 1}).empty());
+}
+
 TEST(WingMeasure, of_noses_alone_counts_for_what_is_held) {
   WingRecord wing = record(0.05);
   for (WingRecord::Station& s : wing.stations)
@@ -114,6 +128,24 @@ TEST(WingMeasure, holds_on_the_share_of_the_span_where_no_place_is_too_coarse) {
   const std::vector<WingMiss> misses = find_misses(all);
   ASSERT_EQ(misses.size(), 1u) << "between the five stations, and above 1.5";
   EXPECT_NEAR(misses[0].place.y, wing.stations[5].nose.y, 1e-12);
+}
+
+TEST(WingMeasure, finds_places_that_are_not_held_and_half_of_the_way_to_the_next) {
+  SurfaceMesh mesh = plank();
+  mesh.triangle_face.clear();
+  std::erase_if(mesh.triangles, [&](const Triangle& t) { return mesh.node_xyz[t.n[2]].y > 3.25; });
+  for (const Triangle& t : mesh.triangles) mesh.triangle_face.push_back(mesh.node_xyz[t.n[0]].z > 0 ? 0 : 1);
+  WingRecord wing = record(0.05);
+  wing.stations[6].asked = 0.03;  // at y = 3.35, where no triangle is left
+  wing.stations[15].asked = 0.03;
+  wing.stations[17].asked = 0;
+  const std::vector<UnheldPlace> all = find_unheld(mesh, {&wing, 1});
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(std::ranges::count(all, wing.stations[15].nose, &UnheldPlace::xyz), 1);
+  EXPECT_EQ(std::ranges::count(all, wing.stations[15].trailing, &UnheldPlace::xyz), 1);
+  EXPECT_NEAR(all[0].radius, 0.09, 1e-12) << "three lengths, where the next stations are nearer";
+  wing.stations.erase(wing.stations.begin() + 16, wing.stations.begin() + 19);
+  EXPECT_NEAR(find_unheld(mesh, {&wing, 1}).at(0).radius, 0.2, 1e-12) << "half of the gap";
 }
 
 /// Cells of 0.05 along the chord and `n_around` around a ring of radius 2 about x, 0.1 thick: face 0 outside, 1 inside.
