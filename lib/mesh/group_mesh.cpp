@@ -1,5 +1,6 @@
 #include "mesh/group_mesh.h"
 
+#include <algorithm>
 #include <set>
 
 namespace st {
@@ -19,6 +20,18 @@ std::vector<std::vector<TriangleId>> triangles_by_group(const SurfaceMesh& mesh)
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     of_group[mesh.triangle_group[t]].push_back(static_cast<TriangleId>(t));
   return of_group;
+}
+
+std::string main_group(const SurfaceMesh& mesh, std::span<const FaceId> faces) {
+  std::vector<std::int64_t> count(mesh.labels.group_name.size());
+  for (std::size_t t = 0; t < mesh.triangle_group.size(); ++t) {
+    const auto group = static_cast<std::size_t>(mesh.triangle_group[t]);
+    if (group < count.size() && std::ranges::binary_search(faces, mesh.triangle_face[t])) ++count[group];
+  }
+  const auto most = std::ranges::max_element(count);
+  if (most == count.end() || *most == 0) return "";
+  const std::string& name = mesh.labels.group_name[static_cast<std::size_t>(most - count.begin())];
+  return name == "default" ? "" : name;
 }
 
 SurfaceMesh mesh_of_triangles(const SurfaceMesh& mesh, std::span<const TriangleId> triangles) {

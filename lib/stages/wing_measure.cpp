@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "mesh/group_mesh.h"
 #include "sizing/wing_sizes.h"
 #include "stages/spanwise.h"
 
@@ -357,19 +358,6 @@ void add_unheld(const WingMesh& mesh, const WingRecord& wing, const Spanwise& sp
     add(i, &WingRecord::Station::nose, nose_of(mesh, wing, spanwise, i).normal);
     add(i, &WingRecord::Station::trailing, trailing_of(mesh, spanwise, i).normal);
   }
-}
-
-/// The group that most triangles of these faces are in; empty: none, or one without a name of its own.
-std::string main_group(const SurfaceMesh& mesh, std::span<const FaceId> faces) {
-  std::vector<std::int64_t> count(mesh.labels.group_name.size());
-  for (std::size_t t = 0; t < mesh.triangle_group.size(); ++t) {
-    const auto group = static_cast<std::size_t>(mesh.triangle_group[t]);
-    if (group < count.size() && std::ranges::binary_search(faces, mesh.triangle_face[t])) ++count[group];
-  }
-  const auto most = std::ranges::max_element(count);
-  if (most == count.end() || *most == 0) return "";
-  const std::string& name = mesh.labels.group_name[static_cast<std::size_t>(most - count.begin())];
-  return name == "default" ? "" : name;
 }
 
 }  // namespace

@@ -12,6 +12,18 @@ TEST(GroupMesh, sorts_triangles_by_their_group) {
   EXPECT_EQ(of_group, (std::vector<std::vector<TriangleId>>{{0, 1}, {2, 3}}));
 }
 
+TEST(GroupMesh, has_one_main_group_of_faces) {
+  SurfaceMesh m = sample_mesh().mesh;
+  m.labels.group_name = {"wing", "default"};
+  m.triangle_face = {0, 1, 2, 2}, m.triangle_group = {0, 0, 1, 1};
+  const std::vector<FaceId> all{0, 1, 2}, most{0, 1}, named{1}, none{7};
+  EXPECT_EQ(main_group(m, most), "wing");
+  EXPECT_EQ(main_group(m, named), "wing");
+  EXPECT_EQ(main_group(m, none), "");
+  m.triangle_group = {0, 1, 1, 1};
+  EXPECT_EQ(main_group(m, all), "") << "default is no name";
+}
+
 TEST(GroupMesh, has_the_nodes_of_its_triangles_in_their_order_and_the_segments_between_them) {
   SurfaceMesh m = sample_mesh().mesh;
   m.triangles.pop_back();
