@@ -1,6 +1,7 @@
 #include "geometry/facet/facet_cuts.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -26,8 +27,7 @@ constexpr std::size_t kSampled = 10000;  // triangles that tell where a cut may 
 constexpr double kSharpRim = 0.9 * 2 * kPi;  // radians
 constexpr std::size_t kLarge = 20000;        // triangles: a piece to be cut again and again is halved
 constexpr std::size_t kSolved = 5000;        // triangles: larger patches are flattened by way of a coarse one
-constexpr double kStubborn = 0.7;            // of the triangles: a cut that leaves more on one side is in vain
-constexpr int kMostInVain = 6;               // such cuts of a piece and of what it was: a fold stays, however small
+constexpr int kMostCuts = 6;  // of a region, one after the other, and half of the doublings of its triangles
 constexpr double kShares[] = {0.5, 0.4, 0.6, 0.3, 0.7};  // of the area on one side
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
@@ -228,7 +228,7 @@ std::optional<std::vector<Vec2>> lay_flat(const FacetPatch& patch, const PatchTo
 /// A piece with its parameters, or with the plane that cuts it; with neither where no plane helps.
 struct Piece {
   FacetPatch patch;
-  int n_in_vain;
+  int n_cuts_left;
   std::optional<std::vector<Vec2>> uv;
   std::optional<CutPlane> plane;
 
@@ -237,7 +237,7 @@ struct Piece {
     const std::int32_t sharpest = sharpest_rim_node(patch, topology);
     uv = lay_flat(patch, topology, sharpest != kNone);
     if (!uv && patch.corners.size() == 1) uv = lay_alone();
-    if (!uv && n_in_vain < kMostInVain && !is_folded(patch)) plane = best_cut(patch, topology, sharpest);
+    if (!uv && n_cuts_left > 0 && !is_folded(patch)) plane = best_cut(patch, topology, sharpest);
   }
 
   std::vector<Vec2> lay_alone() const {
@@ -258,6 +258,8 @@ class Cutter {
     const std::int32_t n_regions = 1 + *std::max_element(mesh_.face.begin(), mesh_.face.end());
     std::vector<Group> groups(static_cast<std::size_t>(n_regions));
     for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t) groups[mesh_.face[t]].triangles.push_back(t);
+    for (Group& region : groups)
+      region.n_cuts_left = kMostCuts + static_cast<int>(std::bit_width(region.triangles.size()) / 2);
     while (!groups.empty()) groups = run_round(std::move(groups));
     number_charts();
   }
@@ -267,13 +269,7 @@ class Cutter {
   struct Group {
     std::vector<std::int32_t> triangles;
     std::int32_t parent = kNone;  ///< number of the piece that was cut
-    std::size_t n_before = 0;     ///< triangles of that; 0: it was parted without a plane
-    int n_in_vain = 0;
-
-    int n_in_vain_of(const FacetPatch& patch) const {
-      const bool is_stubborn = static_cast<double>(patch.corners.size()) > kStubborn * static_cast<double>(n_before);
-      return n_in_vain + (n_before > 0 && is_stubborn ? 1 : 0);
-    }
+    int n_cuts_left = 0;          ///< by planes; a fold stays, however small the pieces are
   };
 
   std::vector<Group> run_round(std::vector<Group> groups) {
@@ -282,7 +278,7 @@ class Cutter {
       PatchFinder finder(mesh_);
       for (std::size_t g = begin; g < end; ++g) {
         for (FacetPatch& patch : finder.find(std::move(groups[g].triangles)))
-          pieces[g].push_back({std::move(patch), groups[g].n_in_vain_of(patch), {}, {}});
+          pieces[g].push_back({std::move(patch), groups[g].n_cuts_left, {}, {}});
         parallel_for(pieces[g].size(), 1, [&](std::size_t i, std::size_t) { pieces[g][i].work(); });
       }
     });
@@ -324,24 +320,16 @@ class Cutter {
       triangles.insert(triangles.end(), patch.triangles.begin(), patch.triangles.end());
       patch = std::move(finder_.find(std::move(triangles)).front());
     }
-    Group after{{}, number, piece.plane ? patch.corners.size() : 0, piece.n_in_vain};
+    Group after{{}, number, piece.n_cuts_left - (piece.plane ? 1 : 0)};
     const std::int32_t n_before = mesh_.n_triangles();
     if (piece.plane)
       divider_.divide(patch, piece.plane->heights_of(patch));
     else
-      part(patch);
+      divider_.part(patch, part_by_normals(patch));
     after.triangles = std::move(patch.triangles);
     for (std::int32_t t = n_before; t < mesh_.n_triangles(); ++t)
       (mesh_.face[t] == number ? after.triangles : added_[mesh_.face[t]]).push_back(t);
     return after;
-  }
-
-  void part(const FacetPatch& patch) {
-    const std::vector<std::int32_t> group = part_by_normals(patch);
-    for (std::size_t i = 0; i < group.size(); ++i)
-      for (int k = 0; k < 3; ++k)
-        if (const std::int32_t other = patch.neighbours[i][k]; other != kNone && group[other] != group[i])
-          mesh_.is_line[patch.triangles[i]][k] = 1;
   }
 
   /// The first region first; of the parts of a piece the last one.

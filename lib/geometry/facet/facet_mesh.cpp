@@ -305,6 +305,16 @@ void PatchDivider::divide(const FacetPatch& patch, const std::vector<double>& he
   for (const SideOnPlane& s : sides) add_lines(s.triangle);
 }
 
+void PatchDivider::part(const FacetPatch& patch, const std::vector<std::int32_t>& group) {
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const std::int32_t t = patch.triangles[i];
+    for (int k = 0; k < 3; ++k)
+      if (const std::int32_t other = patch.neighbours[i][k]; other != kNone && group[other] != group[i])
+        mesh_.is_line[t][k] = 1;
+    add_lines(t);
+  }
+}
+
 void keep_triangles(FacetMesh& mesh, const std::vector<std::uint8_t>& is_kept) {
   const auto pick = [&](auto& rows) {
     std::size_t n = 0;

@@ -80,6 +80,8 @@ class PatchDivider {
   /// the end of the mesh and have the face of the one they are part of. Cost: that of the patch, however large the mesh
   /// is.
   void divide(const FacetPatch& patch, const std::vector<double>& height);
+  /// Along sides of its triangles: those between two groups become lines. `group`: [triangles of the patch].
+  void part(const FacetPatch& patch, const std::vector<std::int32_t>& group);
 
  private:
   void add_lines(std::int32_t triangle);

@@ -60,5 +60,14 @@ TEST(FacetCones, LeaveTheFacetsOfAFoldedSheet) {
   EXPECT_LE(faces.size(), 8u);
 }
 
+TEST(FacetCones, LeaveNoGapBesideCutsOfOthers) {
+  FacetInput torus = test::torus_facets(60, 30);
+  for (const std::int32_t n : {400, 900}) torus.x[n] = torus.x[n] + 2.5 * (torus.x[n + 1] - torus.x[n]);
+  FacetMesh mesh = find_smooth_faces(torus, radians(180));
+  cut_into_charts(mesh);
+  EXPECT_GT(mesh.corners.size(), torus.corners.size()) << "nothing was cut beside a fold";
+  for (const Corners& c : find_neighbours(mesh.corners)) EXPECT_EQ(std::count(c.begin(), c.end(), kNone), 0);
+}
+
 }  // namespace
 }  // namespace st
