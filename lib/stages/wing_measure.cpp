@@ -24,6 +24,7 @@ constexpr double kBeside = 2;        // radii of the nearest triangle: a place f
 constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
 constexpr double kThick = 0.4;       // of the chord: a profile's points lie no further from it
 constexpr double kHeld = 1.3;        // length over that asked for, at most
+constexpr double kHeldShare = 0.98;  // of the span, at least: a wing that is held (issue 36)
 
 /// Around a triangle.
 struct Ball {
@@ -269,16 +270,13 @@ LengthsAt lengths_of(const WingMesh& mesh, const Spanwise& spanwise, std::size_t
 LengthsAt nose_of(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, std::size_t i) {
   return wing.has_noses ? lengths_of(mesh, spanwise, i, &WingRecord::Station::nose) : LengthsAt{};
 }
-LengthsAt trailing_of(const WingMesh& mesh, const Spanwise& spanwise, std::size_t i) {
-  return lengths_of(mesh, spanwise, i, &WingRecord::Station::trailing);
-}
 
 WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise,
                                    std::size_t i) {
   const WingRecord::Station& s = *spanwise.station[i];
   WingStationMeasure own{.share = spanwise.share[i], .place = s.trailing, .chord = s.chord, .asked = s.asked};
   const Vec3 along = spanwise.direction(i, &WingRecord::Station::trailing);
-  own.trailing = trailing_of(mesh, spanwise, i);
+  own.trailing = lengths_of(mesh, spanwise, i, &WingRecord::Station::trailing);
   if (!wing.has_noses) return own;
   const Vec3 forward = normalized(s.trailing - s.nose), normal = normalized(along - dot(along, forward) * forward);
   own.nose = nose_of(mesh, wing, spanwise, i);
@@ -321,7 +319,7 @@ void add_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& 
     };
     if (s.asked > 0) {
       take("nose", nose_of(mesh, wing, spanwise, i).normal, s.nose);
-      take("trailing edge", trailing_of(mesh, spanwise, i).normal, s.trailing);
+      take("trailing edge", lengths_of(mesh, spanwise, i, &WingRecord::Station::trailing).normal, s.trailing);
     }
     if (factor <= kHeld) all.held += part;
   }
@@ -356,7 +354,7 @@ void add_unheld(const WingMesh& mesh, const WingRecord& wing, const Spanwise& sp
   };
   for (std::size_t i = 0; i < spanwise.station.size(); ++i) {
     add(i, &WingRecord::Station::nose, nose_of(mesh, wing, spanwise, i).normal);
-    add(i, &WingRecord::Station::trailing, trailing_of(mesh, spanwise, i).normal);
+    add(i, &WingRecord::Station::trailing, lengths_of(mesh, spanwise, i, &WingRecord::Station::trailing).normal);
   }
 }
 
@@ -389,7 +387,10 @@ std::vector<UnheldPlace> find_unheld(const SurfaceMesh& mesh, std::span<const Wi
   std::vector<UnheldPlace> all;
   for (const WingRecord& wing : wings) {
     const WingMesh triangles(mesh, wing);
-    if (triangles.is_empty()) continue;
+    WingMeasure whole;
+    if (const Spanwise spanwise(wing); !triangles.is_empty() && !spanwise.station.empty())
+      measure_all_stations(triangles, wing, spanwise, whole);
+    if (triangles.is_empty() || whole.held >= kHeldShare) continue;
     for (const auto kind : {Spanwise::Kind::kOfEdges, Spanwise::Kind::kNosesAlone})
       add_unheld(triangles, wing, Spanwise(wing, kind), all);
   }

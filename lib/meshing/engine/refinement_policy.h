@@ -34,7 +34,8 @@ struct RefinementPolicy {
   // triangles
   static constexpr double kMostRepeated = 30;      ///< in all rounds, by those of the first one
   static constexpr double kFewTriangles = 200000;  ///< that may be meshed again in any case
-  static constexpr double kMostEasedAgain = 12;    ///< meshed again to ease stretched ones, by those before
+  static constexpr double kMostEasedAgain = 2;     ///< meshed again to ease stretched ones, by those before
+  static constexpr double kMostEasedWorst = 12;    ///< likewise, while angles are above 150 degrees or lengths not held
   static constexpr double kMostEasedGrowth = 2;    ///< times those before: more is not worth it
   static constexpr double kAround = 4;             ///< that a place of a wall makes shorter, about
   static constexpr double kMostForWalls = 1.5e6;   ///< that may part walls
@@ -70,11 +71,12 @@ struct RefinementPolicy {
     return n_rounds < (is_promising ? max_promising_rounds : max_crossing_rounds);
   }
   static int most_uneased(std::size_t n_obtuse) { return n_obtuse > 0 ? kMostUneased : kMostUneasedSteps; }
-  /// Whether lengths along become shorter once more, after `n_rounds`, `n_without` success lately. `n_again`: triangles
-  /// meshed for that so far.
-  static bool goes_on_easing(int n_rounds, int n_without, std::size_t n_obtuse, std::int64_t n_first,
-                             std::int64_t n_again) {
-    const double most = kMostEasedAgain * static_cast<double>(n_first) + kFewTriangles;
+  /// Whether lengths along become shorter once more, after `n_rounds`, `n_without` success lately. `n_worst`: angles
+  /// above 150 degrees and places that are not held. `n_again`: triangles meshed for that so far.
+  static bool goes_on_easing(int n_rounds, int n_without, std::size_t n_obtuse, std::size_t n_worst,
+                             std::int64_t n_first, std::int64_t n_again) {
+    const double most =
+        (n_worst > 0 ? kMostEasedWorst : kMostEasedAgain) * static_cast<double>(n_first) + kFewTriangles;
     return n_rounds < kMostEased && n_without < most_uneased(n_obtuse) && static_cast<double>(n_again) < most;
   }
   /// Whether a mesh of `n` triangles is worth that it has fewer flaws.

@@ -34,7 +34,7 @@ bool StretchEasing::flaws_are_none() const {
 
 void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) {
   const std::size_t first = refinements_.all().size();
-  for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_obtuse(), n_first_, n_again_); ++i) {
+  for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_obtuse(), n_worst(), n_first_, n_again_); ++i) {
     const std::vector<Refinement> shorter = shorten(flaws_.*places, shortens);
     if (shorter.empty()) break;
     n_again_ += n_triangles(mesh_again_(shorter, "where stretched triangles are obtuse or too large"));

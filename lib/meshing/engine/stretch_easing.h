@@ -56,6 +56,7 @@ class StretchEasing {
                   StretchFlaws& flaws) const;
   bool flaws_are_none() const;
   Count count_flaws() const;
+  std::size_t n_worst() const { return std::get<1>(best_.n_flaws) + std::get<2>(best_.n_flaws); }
   std::size_t n_obtuse() const { return std::get<3>(best_.n_flaws); }
   void run_rounds(Places StretchFlaws::*places, Shortens shortens);
   bool keep_if_better(Shortens shortens);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/log.h"
 #include "io/foreign/triangulation_file.h"
 #include "io/hdf5/node_values.h"
 #include "unit/io/sample_artifacts.h"
@@ -90,8 +91,10 @@ TEST_F(ExportStage, shows_the_values_that_remeshing_carried) {
   expect_places(dir_ / "b/b_body.vtu", 3);
   expect_places(dir_ / "b/b_wing.vtu", 4);
   o_.output = dir_ / "m.off";
+  set_verbosity(Verbosity::kNormal);
   testing::internal::CaptureStderr();
   run_export(o_);
+  set_verbosity(Verbosity::kQuiet);  // as other tests of stages want it
   EXPECT_NE(testing::internal::GetCapturedStderr().find("arrays of values at nodes (2)"), std::string::npos);
 }
 
