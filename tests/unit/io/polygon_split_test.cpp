@@ -50,6 +50,13 @@ TEST(PolygonSplit, CoversADentedPolygonOnce) {
   EXPECT_NEAR(area, wanted, 1e-12);
 }
 
+TEST(PolygonSplit, LeavesTheDentOfADartOutside) {
+  const std::vector<Vec3> dart{{-1, 0, 0}, {0, -10, 0}, {1, 0, 0}, {0, -1, 0}};
+  const Triples triangles = split_all(dart);
+  ASSERT_EQ(triangles.size(), 2u);
+  for (const auto& t : triangles) EXPECT_NEAR(signed_area(dart, t), 4.5, 1e-12);
+}
+
 TEST(PolygonSplit, PassesOverRepeatedCornersAndEndsWhereNothingFits) {
   const std::vector<Vec3> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.5, 0, 0}};
   Triples triangles;
