@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
@@ -59,11 +61,12 @@ class ByteCursor {
   /// The next value in binary.
   template <class T>
   T value() {
-    T v;
-    if (bytes_.size() - at_ < sizeof v) fail("cut off: the file ends inside its data");
-    std::memcpy(&v, bytes_.data() + at_, sizeof v);
-    at_ += sizeof v;
-    return v;
+    std::array<char, sizeof(T)> bytes;
+    if (bytes_.size() - at_ < sizeof(T)) fail("cut off: the file ends inside its data");
+    std::memcpy(bytes.data(), bytes_.data() + at_, sizeof(T));
+    if (is_swapped) std::reverse(bytes.begin(), bytes.end());
+    at_ += sizeof(T);
+    return std::bit_cast<T>(bytes);
   }
   /// A number of things that take `least` bytes each; refused where the rest of the file has no room for so many.
   std::size_t count(std::int64_t n, std::size_t least, const char* what) {
@@ -77,7 +80,8 @@ class ByteCursor {
   std::string_view bytes() const { return bytes_; }
   const std::string& path() const { return path_; }
 
-  bool is_binary = false;  ///< errors name no line
+  bool is_binary = false;   ///< errors name no line
+  bool is_swapped = false;  ///< values are in the byte order of the other kind of machine
 
   static bool is_blank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
   static bool parse(std::string_view text, double& value) {

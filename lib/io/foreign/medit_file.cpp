@@ -1,7 +1,4 @@
 // INRIA's Medit, as text (.mesh, .sol) and in the binary form of libMeshb (.meshb, .solb), versions 1 to 4.
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <map>
 #include <string_view>
 
@@ -86,10 +83,10 @@ class MeditReader {
     std::int32_t first = 0;
     if (bytes.size() >= sizeof first) std::memcpy(&first, bytes.data(), sizeof first);
     in_.is_binary = first == kNative || first == kSwapped;
-    is_swapped_ = first == kSwapped;
+    in_.is_swapped = first == kSwapped;
     if (in_.is_binary) {
-      value<std::int32_t>();
-      version_ = value<std::int32_t>();
+      in_.value<std::int32_t>();
+      version_ = in_.value<std::int32_t>();
       if (version_ < 1 || version_ > 4) in_.fail("version " + std::to_string(version_) + " is not read, 1 to 4 are");
     } else if (word() != "MeshVersionFormatted") {
       in_.fail("no file of Medit: it does not begin with MeshVersionFormatted");
@@ -111,26 +108,19 @@ class MeditReader {
       skip_comments();
       return in_.integer();
     }
-    return version_ >= 4 ? value<std::int64_t>() : value<std::int32_t>();
+    return version_ >= 4 ? in_.value<std::int64_t>() : in_.value<std::int32_t>();
   }
   /// Of the numbers that are small in every version.
-  std::int64_t small_integer() { return in_.is_binary ? value<std::int32_t>() : integer(); }
+  std::int64_t small_integer() { return in_.is_binary ? in_.value<std::int32_t>() : integer(); }
   double real() {
     if (!in_.is_binary) {
       skip_comments();
       return in_.real();
     }
-    return version_ == 1 ? value<float>() : value<double>();
+    return version_ == 1 ? in_.value<float>() : in_.value<double>();
   }
 
  private:
-  /// The next value of a binary file, in the byte order of either kind of machine.
-  template <class T>
-  T value() {
-    auto bytes = std::bit_cast<std::array<char, sizeof(T)>>(in_.value<T>());
-    if (is_swapped_) std::reverse(bytes.begin(), bytes.end());
-    return std::bit_cast<T>(bytes);
-  }
   void skip_comments() {
     while (!in_.is_at_end() && in_.bytes()[in_.position()] == '#') in_.line();
   }
@@ -149,8 +139,8 @@ class MeditReader {
     for (;;) {
       if (next_ > 0) in_.seek(next_);
       const std::size_t at = in_.position();
-      const auto code = value<std::int32_t>();
-      const std::int64_t next = version_ >= 3 ? value<std::int64_t>() : value<std::int32_t>();
+      const auto code = in_.value<std::int32_t>();
+      const std::int64_t next = version_ >= 3 ? in_.value<std::int64_t>() : in_.value<std::int32_t>();
       if (code == kEnd) return kEnd;
       if (next != 0 && (next <= static_cast<std::int64_t>(at) || next > static_cast<std::int64_t>(in_.bytes().size())))
         in_.fail("damaged: a section ends at byte " + std::to_string(next) + "; write it again");
@@ -163,7 +153,6 @@ class MeditReader {
 
   ByteCursor in_;
   std::int32_t version_ = 2;
-  bool is_swapped_ = false;
   std::size_t next_ = 0;  ///< where the next section of a binary file begins; 0: behind this one
 };
 

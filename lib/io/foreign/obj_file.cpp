@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "base/limits.h"
+#include "base/text.h"
 #include "io/file/byte_cursor.h"
 #include "io/foreign/polygon_split.h"
 #include "io/foreign/triangulation_file.h"
@@ -29,12 +30,6 @@ class Names {
   std::vector<std::string> names_;
 };
 
-std::string_view without_blanks(std::string_view text) {
-  while (!text.empty() && ByteCursor::is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && ByteCursor::is_blank(text.back())) text.remove_suffix(1);
-  return text;
-}
-
 class ObjReader {
  public:
   ObjReader(const std::string& path, const std::string& bytes) : in_(path, bytes) {}
@@ -49,10 +44,10 @@ class ObjReader {
         read_polygon(in_.line());
         continue;
       } else if (word == "g" || word == "o") {
-        groups_.set(without_blanks(in_.line()));
+        groups_.set(trimmed(in_.line()));
         continue;
       } else if (word == "usemtl") {
-        materials_.set(without_blanks(in_.line()));
+        materials_.set(trimmed(in_.line()));
         continue;
       }
       in_.line();
@@ -103,10 +98,10 @@ bool is_obj(std::string_view head) {
   while (!head.empty()) {
     const std::size_t end = head.find('\n');
     if (end == std::string_view::npos && has_point) break;  // the last line may be cut
-    const std::string_view line = without_blanks(head.substr(0, end));
+    const std::string line = trimmed(head.substr(0, end));
     head.remove_prefix(end == std::string_view::npos ? head.size() : end + 1);
     if (line.empty() || line.front() == '#') continue;
-    const std::string_view word = line.substr(0, line.find_first_of(" \t"));
+    const std::string word = line.substr(0, line.find_first_of(" \t"));
     if (std::find(std::begin(kWords), std::end(kWords), word) == std::end(kWords)) return false;
     has_point = has_point || word == "v";
   }

@@ -42,6 +42,7 @@ class PlyReader {
   TriangulationFile read() {
     read_header();
     in_.is_binary = encoding_ != Encoding::kText;
+    in_.is_swapped = encoding_ == (std::endian::native == std::endian::little ? Encoding::kBig : Encoding::kLittle);
     for (const Element& e : elements_) {
       const std::size_t least = std::max<std::size_t>(e.properties.size(), 1);  // bytes
       in_.count(e.n, encoding_ == Encoding::kText ? 2 * least : least, e.name.c_str());
@@ -103,36 +104,25 @@ class PlyReader {
     in_.fail("unknown type of number " + ByteCursor::quoted(word));
   }
 
-  template <class T>
-  double binary() {
-    T value = in_.value<T>();
-    const bool is_little = std::endian::native == std::endian::little;
-    if (is_little != (encoding_ == Encoding::kLittle)) {
-      auto* bytes = reinterpret_cast<char*>(&value);
-      std::reverse(bytes, bytes + sizeof value);
-    }
-    return static_cast<double>(value);
-  }
-
   double number(Number type) {
     if (encoding_ == Encoding::kText) return in_.real();
     switch (type) {
       case Number::kInt8:
-        return binary<std::int8_t>();
+        return in_.value<std::int8_t>();
       case Number::kUint8:
-        return binary<std::uint8_t>();
+        return in_.value<std::uint8_t>();
       case Number::kInt16:
-        return binary<std::int16_t>();
+        return in_.value<std::int16_t>();
       case Number::kUint16:
-        return binary<std::uint16_t>();
+        return in_.value<std::uint16_t>();
       case Number::kInt32:
-        return binary<std::int32_t>();
+        return in_.value<std::int32_t>();
       case Number::kUint32:
-        return binary<std::uint32_t>();
+        return in_.value<std::uint32_t>();
       case Number::kFloat:
-        return binary<float>();
+        return in_.value<float>();
       default:
-        return binary<double>();
+        return in_.value<double>();
     }
   }
 
