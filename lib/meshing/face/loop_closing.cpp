@@ -8,85 +8,23 @@
 #include <utility>
 
 #include "mesh/adjacency.h"
+#include "mesh/quality.h"
 #include "meshing/face/face_check.h"
+#include "meshing/face/least_area.h"
 
 namespace st {
 namespace {
 
 constexpr std::size_t kMostCorners = 600;  // of a polygon that is triangulated at once; its cost is cubic
-constexpr double kShape = 1e-4;        // share of the squared perimeter in a triangle's cost: few slivers where flat
-constexpr double kRepeated = 1e3;      // squared perimeters of the polygon: cost of a side that exists already
-constexpr double kImpossible = 1e200;  // cost of a triangle with one node twice
-constexpr double kLong = 1.4;          // times the request: sides that are split
-constexpr int kPasses = 40;            // of splitting, swapping and smoothing
+constexpr double kRepeated = 1e3;          // squared perimeters of the polygon: cost of a side that exists already
+constexpr double kLong = 1.4;              // times the request: sides that are split
+constexpr int kPasses = 40;                // of splitting, swapping and smoothing
 constexpr std::size_t kMostInner = 200'000;
 constexpr double kNear = 0.1;     // of the longest side of a triangle: its distance from the surface
 constexpr double kSteep = 2;      // over the cosine of 60 degrees to the surface a triangle is as good as its shape
 constexpr double kBetter = 1e-6;  // least gain in quality of a swap or a move
 
 using Polygon = std::vector<std::int32_t>;  // node indices, the face on the left
-
-/// The polygon's nodes with the least sum of areas, on the surface, of its triangles.
-class LeastArea {
- public:
-  /// Places and ids of its nodes [n]; of the sides between each two of them [n*n] the middle and a cost.
-  LeastArea(std::vector<Vec3> x, std::vector<std::int32_t> id, std::vector<Vec3> middle, std::vector<double> side_cost)
-      : n_(x.size()),
-        x_(std::move(x)),
-        id_(std::move(id)),
-        middle_(std::move(middle)),
-        side_cost_(std::move(side_cost)),
-        least_(n_ * n_, 0),
-        apex_(n_ * n_, 0) {}
-
-  /// Triples of places; empty where every triangulation names a node twice in one triangle.
-  std::vector<std::array<std::size_t, 3>> run() {
-    for (std::size_t gap = 2; gap < n_; ++gap)
-      for (std::size_t i = 0; i + gap < n_; ++i) choose_apex(i, i + gap);
-    std::vector<std::array<std::size_t, 3>> result;
-    if (n_ < 3 || least_[n_ - 1] >= kImpossible) return result;
-    std::vector<std::pair<std::size_t, std::size_t>> open = {{0, n_ - 1}};
-    while (!open.empty()) {
-      const auto [i, k] = open.back();
-      open.pop_back();
-      if (k - i < 2) continue;
-      const std::size_t j = apex_[i * n_ + k];
-      result.push_back({i, j, k});
-      open.push_back({i, j});
-      open.push_back({j, k});
-    }
-    return result;
-  }
-
- private:
-  void choose_apex(std::size_t i, std::size_t k) {
-    double best = std::numeric_limits<double>::infinity();
-    for (std::size_t j = i + 1; j < k; ++j) {
-      const double cost = least_[i * n_ + j] + least_[j * n_ + k];
-      if (cost >= best) continue;
-      const double with = cost + triangle_cost(i, j, k);
-      if (with < best) best = with, apex_[i * n_ + k] = static_cast<std::int32_t>(j);
-    }
-    least_[i * n_ + k] = best + side_cost_[i * n_ + k];
-  }
-
-  double triangle_cost(std::size_t i, std::size_t j, std::size_t k) const {
-    if (id_[i] == id_[j] || id_[j] == id_[k] || id_[i] == id_[k]) return kImpossible;
-    const Vec3 a = middle_[i * n_ + j], b = middle_[j * n_ + k], c = middle_[i * n_ + k];
-    const auto area = [](Vec3 p, Vec3 q, Vec3 r) { return norm(cross(q - p, r - p)); };
-    const double perimeter = distance(x_[i], x_[j]) + distance(x_[j], x_[k]) + distance(x_[k], x_[i]);
-    return 0.5 * (area(x_[i], a, c) + area(x_[j], b, a) + area(x_[k], c, b) + area(a, b, c)) +
-           kShape * perimeter * perimeter;
-  }
-
-  std::size_t n_;
-  std::vector<Vec3> x_;
-  std::vector<std::int32_t> id_;
-  std::vector<Vec3> middle_;       // [n*n]
-  std::vector<double> side_cost_;  // [n*n]
-  std::vector<double> least_;      // [n*n] cost of the polygon i..k
-  std::vector<std::int32_t> apex_;
-};
 
 class LoopClosing {
  public:
@@ -238,9 +176,8 @@ class LoopClosing {
     for (std::size_t i = 0; i < corner.size(); ++i) {
       const std::size_t end = i + 1 < corner.size() ? corner[i + 1] : n;
       if (end - corner[i] < 2) continue;
-      Polygon run(polygon.begin() + static_cast<std::ptrdiff_t>(corner[i]),
-                  polygon.begin() + static_cast<std::ptrdiff_t>(end));
-      run.push_back(polygon[end % n]);
+      Polygon run;
+      for (std::size_t at = corner[i]; at <= end; ++at) run.push_back(polygon[at % n]);
       if (!triangulate(run)) return false;
     }
     return true;
@@ -263,7 +200,7 @@ class LoopClosing {
         const bool is_side = j == i + 1 || (i == 0 && j == n - 1);
         if (!is_side && fixed_.contains(ids(polygon[i], polygon[j]))) side_cost[i * n + j] = repeated;
       }
-    const auto triples = LeastArea(std::move(x), std::move(same), std::move(middle), std::move(side_cost)).run();
+    const auto triples = triangulate_least_area(std::move(x), std::move(same), std::move(middle), std::move(side_cost));
     for (const auto& [i, j, k] : triples) triangles_.push_back({{polygon[i], polygon[j], polygon[k]}});
     return triples.size() + 2 == n;
   }
@@ -271,25 +208,20 @@ class LoopClosing {
   /// A node between two others, on the surface where that is near their chord.
   FaceNode middle_of(std::int32_t a, std::int32_t b) const {
     FaceNode n;
-    const Vec3 chord = 0.5 * (nodes_[a].x + nodes_[b].x);
     n.uv = 0.5 * (nodes_[a].uv + nodes_[b].uv);
-    n.x = chord;
-    if (surface_) n.x = surface_->point(n.uv);
+    n.x = surface_ ? surface_->point(n.uv) : 0.5 * (nodes_[a].x + nodes_[b].x);
     return n;
   }
 
   /// Sides inside that join the nodes of a segment, or of another side, get a node of their own.
   void split_repeated() {
     std::map<IdPair, int> n_sides;
-    std::vector<std::pair<std::int32_t, std::int32_t>> inside;
+    std::set<std::pair<NodeId, NodeId>> repeated;
     EdgeTable(triangles_, n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
-      n_sides[ids(a, b)] += static_cast<int>(sides.size()) - 1;
-      if (sides.size() > 1) inside.push_back({a, b});
-      if (sides.size() == 1) ++n_sides[ids(a, b)];
+      n_sides[ids(a, b)] += std::max(1, static_cast<int>(sides.size()) - 1);
+      if (sides.size() > 1) repeated.insert({a, b});
     });
-    std::set<std::pair<std::int32_t, std::int32_t>> repeated;
-    for (const auto& side : inside)
-      if (n_sides[ids(side.first, side.second)] > 1) repeated.insert(side);
+    std::erase_if(repeated, [&](const auto& side) { return n_sides[ids(side.first, side.second)] == 1; });
     while (split([&](NodeId a, NodeId b) { return repeated.contains({a, b}) ? 1 : 0; })) {
     }
   }
@@ -361,22 +293,18 @@ class LoopClosing {
   /// 1: equilateral; less where it is steep to the surface, below 0 where it is turned over, in space or in (u,v).
   double quality(NodeId a, NodeId b, NodeId c) const {
     const FaceNode &p = nodes_[a], &q = nodes_[b], &r = nodes_[c];
-    const Vec3 normal = cross(q.x - p.x, r.x - p.x);
-    const double sum = norm2(q.x - p.x) + norm2(r.x - q.x) + norm2(p.x - r.x);
-    const double shape = sum > 0 ? 2 * std::sqrt(3.0) * norm(normal) / sum : 0;
+    const double shape = triangle_quality(p.x, q.x, r.x);
     if (!surface_) return shape;
-    const double steepness = dot(normalized(normal), surface_normal(*surface_, middle_uv(a, b, c)));
+    const Vec3 normal = normalized(cross(q.x - p.x, r.x - p.x));
+    const double steepness = dot(normal, surface_normal(*surface_, middle_uv(a, b, c)));
     if (cross(q.uv - p.uv, r.uv - p.uv) < 0) return -shape;
     return shape * std::min(1.0, kSteep * steepness);
   }
 
   bool swap_sides() {
-    struct Inside {
-      SideId one, other;
-    };
     std::vector<IdPair> existing(fixed_.begin(), fixed_.end());  // pairs of nodes with a side
     std::set<IdPair> added;
-    std::vector<Inside> inside;
+    std::vector<std::pair<SideId, SideId>> inside;
     EdgeTable(triangles_, n_nodes()).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> uses) {
       existing.push_back(ids(a, b));
       if (uses.size() == 2) inside.push_back({uses[0], uses[1]});
@@ -387,17 +315,17 @@ class LoopClosing {
     };
     std::vector<char> is_done(triangles_.size(), 0);
     bool has_swapped = false;
-    for (const Inside& s : inside) {
-      if (is_done[s.one / 3] || is_done[s.other / 3]) continue;
-      const NodeId a = corner(s.one, 0), b = corner(s.one, 1), c = corner(s.one, 2), d = corner(s.other, 2);
+    for (const auto& [one, other] : inside) {
+      if (is_done[one / 3] || is_done[other / 3]) continue;
+      const NodeId a = corner(one, 0), b = corner(one, 1), c = corner(one, 2), d = corner(other, 2);
       if (id(c) == id(d) || is_side(ids(c, d))) continue;
       if (std::min(quality(c, a, d), quality(d, b, c)) <= std::min(quality(a, b, c), quality(b, a, d)) + kBetter)
         continue;
       if (!surface_ && bends_more(a, b, c, d)) continue;
-      triangles_[s.one / 3] = {{c, a, d}};
-      triangles_[s.other / 3] = {{d, b, c}};
+      triangles_[one / 3] = {{c, a, d}};
+      triangles_[other / 3] = {{d, b, c}};
       added.insert(ids(c, d));
-      is_done[s.one / 3] = is_done[s.other / 3] = 1;
+      is_done[one / 3] = is_done[other / 3] = 1;
       has_swapped = true;
     }
     return has_swapped;
