@@ -1,4 +1,4 @@
-// What st-check found, and how it says it: text, JSON. Internal to the check stage.
+// What st-check found, and its text. Internal to the check stage.
 #pragma once
 
 #include <cstdint>
@@ -53,6 +53,10 @@ struct Findings {
   bool passes() const;
   /// The count of the check of this name; 0 where it was not made.
   std::int64_t count(const std::string& check) const;
+  /// Handles of all parts together, where the number means something.
+  std::optional<std::int64_t> genus() const;
+  /// Of the faces of each group of triangles.
+  std::vector<DeviationStats> deviation_by_group() const;
 };
 
 /// "face 17 "WING_UPPER"", 1-based.
@@ -67,12 +71,5 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
 /// What fails, six figures, the verdict, and lifting surfaces where `detail` has them.
 std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
                              CheckText detail);
-
-enum class ReportDetail { kSummary, kFull };
-
-/// One JSON object (docs/checks.md): a line for programs, or in full and indented, with histograms per group and face
-/// and all forced places.
-std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
-                              ReportDetail detail);
 
 }  // namespace st

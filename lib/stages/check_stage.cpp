@@ -24,6 +24,7 @@
 #include "judge/walls_apart.h"
 #include "mesh/pair_match.h"
 #include "stages/check_cad.h"
+#include "stages/check_json.h"
 #include "stages/check_report.h"
 #include "stages/check_thresholds.h"
 #include "stages/fitting_files.h"
