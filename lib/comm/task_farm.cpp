@@ -4,29 +4,22 @@
 #include <mpi.h>
 
 #include <algorithm>
-#include <atomic>
-#include <condition_variable>
 #include <deque>
 #include <list>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <thread>
 
-#include "base/current_work.h"
 #include "base/error.h"
 #include "base/ids.h"
 #include "base/threads.h"
-#include "comm/mpirun_report.h"
 
 namespace st {
 namespace {
 
 constexpr int kTagTask = 1;
-constexpr std::int32_t kStop = -1;
 
 /// Messages of a kind: what each is, and its bytes.
 struct Channel {
@@ -36,16 +29,6 @@ constexpr Channel kResults{2, 3}, kRequests{4, 5}, kAnswers{6, 7};
 // Whose tasks are short gets as many ahead as make up this time, so that no answer is waited for.
 constexpr double kAheadSeconds = 0.010;
 constexpr int kMaxAhead = 16;
-
-using Clock = std::chrono::steady_clock;
-
-/// A result, or the failure, of one task.
-struct Outcome {
-  std::int32_t task = kStop;
-  std::int32_t code = 0;  ///< 0, or the ExitCode of the failure whose text is in `bytes`
-  double seconds = 0;     ///< time of the computation
-  Bytes bytes;
-};
 
 /// What goes ahead of the bytes of an outcome.
 struct OutcomeMessage {
@@ -58,31 +41,10 @@ void require_mpi(int status, const char* what) {
   if (status != MPI_SUCCESS) throw Error(ExitCode::kInternal, std::string("MPI failed: ") + what);
 }
 
-Bytes to_bytes(const std::string& text) {
-  const auto* first = reinterpret_cast<const std::byte*>(text.data());
-  return {first, first + text.size()};
-}
-
-/// Runs one task; every exception becomes data, for it has to travel.
-Outcome run_task(std::int32_t task, int rank, const Compute& compute) {
-  Outcome outcome;
-  outcome.task = task;
-  const auto start = Clock::now();
-  const auto fail = [&](ExitCode code, const std::string& text) {
-    outcome.code = static_cast<std::int32_t>(code);
-    outcome.bytes = to_bytes(text);
-  };
-  try {
-    outcome.bytes = with_memory_named([&] { return compute(task); });
-  } catch (const Error& e) {
-    fail(e.code(), (e.code() == ExitCode::kMemory ? rank_on_this_host(rank) + ": " : "") + e.what());
-  } catch (const std::exception& e) {
-    fail(ExitCode::kInternal, std::string("internal error: ") + e.what());
-  } catch (...) {
-    fail(ExitCode::kInternal, "internal error: unknown exception");
-  }
-  outcome.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  return outcome;
+int this_rank() {
+  int rank = 0;
+  require_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "MPI_Comm_rank");
+  return rank;
 }
 
 /// The bytes of an outcome on their way, in pieces that MPI can count. Neither side waits for the other: a worker goes
@@ -164,128 +126,6 @@ bool probe(int source, int tag, MPI_Status& status) {
   return false;
 }
 
-/// A request to another rank, and who waits for the answer.
-struct Question {
-  Request request;
-  Bytes* answer;
-  std::size_t* n_missing;  ///< answers of the thread that asks
-};
-
-class WorkerThreads;
-std::atomic<WorkerThreads*> g_threads = nullptr;  // of the tasks that run now
-
-/// The computing threads of a rank. They never call MPI.
-class WorkerThreads {
- public:
-  explicit WorkerThreads(const Compute& compute) {
-    int rank = 0;
-    require_mpi(MPI_Comm_rank(MPI_COMM_WORLD, &rank), "MPI_Comm_rank");
-    g_threads = this;
-    try {
-      for (int i = 0; i < thread_count(); ++i) threads_.emplace_back([this, rank, &compute] { work(rank, compute); });
-    } catch (const std::system_error& e) {  // those there are do it
-      if (!threads_.empty()) return;
-      g_threads = nullptr;
-      throw Error(ExitCode::kMemory, std::string("no thread can be started: ") + e.what());
-    }
-  }
-  ~WorkerThreads() {
-    {
-      const std::lock_guard lock(mutex_);
-      tasks_.assign(threads_.size(), kStop);
-      is_ending_ = true;
-    }
-    has_task_.notify_all();
-    has_answers_.notify_all();
-    for (std::thread& thread : threads_) thread.join();
-    g_threads = nullptr;
-  }
-  WorkerThreads(const WorkerThreads&) = delete;
-  WorkerThreads& operator=(const WorkerThreads&) = delete;
-
-  void give(std::int32_t task) {
-    {
-      const std::lock_guard lock(mutex_);
-      tasks_.push_back(task);
-    }
-    has_task_.notify_one();
-  }
-
-  /// A finished outcome, if there is one.
-  std::optional<Outcome> take() {
-    const std::lock_guard lock(mutex_);
-    return take_locked();
-  }
-
-  /// Sleeps until there is an outcome or a question, or the time is over.
-  void wait(std::chrono::microseconds time) {
-    std::unique_lock lock(mutex_);
-    has_news_.wait_for(lock, time, [&] { return !outcomes_.empty() || !questions_.empty(); });
-  }
-
-  /// On one of the threads: waits for the answers.
-  std::vector<Bytes> ask(const std::vector<Request>& requests) {
-    std::vector<Bytes> answers(requests.size());
-    std::size_t n_missing = requests.size();
-    std::unique_lock lock(mutex_);
-    for (std::size_t i = 0; i < requests.size(); ++i) questions_.push_back({requests[i], &answers[i], &n_missing});
-    has_news_.notify_one();
-    has_answers_.wait(lock, [&] { return n_missing == 0 || is_ending_; });
-    if (n_missing > 0) throw Error(ExitCode::kInternal, "a task waited for another rank when the job ended");
-    return answers;
-  }
-
-  /// A question that nobody has passed on, if there is one.
-  std::optional<Question> take_question() {
-    const std::lock_guard lock(mutex_);
-    if (questions_.empty()) return std::nullopt;
-    Question question = std::move(questions_.front());
-    questions_.pop_front();
-    return question;
-  }
-
-  void answer(const Question& question, Bytes&& bytes) {
-    const std::lock_guard lock(mutex_);
-    *question.answer = std::move(bytes);
-    if (--*question.n_missing == 0) has_answers_.notify_all();
-  }
-
- private:
-  std::optional<Outcome> take_locked() {
-    if (outcomes_.empty()) return std::nullopt;
-    Outcome outcome = std::move(outcomes_.front());
-    outcomes_.pop_front();
-    return outcome;
-  }
-
-  void work(int rank, const Compute& compute) {
-    while (true) {
-      std::int32_t task = kStop;
-      {
-        std::unique_lock lock(mutex_);
-        has_task_.wait(lock, [&] { return !tasks_.empty(); });
-        task = tasks_.front();
-        tasks_.pop_front();
-      }
-      if (task == kStop) return;
-      Outcome outcome = run_task(task, rank, compute);
-      {
-        const std::lock_guard lock(mutex_);
-        outcomes_.push_back(std::move(outcome));
-      }
-      has_news_.notify_one();
-    }
-  }
-
-  std::mutex mutex_;
-  std::condition_variable has_task_, has_news_, has_answers_;
-  std::deque<std::int32_t> tasks_;
-  std::deque<Outcome> outcomes_;
-  std::deque<Question> questions_;
-  bool is_ending_ = false;
-  std::vector<std::thread> threads_;  // last: they use the members above
-};
-
 /// Takes what is complete, and forgets it. False: nothing is.
 template <class Take>
 bool take_arrived(std::list<Transfer>& transfers, const Take& take) {
@@ -364,7 +204,7 @@ class Distributor {
         collect_(collect),
         n_pending_(n_ranks, 0),
         own_(n_ranks),
-        local_(compute),
+        local_(this_rank(), compute),
         courier_(local_, answer) {
     for (const std::int32_t task : order)
       (home.empty() || home[task] == kNone ? shared_ : own_.at(home[task])).push_back(task);
@@ -459,7 +299,7 @@ class Distributor {
 /// pass on.
 class Worker {
  public:
-  Worker(const Compute& compute, const Answer& answer) : threads_(compute), courier_(threads_, answer) {}
+  Worker(const Compute& compute, const Answer& answer) : threads_(this_rank(), compute), courier_(threads_, answer) {}
 
   void run() {
     for (Backoff backoff; !is_stopped_ || n_inside_ > 0 || !outgoing_.empty() || courier_.is_busy();) {
@@ -518,12 +358,5 @@ void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const
 }
 
 void work_on_tasks(const Compute& compute, const Answer& answer) { Worker(compute, answer).run(); }
-
-std::vector<Bytes> ask_ranks(const std::vector<Request>& requests) {
-  WorkerThreads* threads = g_threads;
-  if (requests.empty()) return {};
-  if (!threads) throw Error(ExitCode::kInternal, "no task runs that could ask other ranks");
-  return threads->ask(requests);
-}
 
 }  // namespace st

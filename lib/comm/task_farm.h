@@ -11,7 +11,7 @@
 #include <functional>
 #include <vector>
 
-#include "comm/communicator.h"
+#include "comm/worker_threads.h"
 
 namespace st {
 
@@ -31,7 +31,6 @@ class Backoff {
   std::chrono::microseconds next_ = kFirst;
 };
 
-using Compute = std::function<Bytes(std::int32_t task)>;
 using Collect = std::function<void(std::int32_t task, Bytes&& result)>;
 using Answer = std::function<Bytes(const Bytes& request)>;
 
@@ -43,8 +42,5 @@ void distribute_tasks(int n_ranks, const std::vector<std::int32_t>& order, const
 
 /// Every other rank's side: returns when rank 0 says that there is no more.
 void work_on_tasks(const Compute& compute, const Answer& answer);
-
-/// Gives within `compute` the answers of these ranks, in order. Waits.
-std::vector<Bytes> ask_ranks(const std::vector<Request>& requests);
 
 }  // namespace st
