@@ -3,19 +3,14 @@
 #include <BRepAdaptor_Curve.hxx>
 #include <BRepAdaptor_Surface.hxx>
 #include <BRepAlgoAPI_Common.hxx>
-#include <BRepClass3d_SolidClassifier.hxx>
-#include <BRepGProp.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeSphere.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
-#include <TopoDS_Shell.hxx>
 #include <TopoDS_Solid.hxx>
 #include <algorithm>
 #include <cmath>
@@ -24,13 +19,12 @@
 #include <iterator>
 
 #include "base/axis.h"
-#include "base/boxes.h"
-#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "base/face_labels.h"
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/import.h"
+#include "geometry/import/nested_solids.h"
 #include "geometry/import/plane_loops.h"
 
 namespace st::occt {
@@ -229,12 +223,6 @@ Faces far_faces(const FarField& far, const Box3& box, const std::optional<Cut>& 
 
 // --- shells and solids ---
 
-double volume_of(const TopoDS_Shape& shell) {
-  GProp_GProps volume;
-  BRepGProp::VolumeProperties(shell, volume);
-  return volume.Mass();
-}
-
 TopoDS_Shape oriented(const TopoDS_Shape& shell, bool outward) {
   return (volume_of(shell) > 0) == outward ? shell : shell.Reversed();
 }
@@ -252,71 +240,30 @@ TopoDS_Shape fluid_of(const std::vector<TopoDS_Shape>& shells, const TopoDS_Face
   return solid;
 }
 
-/// The outermost shell of a solid, as a solid of its own: without cavities.
-TopoDS_Solid filled(const TopoDS_Shape& solid) {
-  TopoDS_Solid result;
-  BRep_Builder builder;
-  builder.MakeSolid(result);
-  for (TopExp_Explorer s(solid, TopAbs_SHELL); s.More(); s.Next())
-    if (volume_of(s.Current()) > 0) builder.Add(result, s.Current());
-  return result;
-}
-
-/// Whether all vertices are inside, or on the boundary but not all of them.
-bool is_inside(const TopoDS_Shape& body, const TopoDS_Solid& outer) {
-  constexpr double kOnBoundary = 1e-7;
-  TopTools_IndexedMapOfShape vertices;
-  TopExp::MapShapes(body, TopAbs_VERTEX, vertices);
-  BRepClass3d_SolidClassifier classifier(outer);
-  bool is_any = false;
-  for (int i = 1; i <= vertices.Extent(); ++i) {
-    classifier.Perform(BRep_Tool::Pnt(TopoDS::Vertex(vertices(i))), kOnBoundary);
-    if (classifier.State() == TopAbs_OUT) return false;
-    is_any = is_any || classifier.State() == TopAbs_IN;
-  }
-  return is_any;
-}
-
 /// What is twice in the plane has no section: cut, it would be a part of the outer solid, or a hole in it.
 void require_none_inside(const ImportedShape& model, const Cut& cut, const std::string& path) {
-  std::vector<TopoDS_Solid> solids;
-  std::vector<Box3> boxes;
-  for (TopExp_Explorer e(model.shape, TopAbs_SOLID); e.More(); e.Next()) {
-    solids.push_back(TopoDS::Solid(e.Current()));
-    boxes.push_back(rough_box(e.Current()));
-  }
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    for (std::size_t k = 0; k < solids.size(); ++k) {
-      const bool is_at_plane =
-          component(boxes[i].lo, cut.plane.axis) <= cut.plane.value + kInSymmetryPlane * cut.diagonal &&
-          component(boxes[i].hi, cut.plane.axis) >= cut.plane.value - kInSymmetryPlane * cut.diagonal;
-      if (i == k || !is_at_plane || !contains(boxes[k], boxes[i]) || !is_inside(solids[i], solids[k])) continue;
-      const auto name = [&](const TopoDS_Solid& solid) {
-        return name_of(model, TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current()));
-      };
-      throw Error(ExitCode::kGeometry, path + ": the solid \"" + name(solids[i]) + "\" lies inside the solid \"" +
-                                           name(solids[k]) +
-                                           "\", and the symmetry plane cuts both; make them one with "
-                                           "--unite, or leave one out");
-    }
+  const double value = cut.plane.value, near = kInSymmetryPlane * cut.diagonal;
+  const auto is_at_plane = [&](const Box3& box) {
+    return component(box.lo, cut.plane.axis) <= value + near && component(box.hi, cut.plane.axis) >= value - near;
+  };
+  const auto name = [&](const TopoDS_Solid& solid) {
+    return name_of(model, TopoDS::Face(TopExp_Explorer(solid, TopAbs_FACE).Current()));
+  };
+  for (const NestedSolid& nested : nested_solids(model.shape, Cavities::kOutside, is_at_plane))
+    throw Error(ExitCode::kGeometry, path + ": the solid \"" + name(nested.inner) + "\" lies inside the solid \"" +
+                                         name(nested.outer) +
+                                         "\", and the symmetry plane cuts both; make them one with "
+                                         "--unite, or leave one out");
 }
 
 /// Faces of solids that lie inside another one, in its cavities, too.
 TopTools_IndexedMapOfShape inner_bodies(const TopoDS_Shape& shape, std::vector<ImportFinding>& findings) {
-  std::vector<TopoDS_Shape> solids;
-  std::vector<Box3> boxes;
-  for (TopExp_Explorer e(shape, TopAbs_SOLID); e.More(); e.Next()) {
-    solids.push_back(e.Current());
-    boxes.push_back(rough_box(e.Current()));
-  }
   TopTools_IndexedMapOfShape faces;
-  for (std::size_t i = 0; i < solids.size(); ++i)
-    for (std::size_t k = 0; k < solids.size(); ++k) {
-      if (i == k || !contains(boxes[k], boxes[i]) || !is_inside(solids[i], filled(solids[k]))) continue;
-      TopExp::MapShapes(solids[i], TopAbs_FACE, faces);
-      findings.push_back({FindingKind::kInnerBodyLeftOut, "", boxes[i].center(), boxes[i].diagonal(), false});
-      break;
-    }
+  for (const NestedSolid& nested : nested_solids(shape, Cavities::kInside)) {
+    TopExp::MapShapes(nested.inner, TopAbs_FACE, faces);
+    const Box3 box = rough_box(nested.inner);
+    findings.push_back({FindingKind::kInnerBodyLeftOut, "", box.center(), box.diagonal(), false});
+  }
   return faces;
 }
 

@@ -109,6 +109,12 @@ double area_of(const TopoDS_Shape& shape) {
   return std::fabs(area.Mass());
 }
 
+double volume_of(const TopoDS_Shape& shape) {
+  GProp_GProps volume;
+  BRepGProp::VolumeProperties(shape, volume);
+  return volume.Mass();
+}
+
 std::vector<TopoDS_Wire> simple_wires(const std::vector<TopoDS_Edge>& edges) {
   if (edges.empty()) return {};
   Handle(TopTools_HSequenceOfShape) sequence = new TopTools_HSequenceOfShape, wires;

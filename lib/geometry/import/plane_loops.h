@@ -30,6 +30,8 @@ struct PlaneLoop {
 };
 
 double area_of(const TopoDS_Shape& shape);
+/// Positive where the faces point outward.
+double volume_of(const TopoDS_Shape& shape);
 
 /// The edges end to end, as far as they have vertices in common. A wire passes no vertex twice where all can be closed.
 std::vector<TopoDS_Wire> simple_wires(const std::vector<TopoDS_Edge>& edges);

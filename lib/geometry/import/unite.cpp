@@ -1,8 +1,6 @@
 #include "geometry/import/unite.h"
 
 #include <BRepAlgoAPI_Fuse.hxx>
-#include <BRepGProp.hxx>
-#include <GProp_GProps.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -17,6 +15,7 @@
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/boolean_child.h"
+#include "geometry/import/plane_loops.h"
 
 namespace st::occt {
 namespace {
@@ -33,12 +32,6 @@ struct Body {
   double volume = 0;
   bool is_gone = false;  ///< in another one
 };
-
-double volume_of(const TopoDS_Shape& shape) {
-  GProp_GProps properties;
-  BRepGProp::VolumeProperties(shape, properties);
-  return properties.Mass();
-}
 
 std::string words(const std::set<std::string>& names) {
   constexpr std::size_t kShown = 3;
