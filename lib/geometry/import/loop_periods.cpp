@@ -5,7 +5,6 @@
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
-#include <Precision.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Face.hxx>
 #include <TopExp_Explorer.hxx>
@@ -23,18 +22,17 @@
 #include "base/boxes.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/surface_closing.h"
 #include "geometry/shape/loop_polygons.h"
 
 namespace st::occt {
 namespace {
 
-constexpr int kSides = 24;          // of each edge: enough to tell inside from outside
-constexpr int kManySides = 2048;    // likewise near a bent edge, before a hole is left out
-constexpr double kBeyond = 0.01;    // of the surface's range: beyond it by less is rounding
-constexpr double kWinding = 0.5;    // of a period: a loop that ends further from its start goes around
-constexpr double kMaxPeriods = 8;   // to look for a hole
-constexpr int kStations = 8;        // across a surface, at which its ends are compared
-constexpr double kFarBelow = 0.01;  // of the surface's extent: a tolerance that says that ends meet
+constexpr int kSides = 24;         // of each edge: enough to tell inside from outside
+constexpr int kManySides = 2048;   // likewise near a bent edge, before a hole is left out
+constexpr double kBeyond = 0.01;   // of the surface's range: beyond it by less is rounding
+constexpr double kWinding = 0.5;   // of a period: a loop that ends further from its start goes around
+constexpr double kMaxPeriods = 8;  // to look for a hole
 
 /// A wire in (u,v), as the face has it.
 struct Loop {
@@ -44,52 +42,6 @@ struct Loop {
   Vec2 winding;     ///< from its start to its end: 0 when it is closed
   double area = 0;  ///< signed
 };
-
-/// How a surface closes; a period of 0: not at all.
-struct Closing {
-  Vec2 lo, hi;  ///< its bounds
-  Vec2 period;
-  bool is_u_periodic = false, is_v_periodic = false;  ///< else it has no points beyond its bounds
-};
-
-enum class Along { kU, kV };
-
-/// Whether both ends of a bounded surface are one line within the tolerance of the face's edges, far below its size:
-/// OpenCASCADE says so only of what is equal to 1e-7.
-bool ends_meet(const Handle(Geom_Surface) & surface, const Closing& c, Along along, double tolerance) {
-  if (Precision::IsInfinite(c.lo.x) || Precision::IsInfinite(c.hi.x)) return false;
-  if (Precision::IsInfinite(c.lo.y) || Precision::IsInfinite(c.hi.y)) return false;
-  const auto point = [&](double s, double t) {  // s along, t across
-    const Vec2 uv = along == Along::kU ? Vec2{s, t} : Vec2{t, s};
-    return surface->Value(c.lo.x + uv.x * (c.hi.x - c.lo.x), c.lo.y + uv.y * (c.hi.y - c.lo.y));
-  };
-  double size = 0;
-  for (int k = 0; k <= kStations; ++k) {
-    const double t = static_cast<double>(k) / kStations;
-    if (point(0, t).Distance(point(1, t)) > tolerance) return false;
-    size = std::max(size, point(0, t).Distance(point(0.5, t)));
-  }
-  return tolerance < kFarBelow * size;
-}
-
-double edge_tolerance(const TopoDS_Face& face) {
-  double tolerance = Precision::Confusion();
-  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
-    tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(e.Current())));
-  return tolerance;
-}
-
-Closing closing_of(const TopoDS_Face& face, const Handle(Geom_Surface) & surface) {
-  Closing c;
-  surface->Bounds(c.lo.x, c.hi.x, c.lo.y, c.hi.y);
-  c.is_u_periodic = surface->IsUPeriodic();
-  c.is_v_periodic = surface->IsVPeriodic();
-  const double tolerance = edge_tolerance(face);
-  const auto is_closed = [&](bool is_said, Along along) { return is_said || ends_meet(surface, c, along, tolerance); };
-  c.period.x = c.is_u_periodic ? surface->UPeriod() : is_closed(surface->IsUClosed(), Along::kU) ? c.hi.x - c.lo.x : 0;
-  c.period.y = c.is_v_periodic ? surface->VPeriod() : is_closed(surface->IsVClosed(), Along::kV) ? c.hi.y - c.lo.y : 0;
-  return c;
-}
 
 void add_edge(Loop& loop, const TopoDS_Edge& edge, const TopoDS_Face& face, int n_sides) {
   double t0, t1;
@@ -164,7 +116,8 @@ std::pair<int, int> periods_onto(double lo, double hi, double to_lo, double to_h
 }
 
 /// The shift that brings a hole inside the outer loops; nullopt: none does.
-std::optional<Vec2> shift_into(const Loop& hole, const Loop& outer, const LoopPolygons& polygons, const Closing& c) {
+std::optional<Vec2> shift_into(const Loop& hole, const Loop& outer, const LoopPolygons& polygons,
+                               const SurfaceClosing& c) {
   const auto [i0, i1] = periods_onto(hole.box.lo.x, hole.box.hi.x, outer.box.lo.x, outer.box.hi.x, c.period.x);
   const auto [j0, j1] = periods_onto(hole.box.lo.y, hole.box.hi.y, outer.box.lo.y, outer.box.hi.y, c.period.y);
   for (int i = i0; i <= i1; ++i)
@@ -222,15 +175,15 @@ struct WrongLoop {
   bool is_stray = false;
 };
 
-void say(FindingKind kind, const NamedFace& f, const TopoDS_Wire& wire, const std::string& detail,
+void say(FindingKind kind, const NamedFace& f, const TopoDS_Shape& place, const std::string& detail,
          std::vector<ImportFinding>& findings) {
-  const Box3 box = rough_box(wire);
+  const Box3 box = rough_box(place);
   findings.push_back({kind, "face " + std::to_string(f.number), box.center(), box.diagonal(),
                       kind != FindingKind::kStrayHole, detail});
 }
 
 /// Brings all loops between the bounds of a surface that has no points beyond them.
-void move_face(const NamedFace& f, std::vector<Loop>& loops, const Loop& outer, const Closing& c,
+void move_face(const NamedFace& f, std::vector<Loop>& loops, const Loop& outer, const SurfaceClosing& c,
                std::vector<ImportFinding>& findings) {
   const auto shift_of = [](double lo, double hi, double from, double to, double period) {
     return period == 0 ? 0.0 : -period * std::floor((0.5 * (lo + hi) - from) / (to - from));
@@ -243,7 +196,7 @@ void move_face(const NamedFace& f, std::vector<Loop>& loops, const Loop& outer, 
 }
 
 /// Holes that are outside in every period are added to `wrong`.
-void move_holes(const NamedFace& f, std::vector<Loop>& loops, std::size_t outer, const Closing& c,
+void move_holes(const NamedFace& f, std::vector<Loop>& loops, std::size_t outer, const SurfaceClosing& c,
                 std::vector<WrongLoop>& wrong, std::vector<ImportFinding>& findings) {
   const LoopPolygons polygons = outside_of(loops);
   for (Loop& loop : loops) {
@@ -301,7 +254,7 @@ bool is_to_be_looked_at(const TopoDS_Face& face, const Handle(Geom_Surface) & su
   return false;
 }
 
-bool goes_around(const Loop& loop, const Closing& c) {
+bool goes_around(const Loop& loop, const SurfaceClosing& c) {
   return (c.period.x > 0 && std::abs(loop.winding.x) > kWinding * c.period.x) ||
          (c.period.y > 0 && std::abs(loop.winding.y) > kWinding * c.period.y);
 }
@@ -309,7 +262,7 @@ bool goes_around(const Loop& loop, const Closing& c) {
 void move_loops_of(const NamedFace& f, std::vector<WrongLoop>& wrong, std::vector<ImportFinding>& findings) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(f.face);
   if (!is_to_be_looked_at(f.face, surface)) return;
-  const Closing c = surface_type(surface) == SurfaceType::kPlane ? Closing{} : closing_of(f.face, surface);
+  const SurfaceClosing c = surface_type(surface) == SurfaceType::kPlane ? SurfaceClosing{} : surface_closing(f.face);
   const bool is_closed = c.period.x > 0 || c.period.y > 0;
   if (!is_closed && !has_holes(f.face)) return;
   std::vector<Loop> loops = loops_of(f.face);
@@ -381,7 +334,7 @@ bool lacks_seam(const TopoDS_Face& face) {
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
     if (BRep_Tool::IsClosed(TopoDS::Edge(e.Current()), face) || BRep_Tool::Degenerated(TopoDS::Edge(e.Current())))
       return false;
-  const Closing c = closing_of(face, surface);
+  const SurfaceClosing c = surface_closing(face);
   const std::vector<Loop> loops = loops_of(face);
   return std::any_of(loops.begin(), loops.end(), [&](const Loop& loop) { return goes_around(loop, c); });
 }
@@ -398,8 +351,7 @@ void add_missing_seams(ImportedShape& model, std::vector<ImportFinding>& finding
     ShapeFix_Face fix(TopoDS::Face(now));
     fix.SetContext(reshape);
     if (!fix.FixMissingSeam()) continue;
-    const Box3 box = rough_box(face);
-    found.push_back({FindingKind::kLostLoops, "face " + std::to_string(i), box.center(), box.diagonal(), true});
+    say(FindingKind::kLostLoops, {face, i}, face, "", found);
   }
   if (found.empty()) return;
   const TopoDS_Shape repaired = reshape->Apply(model.shape);
