@@ -11,13 +11,12 @@
 
 #include "base/sort_once.h"
 #include "base/threads.h"
-#include "meshing/face/scaled_field.h"
+#include "meshing/face/coarse_face.h"
 
 namespace st {
 namespace {
 
 constexpr double kCoarsePerTile = 24;  // triangles of the coarse mesh for each tile, at least
-constexpr int kCoarseRounds = 2;       // of the enhancer: cuts should be straight and meet at wide angles
 constexpr int kSamplesPerNode = 4;     // of a cut, to space its nodes
 constexpr int kMaxSamples = 1 << 14;
 constexpr int kProbes = 16;  // along u and v: where sizes are asked whether they are stretched
@@ -31,16 +30,16 @@ class TileCutter {
       : surface_(surface),
         make_surface_(make_surface),
         boundary_(boundary),
-        places_(places),
         field_(field),
         tile_triangles_(tile_triangles),
-        n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())) {}
+        n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())),
+        coarse_(surface, boundary, places, field) {}
 
   TileCut run() {
-    if (is_stretched() || !follow_loops()) return {};  // rows would end at cuts
+    if (is_stretched()) return {};  // rows would end at cuts
     const auto widest = static_cast<unsigned>(std::max(1.0, std::sqrt(tile_triangles_ / kCoarsePerTile)));
     for (unsigned step = std::bit_floor(widest); step >= 1; step /= 2)
-      if (make_coarse(static_cast<std::int32_t>(step))) return cut();
+      if (coarse_.make(static_cast<std::int32_t>(step))) return cut();
     return {};
   }
 
@@ -63,118 +62,10 @@ class TileCutter {
     return false;
   }
 
-  /// The node after each; of those where several parts of the loops meet, any. False: a loop is open.
-  bool follow_loops() {
-    next_.assign(boundary_.nodes.size(), kNone);
-    is_meeting_.assign(boundary_.nodes.size(), 0);
-    std::vector<std::int32_t> n_ends(boundary_.nodes.size(), 0);
-    for (const auto& [a, b] : boundary_.segments) {
-      if (next_[a] != kNone) is_meeting_[a] = 1;
-      next_[a] = b;
-      ++n_ends[b];
-    }
-    for (std::size_t i = 0; i < next_.size(); ++i)
-      if (next_[i] == kNone || (n_ends[i] > 1 && !is_meeting_[i])) return false;
-    return true;
-  }
-
-  /// Vertices, poles, where parts of the loops meet, and nodes that are the further apart the further from the end of
-  /// their edge.
-  bool is_kept(std::int32_t node, std::int32_t step) const {
-    const BoundaryPlace& p = places_[node];
-    if (p.to_end == 0 || boundary_.nodes[node].is_pole || is_meeting_[node]) return true;
-    const auto graded = static_cast<std::int32_t>(std::bit_floor(static_cast<unsigned>(std::max(1, p.to_end / 2))));
-    return p.index % std::min(step, graded) == 0;
-  }
-
-  /// A part of a loop, from one coarse node to the next.
-  struct Part {
-    std::int32_t begin, second, end;
-  };
-
-  std::vector<Part> parts_between(const std::vector<char>& is_node) const {
-    std::vector<Part> parts;
-    for (const auto& [a, b] : boundary_.segments) {
-      if (!is_node[a]) continue;
-      std::int32_t end = b;
-      while (!is_node[end]) end = next_[end];
-      parts.push_back({a, b, end});
-    }
-    return parts;
-  }
-
-  /// Calls visit(a, b) for each segment of the part.
-  template <class Visit>
-  void for_each_segment(const Part& part, const Visit& visit) const {
-    visit(part.begin, part.second);
-    for (std::int32_t i = part.second; i != part.end; i = next_[i]) visit(i, next_[i]);
-  }
-
-  /// The nodes of the coarse loops. Along the rough rim of a hole these lie within the hole: no cut meets the rim.
-  std::vector<char> coarse_nodes(std::int32_t step) const {
-    std::vector<char> is_node(boundary_.nodes.size());
-    for (std::int32_t i = 0; i < n_boundary_; ++i) is_node[i] = is_kept(i, step);
-    std::vector<Part> open = parts_between(is_node);
-    while (!open.empty()) {
-      const Part part = open.back();
-      open.pop_back();
-      if (!places_[part.second].is_rough) continue;
-      const Vec2 from = boundary_.nodes[part.begin].uv, along = boundary_.nodes[part.end].uv - from;
-      std::int32_t innermost = kNone;
-      double most = 0;
-      for (std::int32_t i = part.second; i != part.end; i = next_[i]) {
-        const Vec2 to = boundary_.nodes[i].uv - from;
-        const double left = along.x * to.y - along.y * to.x;
-        if (left > most) most = left, innermost = i;
-      }
-      if (innermost == kNone) continue;
-      is_node[innermost] = 1;
-      open.push_back({part.begin, part.second, innermost});
-      open.push_back({innermost, next_[innermost], part.end});
-    }
-    return is_node;
-  }
-
-  /// Sets coarse_ and what tells its corners. False: the coarse loops cross, or its mesh has folds.
-  bool make_coarse(std::int32_t step) {
-    FaceBoundary loops;
-    of_coarse_.clear();
-    std::vector<std::int32_t> coarse_of(boundary_.nodes.size(), kNone);
-    const std::vector<char> is_node = coarse_nodes(step);
-    for (std::int32_t i = 0; i < n_boundary_; ++i) {
-      if (!is_node[i]) continue;
-      coarse_of[i] = static_cast<std::int32_t>(of_coarse_.size());
-      of_coarse_.push_back(i);
-      loops.nodes.push_back(boundary_.nodes[i]);
-    }
-    parts_ = parts_between(is_node);
-    for (const Part& part : parts_) {
-      double length = 0;
-      for_each_segment(part, [&](std::int32_t i, std::int32_t j) {
-        length += distance(boundary_.nodes[i].x, boundary_.nodes[j].x);
-      });
-      const std::int32_t c = coarse_of[part.begin];
-      loops.segments.push_back({c, coarse_of[part.end]});
-      if (length > 0) loops.nodes[c].h = std::max(loops.nodes[c].h, length);
-    }
-    coarse_segments_ = loops.segments;
-    FaceMeshOptions options;
-    options.enhance_rounds = kCoarseRounds;
-    coarse_ = mesh_face(surface_, loops, ScaledField(field_, step), options);
-    return coarse_.cause == FailureCause::kNone && coarse_.n_folds == 0 && !coarse_.corners.empty();
-  }
-
-  std::int32_t n_coarse() const { return static_cast<std::int32_t>(coarse_.corners.size() / 3); }
-  std::int32_t corner(std::int32_t t, int k) const { return coarse_.corners[3 * static_cast<std::size_t>(t) + k]; }
-  const FaceNode& node(std::int32_t corner) const {
-    const auto n = static_cast<std::int32_t>(of_coarse_.size());
-    return corner < n ? boundary_.nodes[of_coarse_[corner]] : coarse_.inner[corner - n];
-  }
-
   TileCut cut() {
     find_sides();
     weigh();
-    part_.assign(static_cast<std::size_t>(n_coarse()), 0);
+    part_.assign(static_cast<std::size_t>(coarse_.n_triangles()), 0);
     std::vector<std::int32_t> all(part_.size());
     std::iota(all.begin(), all.end(), 0);
     const double total = std::accumulate(weight_.begin(), weight_.end(), 0.0);
@@ -184,7 +75,7 @@ class TileCutter {
     join_poles();
     join_spikes();
     result_.tiles.resize(static_cast<std::size_t>(n_parts_));
-    for (std::int32_t t = 0; t < n_coarse(); ++t) result_.tiles[part_[t]].weight += weight_[t];
+    for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t) result_.tiles[part_[t]].weight += weight_[t];
     if (!add_boundary()) return {};
     add_cuts();
     std::erase_if(result_.tiles, [](const Tile& tile) { return tile.segments.empty(); });
@@ -199,12 +90,12 @@ class TileCutter {
 
   void find_sides() {
     sides_.clear();
-    for (std::int32_t t = 0; t < n_coarse(); ++t)
-      for (int k = 0; k < 3; ++k) sides_.push_back({corner(t, k), corner(t, (k + 1) % 3), t});
+    for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t)
+      for (int k = 0; k < 3; ++k) sides_.push_back({coarse_.corner(t, k), coarse_.corner(t, (k + 1) % 3), t});
     std::sort(sides_.begin(), sides_.end());
-    beyond_.assign(coarse_.corners.size(), kNone);
-    for (std::int32_t t = 0; t < n_coarse(); ++t)
-      for (int k = 0; k < 3; ++k) beyond_[3 * t + k] = left_of(corner(t, (k + 1) % 3), corner(t, k));
+    beyond_.assign(coarse_.corners().size(), kNone);
+    for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t)
+      for (int k = 0; k < 3; ++k) beyond_[3 * t + k] = left_of(coarse_.corner(t, (k + 1) % 3), coarse_.corner(t, k));
   }
 
   /// The triangle that has the side from a to b.
@@ -216,8 +107,9 @@ class TileCutter {
   void weigh() {
     weight_.clear();
     middle_.clear();
-    for (std::int32_t t = 0; t < n_coarse(); ++t) {
-      const FaceNode &a = node(corner(t, 0)), &b = node(corner(t, 1)), &c = node(corner(t, 2));
+    for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t) {
+      const FaceNode &a = coarse_.node(coarse_.corner(t, 0)), &b = coarse_.node(coarse_.corner(t, 1)),
+                     &c = coarse_.node(coarse_.corner(t, 2));
       middle_.push_back((a.x + b.x + c.x) / 3);
       const double h = field_.size(middle_.back(), hint_);
       weight_.push_back(kTrianglesPerWeight * 0.5 * norm(cross(b.x - a.x, c.x - a.x)) / (h * h));
@@ -259,21 +151,22 @@ class TileCutter {
 
   /// All triangles about a pole belong to one part: that of the first.
   void join_poles() {
-    for (std::int32_t t = 0; t < n_coarse(); ++t)
+    for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t)
       for (int k = 0; k < 3; ++k) {
-        const FaceNode& n = node(corner(t, k));
+        const FaceNode& n = coarse_.node(coarse_.corner(t, k));
         if (n.is_pole) part_[t] = part_of_pole_.try_emplace(n.id, part_[t]).first->second;
       }
   }
 
   bool touches_pole(std::int32_t t) const {
-    return node(corner(t, 0)).is_pole || node(corner(t, 1)).is_pole || node(corner(t, 2)).is_pole;
+    return coarse_.node(coarse_.corner(t, 0)).is_pole || coarse_.node(coarse_.corner(t, 1)).is_pole ||
+           coarse_.node(coarse_.corner(t, 2)).is_pole;
   }
 
   /// A triangle with two neighbours in one other part joins them.
   void join_spikes() {
     for (int pass = 0; pass < 2; ++pass)
-      for (std::int32_t t = 0; t < n_coarse(); ++t) {
+      for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t) {
         if (touches_pole(t)) continue;
         std::array<std::int32_t, 3> beyond;
         for (int k = 0; k < 3; ++k) {
@@ -289,32 +182,33 @@ class TileCutter {
   std::int32_t standing_for(std::int32_t c, const std::vector<std::uint8_t>& is_used) const {
     if (is_used[c]) return c;
     std::int32_t nearest = kNone;
-    for (std::size_t o = 0; o < of_coarse_.size(); ++o) {
-      const auto other = static_cast<std::int32_t>(o);
-      if (!is_used[o] || node(other).id != node(c).id) continue;
-      if (nearest == kNone || norm(node(other).uv - node(c).uv) < norm(node(nearest).uv - node(c).uv)) nearest = other;
+    for (std::int32_t other = 0; other < coarse_.n_on_boundary(); ++other) {
+      if (!is_used[other] || coarse_.node(other).id != coarse_.node(c).id) continue;
+      if (nearest == kNone ||
+          norm(coarse_.node(other).uv - coarse_.node(c).uv) < norm(coarse_.node(nearest).uv - coarse_.node(c).uv))
+        nearest = other;
     }
     return nearest;
   }
 
   /// Each coarse segment of the loops, as the segments of the face, to the tile on its left. False: a segment has none.
   bool add_boundary() {
-    std::vector<std::uint8_t> is_used(of_coarse_.size(), 0);
-    for (const std::int32_t c : coarse_.corners)
-      if (c < static_cast<std::int32_t>(of_coarse_.size())) is_used[c] = 1;
-    for (std::size_t s = 0; s < coarse_segments_.size(); ++s) {
-      const auto [a, b] = coarse_segments_[s];
+    std::vector<std::uint8_t> is_used(coarse_.n_on_boundary(), 0);
+    for (const std::int32_t c : coarse_.corners())
+      if (c < coarse_.n_on_boundary()) is_used[c] = 1;
+    for (const CoarseFace::Part& loop_part : coarse_.parts()) {
+      const std::int32_t a = loop_part.from, b = loop_part.to;
       const std::int32_t from = standing_for(a, is_used), to = standing_for(b, is_used);
       std::int32_t part = kNone;
-      if (node(a).is_pole && node(a).id == node(b).id) {
-        const auto it = part_of_pole_.find(node(a).id);
+      if (coarse_.node(a).is_pole && coarse_.node(a).id == coarse_.node(b).id) {
+        const auto it = part_of_pole_.find(coarse_.node(a).id);
         if (it != part_of_pole_.end()) part = it->second;
       } else if (from != kNone && to != kNone && left_of(from, to) != kNone) {
         part = part_[left_of(from, to)];
         is_boundary_.insert({from, to});
       }
       if (part == kNone) return false;
-      for_each_segment(parts_[s], [&](std::int32_t i, std::int32_t j) {
+      coarse_.for_each_segment(loop_part, [&](std::int32_t i, std::int32_t j) {
         result_.tiles[part].segments.push_back({i, j});
       });
     }
@@ -351,9 +245,9 @@ class TileCutter {
 
   /// The node of the face at a corner of the coarse mesh.
   std::int32_t end_node(std::int32_t c) {
-    if (c < static_cast<std::int32_t>(of_coarse_.size())) return of_coarse_[c];
+    if (c < coarse_.n_on_boundary()) return coarse_.boundary_node(c);
     const auto [it, is_new] = junction_.try_emplace(c, kNone);
-    if (is_new) it->second = add_node(node_at(surface_, node(c).uv));
+    if (is_new) it->second = add_node(node_at(surface_, coarse_.node(c).uv));
     return it->second;
   }
 
@@ -374,10 +268,10 @@ class TileCutter {
   /// Nodes between corners a and b, straight in (u,v), spaced by the integral of 1/h.
   std::vector<FaceNode> cut_nodes(const Surface& surface, std::int32_t a, std::int32_t b) const {
     int hint = 0;
-    const Vec2 from = node(a).uv, to = node(b).uv;
-    const double h = std::min(field_.size(node(a).x, hint), field_.size(node(b).x, hint));
-    const int n_samples = static_cast<int>(
-        std::clamp(kSamplesPerNode * distance(node(a).x, node(b).x) / h, 16.0, static_cast<double>(kMaxSamples)));
+    const Vec2 from = coarse_.node(a).uv, to = coarse_.node(b).uv;
+    const double h = std::min(field_.size(coarse_.node(a).x, hint), field_.size(coarse_.node(b).x, hint));
+    const int n_samples = static_cast<int>(std::clamp(
+        kSamplesPerNode * distance(coarse_.node(a).x, coarse_.node(b).x) / h, 16.0, static_cast<double>(kMaxSamples)));
     std::vector<double> sum{0};
     Vec3 last = surface.point(from);
     for (int i = 1; i <= n_samples; ++i) {
@@ -399,17 +293,11 @@ class TileCutter {
   const Surface& surface_;
   const SurfaceMaker& make_surface_;
   const FaceBoundary& boundary_;
-  const std::span<const BoundaryPlace> places_;
   const SizeField& field_;
   const double tile_triangles_;
   const std::int32_t n_boundary_;
   int hint_ = 0;
-  std::vector<std::int32_t> next_;       // boundary node after each
-  std::vector<char> is_meeting_;         // more than one comes after it
-  FaceMesh coarse_;                      // its corners: coarse boundary nodes, then its inner ones
-  std::vector<std::int32_t> of_coarse_;  // boundary node of each coarse boundary node
-  std::vector<Corners> coarse_segments_;
-  std::vector<Part> parts_;           // what each of these stands for
+  CoarseFace coarse_;
   std::vector<Side> sides_;           // sorted
   std::vector<std::int32_t> beyond_;  // [3*n_coarse] triangle across each side, kNone: none
   std::set<Corners> is_boundary_;
