@@ -1,25 +1,15 @@
 #include "geometry/import/sewing.h"
 
 #include <BRepBuilderAPI_Sewing.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GeomAdaptor_Curve.hxx>
-#include <ShapeFix_ShapeTolerance.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Iterator.hxx>
-#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <map>
-#include <optional>
 #include <set>
-#include <string>
 
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
@@ -27,20 +17,18 @@
 #include "geometry/import/duplicate_faces.h"
 #include "geometry/import/edge_places.h"
 #include "geometry/import/false_joins.h"
-#include "geometry/import/import.h"
 #include "geometry/import/imprints.h"
+#include "geometry/import/original_order.h"
 #include "geometry/import/rooms.h"
+#include "geometry/import/wild_tolerances.h"
 
 namespace st::occt {
 namespace {
 
 constexpr double kSewRelative[] = {1e-6, 1e-5, 1e-4};  // of the diagonal, first that closes the model wins
-
-constexpr double kToleranceGrowth = 10;  // of the sewing tolerance and of what the file had: edges further apart are no
-                                         // partners
-
-constexpr double kLessFree = 0.99;    // of the length of free edges: divided surfaces are taken
-constexpr double kNoMoreFree = 1.01;  // likewise where parts without area are left out
+constexpr double kToleranceGrowth = 10;                // of the sewing tolerance and of what the file had
+constexpr double kLessFree = 0.99;                     // of the length of free edges: divided surfaces are taken
+constexpr double kNoMoreFree = 1.01;                   // likewise where parts without area are left out
 
 /// A sewn shape and the images in it of faces (first) and named edges of the original.
 struct Sewn {
@@ -68,9 +56,14 @@ void judge(Sewn& sewn, double reasonable) {
   sewn.n_false = edges.Extent();
 }
 
+TopTools_IndexedMapOfShape all_of(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
+  TopTools_IndexedMapOfShape all;
+  TopExp::MapShapes(shape, kind, all);
+  return all;
+}
+
 bool keeps_faces(const Sewn& sewn, int n_faces) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(sewn.shape, TopAbs_FACE, faces);
+  const TopTools_IndexedMapOfShape faces = all_of(sewn.shape, TopAbs_FACE);
   if (faces.Extent() != n_faces) return false;
   for (int i = 0; i < n_faces; ++i)
     if (!faces.Contains(sewn.images[i])) return false;
@@ -168,90 +161,13 @@ bool is_better(const Sewn& a, const Sewn& b, double reasonable) {
   return a.edge_tolerance < 0.5 * b.edge_tolerance;
 }
 
-/// The shell with its faces in ascending order of `rank(face)`.
-template <class Rank>
-TopoDS_Shape in_original_order(const TopoDS_Shape& shell, const Rank& rank) {
-  std::vector<std::pair<int, TopoDS_Shape>> members;
-  for (TopoDS_Iterator f(shell, false, false); f.More(); f.Next())
-    members.emplace_back(rank(f.Value().Located(shell.Location() * f.Value().Location())), f.Value());
-  std::stable_sort(members.begin(), members.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-  TopoDS_Shape ordered = shell.EmptyCopied();
-  BRep_Builder builder;
-  for (const auto& [first, face] : members) builder.Add(ordered, face);
-  ordered.Closed(shell.Closed());
-  return ordered;
-}
-
-/// Sewing permutes faces and drops solids: shells and faces in the order of their first original face.
-TopoDS_Shape in_order(const TopoDS_Shape& sewn, const std::vector<TopoDS_Shape>& images) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(sewn, TopAbs_FACE, faces);
-  std::vector<int> first_original(faces.Extent(), 0);
-  for (std::size_t i = 0; i < images.size(); ++i) first_original[faces.FindIndex(images[i]) - 1] = static_cast<int>(i);
-  struct Piece {
-    int first;
-    TopoDS_Shape shape;
-  };
-  std::vector<Piece> pieces;
-  TopTools_IndexedMapOfShape in_shell;
-  for (TopExp_Explorer e(sewn, TopAbs_SHELL); e.More(); e.Next()) {
-    TopTools_IndexedMapOfShape members;
-    TopExp::MapShapes(e.Current(), TopAbs_FACE, members);
-    int first = 1 << 30;
-    for (int i = 1; i <= members.Extent(); ++i) {
-      first = std::min(first, first_original[faces.FindIndex(members(i)) - 1]);
-      in_shell.Add(members(i));
-    }
-    const TopoDS_Shape piece =
-        in_original_order(e.Current(), [&](const TopoDS_Shape& f) { return first_original[faces.FindIndex(f) - 1]; });
-    pieces.push_back({first, piece});
-  }
-  for (int i = 1; i <= faces.Extent(); ++i)
-    if (!in_shell.Contains(faces(i))) pieces.push_back({first_original[i - 1], faces(i)});
-  std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.first < b.first; });
-  BRep_Builder builder;
-  TopoDS_Compound compound;
-  builder.MakeCompound(compound);
-  for (const Piece& p : pieces) builder.Add(compound, p.shape);
-  return compound;
-}
-
-double vertex_gap(const TopoDS_Edge& edge, const TopoDS_Vertex& vertex) {
-  double t0 = 0, t1 = 0;
-  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
-  if (curve.IsNull()) return 0;
-  const gp_Pnt p = BRep_Tool::Pnt(vertex);
-  return std::min(p.Distance(curve->Value(t0)), p.Distance(curve->Value(t1)));
-}
-
-/// Sewing measures at equal parameters: where partners run at different speeds it leaves tolerances as long as the
-/// edge. Edges above `limit` get the sewing tolerance, their vertices what their curves need; repair_pcurves() then
-/// compares, projects again and raises what must be.
-void tighten_tolerances(const TopoDS_Shape& shape, double sewing_tolerance, double limit) {
-  const ShapeFix_ShapeTolerance setter;
-  TopTools_IndexedDataMapOfShapeListOfShape vertex_edges;
-  TopExp::MapShapesAndAncestors(shape, TopAbs_VERTEX, TopAbs_EDGE, vertex_edges);
-  for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
-    if (BRep_Tool::Tolerance(TopoDS::Edge(e.Current())) > limit)
-      setter.SetTolerance(e.Current(), sewing_tolerance, TopAbs_EDGE);
-  for (int i = 1; i <= vertex_edges.Extent(); ++i) {
-    const TopoDS_Vertex vertex = TopoDS::Vertex(vertex_edges.FindKey(i));
-    if (BRep_Tool::Tolerance(vertex) <= limit) continue;
-    double needed = sewing_tolerance;
-    for (const TopoDS_Shape& edge : vertex_edges(i))
-      needed =
-          std::max({needed, BRep_Tool::Tolerance(TopoDS::Edge(edge)), 1.01 * vertex_gap(TopoDS::Edge(edge), vertex)});
-    setter.SetTolerance(vertex, needed, TopAbs_VERTEX);
-  }
-}
-
 /// The sewn shape takes the model's place.
 void take_over(ImportedShape& model, const Sewn& sewn) {
   const int n_faces = model.faces.Extent();
   const std::vector<TopoDS_Shape> face_images(sewn.images.begin(), sewn.images.begin() + n_faces);
   for (std::size_t k = 0; k < model.edge_names.size(); ++k) model.edge_names[k].first = sewn.images[n_faces + k];
   const TopTools_IndexedMapOfShape originals = model.faces;
-  model.replace(in_order(sewn.shape, face_images),
+  model.replace(in_original_order(sewn.shape, face_images),
                 [&](const TopoDS_Shape& face) { return face_images[originals.FindIndex(face) - 1]; });
 }
 
@@ -265,7 +181,7 @@ ImportFinding sewn_finding(FindingKind kind, const Sewn& before, const Sewn& aft
 void adopt(ImportedShape& model, const Sewn& original, const Sewn& sewn, std::vector<ImportFinding>& findings) {
   take_over(model, sewn);
   const double tolerance = std::max(sewn.tolerance, sewn.group_tolerance);
-  const double reasonable = kToleranceGrowth * std::max(tolerance, original.edge_tolerance);
+  const double reasonable = reasonable_tolerance(tolerance, original.edge_tolerance);
   if (sewn.edge_tolerance <= reasonable) return;
   tighten_tolerances(model.shape, tolerance, reasonable);
   findings.push_back({FindingKind::kSewingTolerance, "", {}, sewn.edge_tolerance, true});
@@ -282,19 +198,35 @@ std::vector<double> tolerances_to_try(double diagonal, double base, std::optiona
   return list;
 }
 
-/// Whether an edge that one face has is within `tolerance` of a point.
-bool has_short_free_edge(const TopoDS_Shape& shape, double tolerance) {
+/// Calls visit(curve, first and last parameter) for each edge that one face has.
+template <class Visit>
+void for_each_free_curve(const TopoDS_Shape& shape, const Visit& visit) {
   TopTools_IndexedMapOfShape edges;
   const std::vector<int> uses = edge_uses(shape, edges);
   for (int i = 0; i < edges.Extent(); ++i) {
     double t0 = 0, t1 = 0;
     if (uses[i] != 1 || BRep_Tool::Degenerated(TopoDS::Edge(edges(i + 1)))) continue;
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges(i + 1)), t0, t1);
-    if (curve.IsNull()) continue;
-    const gp_Pnt first = curve->Value(t0), middle = curve->Value(0.5 * (t0 + t1)), last = curve->Value(t1);
-    if (std::max({first.Distance(middle), middle.Distance(last), first.Distance(last)}) <= tolerance) return true;
+    if (!curve.IsNull()) visit(curve, t0, t1);
   }
-  return false;
+}
+
+/// Whether a free edge is within `tolerance` of a point.
+bool has_short_free_edge(const TopoDS_Shape& shape, double tolerance) {
+  bool has_short = false;
+  for_each_free_curve(shape, [&](const Handle(Geom_Curve) & curve, double t0, double t1) {
+    const gp_Pnt first = curve->Value(t0), middle = curve->Value(0.5 * (t0 + t1)), last = curve->Value(t1);
+    has_short |= std::max({first.Distance(middle), middle.Distance(last), first.Distance(last)}) <= tolerance;
+  });
+  return has_short;
+}
+
+double free_length(const TopoDS_Shape& shape) {
+  double length = 0;
+  for_each_free_curve(shape, [&](const Handle(Geom_Curve) & curve, double t0, double t1) {
+    length += GCPnts_AbscissaPoint::Length(GeomAdaptor_Curve(curve, t0, t1));
+  });
+  return length;
 }
 
 /// The model with the smallest tolerance that closes it, else the one that leaves the fewest free edges; nothing when
@@ -364,12 +296,6 @@ std::optional<Sewn> sew_without_false_joins(const ImportedShape& model, const Se
   return std::nullopt;
 }
 
-int count_edges(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(shape, TopAbs_EDGE, edges);
-  return edges.Extent();
-}
-
 /// `now` (made of `start`) with free edges joined to edges that two faces have already, and edges of open pieces at one
 /// place. Other pieces stay as they are: bodies that touch each other keep their own. Nothing where no edge goes.
 std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& start, const Sewn& now, double tolerance) {
@@ -395,23 +321,11 @@ std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& star
   if (!keeps_faces(*sewn, n_faces)) return std::nullopt;
   const double reasonable = reasonable_tolerance(tolerance, now.edge_tolerance);
   judge(*sewn, reasonable);
-  const bool is_joined = sewn->n_open() < now.n_open() ||
-                         (sewn->n_open() == now.n_open() && count_edges(sewn->shape) < count_edges(now.shape));
+  const auto n_edges = [](const TopoDS_Shape& shape) { return all_of(shape, TopAbs_EDGE).Extent(); };
+  const bool is_joined =
+      sewn->n_open() < now.n_open() || (sewn->n_open() == now.n_open() && n_edges(sewn->shape) < n_edges(now.shape));
   if (!is_joined || sewn->n_false > 0 || sewn->edge_tolerance > reasonable) return std::nullopt;
   return sewn;
-}
-
-double free_length(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape edges;
-  const std::vector<int> uses = edge_uses(shape, edges);
-  double length = 0;
-  for (int i = 0; i < edges.Extent(); ++i) {
-    double t0 = 0, t1 = 0;
-    if (uses[i] != 1 || BRep_Tool::Degenerated(TopoDS::Edge(edges(i + 1)))) continue;
-    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(edges(i + 1)), t0, t1);
-    if (!curve.IsNull()) length += GCPnts_AbscissaPoint::Length(GeomAdaptor_Curve(curve, t0, t1));
-  }
-  return length;
 }
 
 /// Free edges joined two by two; the model is still as it was.
@@ -457,8 +371,7 @@ void take_pairs(ImportedShape& model, const Pairs& pairs, std::vector<ImportFind
   if (third || pairs.best || pairs.is_group_sewn) adopt(model, pairs.original, third ? *third : now, findings);
   if (now.n_free == 0) return;
   const Imprints which = third ? Imprints::kEdgesAndFaces : Imprints::kEdges;
-  const bool is_imprinted = imprint_faces(model, which, pairs.tolerances.back(), findings);
-  if (!third && !is_imprinted) return;
+  if (!imprint_faces(model, which, pairs.tolerances.back(), findings) && !third) return;
   share_common_faces(model, findings);
   divide_into_rooms(model, findings);
 }
