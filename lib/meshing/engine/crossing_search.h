@@ -13,44 +13,9 @@
 #include "base/executor.h"
 #include "geometry/model/bodies.h"
 #include "geometry/model/model.h"
-#include "geometry/shape/wall_gap.h"
-#include "meshing/engine/patch_store.h"
-#include "meshing/face/face_boundary.h"
+#include "meshing/engine/section_search.h"
 
 namespace st {
-
-/// A triangle of a face.
-struct Facet {
-  FaceId face = kNone;
-  std::int32_t index = 0;  ///< in the patch of the face
-};
-
-/// An edge of a triangle between two nodes on boundaries that is no segment of these.
-struct Chord {
-  std::int64_t a = 0, b = 0;  ///< boundary_key() of its ends, a < b
-  Facet facet;
-};
-
-/// Segments of the CAD edges, as pairs of nodes.
-class BoundarySegments {
- public:
-  explicit BoundarySegments(const BoundaryNumbering& numbering);
-  /// By boundary_key(), a < b.
-  bool contain(std::int64_t a, std::int64_t b) const;
-
- private:
-  std::vector<std::pair<std::int64_t, std::int64_t>> at_ends_;  // all but those between two nodes inside one edge,
-                                                                // sorted
-};
-
-/// The chords of a patch, or of a section whose triangles begin with this one.
-std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch, std::int64_t first = 0);
-
-/// Pairs of triangles of two faces about one chord: an edge between the same two nodes on boundaries inside both faces,
-/// sorted, at least one face fresh. Two faces along common edges, too flat for a node inside, lie on each other there.
-/// `chords`: of all faces, in any order.
-std::vector<std::pair<Facet, Facet>> find_repeated_chords(std::vector<Chord> chords,
-                                                          std::span<const char> face_is_fresh);
 
 /// Half the longest of a triangle's sides, at its centre.
 RefinementPoint halve_triangle(Vec3 a, Vec3 b, Vec3 c);
@@ -99,41 +64,15 @@ class CrossingSearch {
                                           std::map<FaceId, FacePatch>& patches) const;
 
  private:
-  struct FacetPair {
-    Facet a, b;
-    double factor = 0;  // of the length that parts them; kHalve, kHopeless
-    auto key() const { return std::tuple(a.face, b.face, a.index, b.index, factor); }
-  };
-  using FacetPairs = std::vector<FacetPair>;
-  struct Job {  // a section with itself, or two, by their numbers of all
-    std::int32_t a, b;
-  };
-  struct Found {
-    FacetPairs pairs;
-    std::vector<Chord> chords;
-    std::vector<std::array<FaceId, 2>> touching;  // faces of two bodies that meet
-    std::vector<std::array<FaceId, 2>> ended;     // a face with itself, or two: not all pairs were compared
-
-    static auto fields(auto& f) { return std::tie(f.pairs, f.chords, f.touching, f.ended); }
-  };
-  struct Search;  // one run on one rank
-
-  static constexpr double kHalve = 0, kHopeless = -1, kUnknown = -2, kMeets = -3;
-
   bool may_be_apart(FaceId a, FaceId b) const;
   void say_ended(const std::set<std::array<FaceId, 2>>& faces) const;
-  std::vector<Job> jobs_of(const std::vector<PlacedPatch>& sections) const;
-  struct Corners {  // of a triangle
-    WallTriangle places;
-    bool is_spanning;  // all are on the boundary
-  };
-  static RefinementPoint refinement_of(const Corners& triangle, double factor, double covering);
+  std::vector<SectionJob> jobs_of(const std::vector<PlacedPatch>& sections) const;
+  static RefinementPoint refinement_of(const FacetCorners& triangle, double factor, double covering);
   std::vector<PlacedPatch> sections_of(const std::vector<FacePlace>& places) const;
-  std::vector<Corners> corners(std::vector<Facet> facets, const Search& search) const;
-  static std::vector<FacetPairs> by_faces(const FacetPairs& pairs);
-  void measure_whole_faces(const Job& job, const Search& search, Found& found) const;
-  FacetPairs measured(const FacetPairs& pairs, const Search& search);
-  FacetPairs measured_pair_of_faces(FacetPairs kept, const Search& search) const;
+  std::vector<FacetCorners> corners(std::vector<Facet> facets, const SectionSearch& search) const;
+  void measure_whole_faces(const SectionJob& job, const SectionSearch& search, FoundCrossings& found) const;
+  FacetPairs measured(const FacetPairs& pairs, const SectionSearch& search);
+  FacetPairs measured_pair_of_faces(FacetPairs kept, const SectionSearch& search) const;
 
   const Model& model_;
   const PatchStore& store_;
