@@ -163,7 +163,7 @@ def full_disk(stages, rng, folder):
         subprocess.run(["umount", folder], check=True)
 
 
-RECORD = struct.Struct("<8siiqQ32s32sQ")  # of a journal, lib/io/file/journal.cpp
+RECORD = struct.Struct("<8siiqQ32s32sQ")  # of a journal, lib/io/file/journal_record.h
 DONE = 3
 
 
