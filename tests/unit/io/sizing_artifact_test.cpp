@@ -16,61 +16,11 @@
 namespace st {
 namespace {
 
-void expect_equal(const BlankSurface& a, const BlankSurface& b) {
-  EXPECT_EQ(a.side, b.side);
-  EXPECT_EQ(a.points, b.points);
-  ASSERT_EQ(a.triangles.size(), b.triangles.size());
-  for (std::size_t t = 0; t < a.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(a.triangles[t].n[k], b.triangles[t].n[k]);
-}
-
 class SizingArtifacts : public testing::Test {
  protected:
   std::string file(const std::string& name) const { return dir_ / name; }
   TemporaryDirectory dir_;
 };
-
-TEST_F(SizingArtifacts, a_raster_keeps_its_surface_and_the_normals_of_its_samples) {
-  RasterArtifact raster = sample_raster();
-  raster.samples[3].normal = SmallNormal({0.6, -0.8, 0});
-  raster.surface = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 2, 1}}}, BlankSide::kOutside};
-  write_raster(file("a.hdf"), raster);
-  const RasterArtifact read = read_raster(file("a.hdf"));
-  expect_equal(read.surface, raster.surface);
-  EXPECT_LT(distance(Vec3(read.samples[3].normal), {0.6, -0.8, 0}), 0.01);
-  EXPECT_EQ(Vec3(read.samples[4].normal), Vec3{});
-  EXPECT_EQ(read.header.schema_version, 5);
-}
-
-TEST_F(SizingArtifacts, a_raster_of_which_parts_are_missing_says_so_and_older_programs_refuse_it) {
-  RasterArtifact raster = sample_raster();
-  const std::string complete = write_raster(file("a.hdf"), raster);
-  raster.n_not_sampled = 3;
-  EXPECT_NE(write_raster(file("b.hdf"), raster), complete);
-  EXPECT_EQ(read_raster(file("a.hdf")).n_not_sampled, 0);
-  EXPECT_EQ(read_raster(file("b.hdf")).n_not_sampled, 3);
-  EXPECT_EQ(read_raster(file("a.hdf")).header.schema_version, 3);
-  EXPECT_EQ(read_raster(file("b.hdf")).header.schema_version, 4);
-}
-
-TEST_F(SizingArtifacts, places_of_a_raster_far_from_the_origin_count_from_its_middle) {
-  RasterArtifact raster = sample_raster();
-  raster.faces.origin = {1e6, -2e6, 3e6};
-  for (LengthSample& s : raster.samples) s.xyz += raster.faces.origin;
-  write_raster(file("a.hdf"), raster);
-  const RasterArtifact read = read_raster(file("a.hdf"));
-  EXPECT_EQ(read.header.schema_version, 7);
-  EXPECT_EQ(read.faces.origin, raster.faces.origin);
-  for (std::size_t i = 0; i < raster.samples.size(); ++i)
-    EXPECT_LT(distance(read.samples[i].xyz, raster.samples[i].xyz), 1e-7) << i;
-  EXPECT_EQ(write_raster(file("b.hdf"), read), read.header.content_hash);
-}
-
-TEST_F(SizingArtifacts, raster_is_the_same_bytes_after_reading_and_writing) {
-  const std::string hash = write_raster(file("a.hdf"), sample_raster());
-  EXPECT_EQ(write_raster(file("b.hdf"), read_raster(file("a.hdf"))), hash);
-  EXPECT_EQ(read_bytes(file("a.hdf")), read_bytes(file("b.hdf")));
-}
 
 TEST_F(SizingArtifacts, sizing_is_the_same_bytes_after_reading_and_writing) {
   const std::string hash = write_sizing(file("a.hdf"), sample_sizing());
@@ -246,36 +196,6 @@ TEST_F(SizingArtifacts, refuse_arrays_that_do_not_fit) {
   write_sizing(file("a.hdf"), sizing);
   EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, "cell");
   EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, "cell");
-}
-
-TEST_F(SizingArtifacts, a_raster_whose_links_or_numbers_are_wrong_is_refused) {
-  const auto n_leaves = static_cast<std::int32_t>(sample_raster().octree.shape.leaf_keys.size());
-  const float nan = std::numeric_limits<float>::quiet_NaN();
-  const std::vector<std::pair<const char*, std::function<void(RasterArtifact&)>>> breaks = {
-      {"octree", [](auto& r) { r.octree.shape.node_children[3] = 1 << 30; }},
-      {"octree", [](auto& r) { std::fill_n(r.octree.shape.node_children.begin(), 8, 0); }},
-      {"octree", [&](auto& r) { r.octree.shape.node_children[7] = ~n_leaves; }},
-      {"octree", [](auto& r) { r.octree.shape.leaf_levels[0] = 255; }},
-      {"octree", [](auto& r) { std::swap(r.octree.shape.leaf_keys[0], r.octree.shape.leaf_keys[1]); }},
-      {"octree", [](auto& r) { r.octree.shape.lo.x = std::numeric_limits<double>::infinity(); }},
-      {"stored_length", [](auto& r) { r.octree.stored_length[2] = 0; }},
-      {"stored_length", [&](auto& r) { r.octree.stored_length[2] = nan; }},
-      {"cell_offset", [](auto& r) { r.faces.offsets[1] = -1; }},
-      {"cell_offset", [](auto& r) { r.faces.offsets[1] = 1000; }},
-      {"cell_leaf", [&](auto& r) { r.faces.leaf[0] = n_leaves; }},
-      {"cell_area", [&](auto& r) { r.faces.area[0] = nan; }},
-      {"cell_plane", [&](auto& r) { r.faces.plane[1].normal[0] = nan; }},
-      {"sample/point", [&](auto& r) { r.samples[1].xyz.x = nan; }},
-      {"sample/length", [](auto& r) { r.samples[1].length = -1; }},
-      {"max_length", [](auto& r) { r.numbers.max_length = 0; }},
-      {"far_length", [](auto& r) { r.numbers.far_length = 0; }},
-      {"far_length", [](auto& r) { r.numbers.far_length = -1; }}};
-  for (const auto& [name, break_it] : breaks) {
-    RasterArtifact raster = sample_raster();
-    break_it(raster);
-    write_raster(file("a.hdf"), raster);
-    EXPECT_ERROR(read_raster(file("a.hdf")), kInput, name);
-  }
 }
 
 TEST_F(SizingArtifacts, a_sizing_whose_links_or_numbers_are_wrong_is_refused) {
