@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <set>
 
 #include "base/threads.h"
@@ -122,30 +121,6 @@ TEST(SeamMeshes, improve_cuts_between_groups_as_those_within_them) {
   const MeshView a{square.face.boundary, whole}, b{square.face.boundary, joined};
   EXPECT_GT(b.mean_quality(), a.mean_quality() - 0.005);
   EXPECT_GT(b.qualities().front(), std::min(0.54, a.qualities().front() - 0.02));
-}
-
-TEST(TileGroups, have_all_tiles_in_order_and_all_cut_nodes_that_only_they_touch) {
-  const SquareInTiles square(30);
-  const TileGroups& groups = square.groups;
-  std::vector<std::int32_t> group_of_tile;
-  for (std::int32_t g = 0; g < groups.n_groups(); ++g) {
-    const auto [first, end] = groups.members(g);
-    EXPECT_EQ(first, static_cast<std::int32_t>(group_of_tile.size()));
-    for (std::int32_t t = first; t < end; ++t) group_of_tile.push_back(g);
-  }
-  ASSERT_EQ(group_of_tile.size(), square.cut.tiles.size());
-  std::map<std::int32_t, std::set<std::int32_t>> groups_at;
-  for (std::size_t t = 0; t < group_of_tile.size(); ++t)
-    for (const auto& segment : square.cut.tiles[t].segments)
-      for (const std::int32_t n : segment)
-        if (n >= square.n_boundary()) groups_at[n - square.n_boundary()].insert(group_of_tile[t]);
-  int n_between = 0;
-  for (const auto& [node, at] : groups_at) {
-    EXPECT_EQ(groups.group_of(node), at.size() == 1 ? *at.begin() : kNone);
-    n_between += at.size() > 1;
-  }
-  EXPECT_GT(n_between, 0);
-  EXPECT_LT(n_between, static_cast<int>(groups_at.size()) / 2) << "groups are of neighbours";
 }
 
 TEST(SeamMeshes, say_of_the_first_tile_that_failed_why) {
