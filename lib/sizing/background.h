@@ -57,16 +57,9 @@ void keep_only(const std::vector<std::int32_t>& kept, std::vector<Value>& values
 /// Appends the nodes and cells of another mesh. Precondition: neither has metrics.
 void append(const BackgroundMesh& other, BackgroundMesh& mesh);
 
-/// Lowers lengths of nodes until no tetrahedron has a gradient above `slope`, then longer ones until the same holds for
-/// the lengths along the direction that its nodes share, and along that of each of them. The smallest length of a
-/// tetrahedron stays. The number of nodes that were lowered.
-std::int64_t limit_growth(double slope, BackgroundMesh& mesh);
-/// Likewise the smallest lengths alone.
-std::int64_t limit_shortest(double slope, BackgroundMesh& mesh);
-
 /// In the mesh the smallest of what the tetrahedra there ask for, to rounding; flat ones are passed over. Elsewhere the
 /// lengths of its border, growing by the slope; likewise along the direction of what is closest on the border.
-/// Precondition: limit_growth().
+/// Precondition: limit_growth() of sizing/growth_limit.h.
 std::unique_ptr<SizeSource> make_background(BackgroundMesh mesh, double slope);
 
 }  // namespace st

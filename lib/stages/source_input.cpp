@@ -13,6 +13,7 @@
 #include "base/nearest_name.h"
 #include "io/file/text_file.h"
 #include "io/foreign/size_mesh.h"
+#include "sizing/growth_limit.h"
 
 namespace st {
 namespace {

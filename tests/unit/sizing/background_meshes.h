@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <random>
 
 #include "sizing/background.h"
 
@@ -30,6 +31,27 @@ inline void add_cube_cells(int n, BackgroundMesh& mesh) {
           for (std::size_t c = 0; c < 4; ++c)
             mesh.tets.back()[c] = node(i + (tet[c] & 1), j + (tet[c] >> 1 & 1), k + (tet[c] >> 2));
         }
+}
+
+/// The unit cube in n^3 cubes of six tetrahedra each.
+template <class Length>
+BackgroundMesh cube_of_tets(int n, const Length& length) {
+  BackgroundMesh mesh;
+  for (int k = 0; k <= n; ++k)
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) {
+        mesh.node_xyz.push_back(Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} / n);
+        const double h = length(mesh.node_xyz.back());
+        mesh.node_size.push_back({h, h, {}});
+      }
+  add_cube_cells(n, mesh);
+  return mesh;
+}
+
+/// Each coordinate within [lo, hi].
+inline Vec3 random_background_point(std::mt19937& random, double lo, double hi) {
+  std::uniform_real_distribution<double> uniform(lo, hi);
+  return {uniform(random), uniform(random), uniform(random)};
 }
 
 }  // namespace st::test

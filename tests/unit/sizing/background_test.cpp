@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
+#include "sizing/growth_limit.h"
 #include "unit/sizing/background_meshes.h"
 
 namespace st {
@@ -21,25 +21,8 @@ BackgroundMesh one_tet(const std::array<double, 4>& lengths) {
   return mesh;
 }
 
-/// The unit cube in n^3 cubes of six tetrahedra each.
-template <class Length>
-BackgroundMesh cube_of_tets(int n, const Length& length) {
-  BackgroundMesh mesh;
-  for (int k = 0; k <= n; ++k)
-    for (int j = 0; j <= n; ++j)
-      for (int i = 0; i <= n; ++i) {
-        mesh.node_xyz.push_back(Vec3{static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)} / n);
-        const double h = length(mesh.node_xyz.back());
-        mesh.node_size.push_back({h, h, {}});
-      }
-  test::add_cube_cells(n, mesh);
-  return mesh;
-}
-
-Vec3 random_background_point(std::mt19937& random, double lo, double hi) {
-  std::uniform_real_distribution<double> uniform(lo, hi);
-  return {uniform(random), uniform(random), uniform(random)};
-}
+using test::cube_of_tets;
+using test::random_background_point;
 
 double background_at(const SizeField& field, Vec3 x) { return field.size(x); }
 
@@ -100,74 +83,6 @@ TEST(BackgroundMesh, of_a_surface_grows_to_all_sides_however_steep_it_is) {
   EXPECT_EQ(both.triangles[1], (std::array<std::int32_t, 3>{28, 30, 29}));
   EXPECT_NEAR(background_at(*make_background(both, kBackgroundSlope), {0.3, 0.3, 0.4}), 0.1 + 0.4 * kBackgroundSlope,
               1e-12);
-}
-
-TEST(BackgroundMesh, of_any_lengths_is_limited_to_the_slope_and_keeps_its_least) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(0.01, 1);
-  BackgroundMesh mesh = cube_of_tets(6, [&](Vec3) { return uniform(random); });
-  const BackgroundMesh before = mesh;
-  const auto shorter = [](const LocalSize& a, const LocalSize& b) { return a.length < b.length; };
-  EXPECT_GT(limit_growth(kBackgroundSlope, mesh), 100);
-  EXPECT_EQ(std::min_element(mesh.node_size.begin(), mesh.node_size.end(), shorter)->length,
-            std::min_element(before.node_size.begin(), before.node_size.end(), shorter)->length);
-  for (std::size_t i = 0; i < mesh.node_size.size(); ++i)
-    ASSERT_LE(mesh.node_size[i].length, before.node_size[i].length);
-  const auto field = make_background(mesh, kBackgroundSlope);
-  for (int i = 0; i < 20000; ++i) {
-    const Vec3 a = random_background_point(random, -0.2, 1.2), b = a + 0.2 * random_background_point(random, -1, 1);
-    ASSERT_LE(background_at(*field, a) - background_at(*field, b), kBackgroundSlope * distance(a, b) * (1 + 1e-6));
-  }
-  EXPECT_EQ(limit_growth(kBackgroundSlope, mesh), 0);
-}
-
-/// Random lengths across and along; some nodes have one length. `direction` tells where the longer one points.
-template <class Direction>
-BackgroundMesh stretched_cube(std::mt19937& random, const Direction& direction) {
-  std::uniform_real_distribution<double> uniform(0.02, 0.06), aspect(0.5, 10);
-  BackgroundMesh mesh = cube_of_tets(5, [&](Vec3) { return uniform(random); });
-  for (std::size_t i = 0; i < mesh.node_size.size(); ++i) {
-    LocalSize& s = mesh.node_size[i];
-    if (const double a = aspect(random); a > 1.2) s = {s.length, a * s.length, direction(mesh.node_xyz[i])};
-  }
-  return mesh;
-}
-
-/// The steepest rise of what is requested along `t`, over the slope.
-double steepest_along(const SizeField& field, Vec3 t, std::mt19937& random) {
-  double steepest = 0;
-  int hint = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Vec3 a = random_background_point(random, -0.2, 1.2), b = a + 0.1 * random_background_point(random, -1, 1);
-    const double rise = field.local(a, hint).in(t)-field.local(b, hint).in(t);
-    steepest = std::max(steepest, rise / (kBackgroundSlope * distance(a, b)));
-  }
-  return steepest;
-}
-
-TEST(BackgroundMesh, of_metrics_is_limited_to_the_slope_along_their_direction_too) {
-  std::mt19937 random(6);
-  const Vec3 t = normalized(Vec3{3, 2, 1});
-  BackgroundMesh mesh = stretched_cube(random, [&](Vec3) { return t; });
-  const BackgroundMesh before = mesh;
-  limit_growth(kBackgroundSlope, mesh);
-  double longest = 1;
-  for (std::size_t i = 0; i < mesh.node_size.size(); ++i) {
-    ASSERT_LE(mesh.node_size[i].along, before.node_size[i].along);
-    ASSERT_GE(mesh.node_size[i].along, mesh.node_size[i].length);
-    longest = std::max(longest, mesh.node_size[i].along / mesh.node_size[i].length);
-  }
-  EXPECT_GT(longest, 3);
-  EXPECT_LE(steepest_along(*make_background(mesh, kBackgroundSlope), t, random), 1 + 1e-6);
-  EXPECT_EQ(limit_growth(kBackgroundSlope, mesh), 0);
-}
-
-TEST(BackgroundMesh, of_metrics_does_not_jump_where_their_direction_turns) {
-  std::mt19937 random(7);
-  const auto around = [](Vec3 x) { return normalized(Vec3{1 + x.y, 1 - x.x, 0}); };
-  BackgroundMesh mesh = stretched_cube(random, around);
-  limit_growth(kBackgroundSlope, mesh);
-  EXPECT_LE(steepest_along(*make_background(mesh, kBackgroundSlope), around({0.5, 0.5, 0.5}), random), 1.6);
 }
 
 TEST(BackgroundMesh, of_metrics_that_contradict_each_other_is_stretched_nowhere_between) {
