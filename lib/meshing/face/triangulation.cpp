@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "base/limits.h"
+#include "base/morton.h"
 #include "base/predicates.h"
 
 namespace st {
@@ -14,20 +15,12 @@ namespace {
 constexpr int kNext[3] = {1, 2, 0};
 constexpr int kPrev[3] = {2, 0, 1};
 
-/// Position along a Hilbert-like order: interleaved bits of the quantised plane.
-std::uint64_t morton(Vec2 p, Vec2 lo, double scale) {
-  const auto spread = [](std::uint64_t x) {
-    x &= 0xffffffffULL;
-    x = (x | x << 16) & 0x0000ffff0000ffffULL;
-    x = (x | x << 8) & 0x00ff00ff00ff00ffULL;
-    x = (x | x << 4) & 0x0f0f0f0f0f0f0f0fULL;
-    x = (x | x << 2) & 0x3333333333333333ULL;
-    return (x | x << 1) & 0x5555555555555555ULL;
+/// Position along a Z-order of the quantised plane.
+std::uint64_t morton_key(Vec2 p, Vec2 lo, double scale) {
+  const auto quantised = [&](double x) {
+    return static_cast<std::uint32_t>(std::clamp(x * scale, 0.0, 1.0) * (kCoordinateEnd - 1));
   };
-  const auto quantise = [&](double x) {
-    return static_cast<std::uint64_t>(std::clamp(x * scale, 0.0, 1.0) * 1048575.0);
-  };
-  return spread(quantise(p.x - lo.x)) | spread(quantise(p.y - lo.y)) << 1;
+  return morton::encode({quantised(p.x - lo.x), quantised(p.y - lo.y), 0});
 }
 
 }  // namespace
@@ -67,7 +60,7 @@ std::vector<LoopConflict> Triangulation::build(const std::vector<std::pair<std::
   Vec2 lo = nodes[n_boundary].p, hi = nodes[n_boundary + 2].p;
   const double scale = 1.0 / std::max(hi.x - lo.x, hi.y - lo.y);
   std::vector<std::pair<std::uint64_t, std::int32_t>> order(n_boundary);
-  for (std::int32_t i = 0; i < n_boundary; ++i) order[i] = {morton(nodes[i].p, lo, scale), i};
+  for (std::int32_t i = 0; i < n_boundary; ++i) order[i] = {morton_key(nodes[i].p, lo, scale), i};
   std::sort(order.begin(), order.end());
   std::int32_t hint = 0;
   const auto insert = [&](std::size_t at) {
