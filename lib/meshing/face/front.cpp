@@ -6,10 +6,8 @@
 #include <queue>
 #include <utility>
 
-#include "base/current_work.h"
-#include "base/eigen.h"
 #include "base/predicates.h"
-#include "geometry/shape/surface.h"
+#include "meshing/face/front_places.h"
 #include "meshing/face/row_blocks.h"
 #include "meshing/face/stretch.h"
 
@@ -24,29 +22,20 @@ constexpr double kFinishedRadius = 0.68;       // circumradius over requested le
 constexpr double kNearNode = 0.76;             // of the side: a new node nearer than this to another is not made
 constexpr double kNearBoundary = 0.4;          // of the side: nor nearer than this to a boundary segment
 constexpr double kObtuseAtRow = radians(130);  // no new node sees an edge of a laid row under a larger angle
-constexpr double kGrowth = 1.4;                // size of a new node over its base side
 constexpr double kVeryLong = 1.5;              // times the size: an edge so long is split even closer to other nodes
 constexpr double kCloseSplit = 0.55;           // the distances kept then
-constexpr double kShortBase = 0.8;  // of the size at its ends: a shorter base does not hold back the growth any more
-constexpr double kTurningFloor = 0.25;  // of the requested length: turning shortens sides no further
-constexpr double kTooLarge = 0.80;      // circumradius over requested length that is split when the front has ended
+constexpr double kTooLarge = 0.80;  // circumradius over requested length that is split when the front has ended
 
 constexpr double kRowRadius = 0.9;  // circumradius over requested length where sizes are stretched; square: 0.707
-constexpr double kRowMiss = 0.003;  // of its length, by which a point of a row may miss its place
 constexpr double kRowAspect = 1.5;  // length along over across: less makes no rows
 
-constexpr double kSingular = 0.02;   // of its mean: a derivative shorter than this makes no reliable normal
 constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
 constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself
 
 template <bool kStretched>
 class Front {
  public:
-  explicit Front(FaceWork& work)
-      : w_(work),
-        m_(work.mesh),
-        cos_turning_(std::cos(work.max_turning)),
-        cos_too_far_(std::cos(1.25 * work.max_turning)) {}
+  explicit Front(FaceWork& work) : w_(work), m_(work.mesh), places_(work) {}
 
   void run() {
     if constexpr (kStretched) ends_ = lay_row_blocks(w_);
@@ -63,9 +52,6 @@ class Front {
   };
 
   double edge_length2(std::int32_t a, std::int32_t b) const { return w_.template edge_length2<kStretched>(a, b); }
-  static double edge_in_space(const MeshNode& a, const MeshNode& b) {
-    return std::sqrt(mean_length2<kStretched>(b.x - a.x, a, b));
-  }
   template <typename... Squares>
   double circumradius2(const PlaneTriangle& t, Squares... of_edges) const {
     return w_.template circumradius2<kStretched>(t, of_edges...);
@@ -83,7 +69,7 @@ class Front {
   bool turns_where_large(const PlaneTriangle& t, double radius2) const {
     const double request = (m_.nodes[t.v[0]].request + m_.nodes[t.v[1]].request + m_.nodes[t.v[2]].request) / 3;
     const double least = kTurningFloor * kFinishedRadius * request;
-    return radius2 > least * least && turns_too_far(t);
+    return radius2 > least * least && places_.turns_too_far(m_.nodes[t.v[0]], m_.nodes[t.v[1]], m_.nodes[t.v[2]]);
   }
 
   /// Larger where sizes are stretched: rows make right-angled triangles.
@@ -199,43 +185,6 @@ class Front {
     }
   }
 
-  /// The ideal point of side a-b, brought to the surface; false when Newton leaves for elsewhere.
-  bool ideal_point(const MeshNode& a, const MeshNode& b, double& r, MeshNode& p) {
-    const Vec3 du = 0.5 * (a.du + b.du), dv = 0.5 * (a.dv + b.dv);
-    const Metric m = metric_of<kStretched>(du, dv, a, b);
-    const Vec2 e = b.p - a.p;
-    const double base = edge_in_space(a, b), e2 = m.length2(e), det = m.e * m.g - m.f * m.f;
-    if (!(e2 > 0) || !(det > 0)) return false;
-    const double height = std::sqrt(std::max(r * r - 0.25 * base * base, 0.04 * r * r));
-    const double f = height / std::sqrt(e2 * det);
-    p.p = 0.5 * (a.p + b.p) + f * Vec2{-(m.f * e.x + m.g * e.y), m.e * e.x + m.f * e.y};
-    for (int step = 0;; ++step) {
-      w_.evaluate(p);
-      if (step == 0) {  // the side's length is the mean of the sizes at its ends
-        w_.ask_sizes(p);
-        r = std::clamp(0.5 * (0.5 * (a.h + b.h) + p.h), 0.62 * base,
-                       kGrowth * std::max(base, kShortBase * 0.5 * (a.h + b.h)));
-        limit_turning(a, b, p, r);
-      }
-      const Vec3 ra = p.x - a.x, rb = p.x - b.x;
-      const double la = std::sqrt(mean_length2<kStretched>(ra, a, p)),
-                   lb = std::sqrt(mean_length2<kStretched>(rb, b, p));
-      if (std::abs(la - r) < 0.06 * r && std::abs(lb - r) < 0.06 * r) return true;
-      if (step == 3) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
-      Eigen::Matrix2d m;  // half the derivatives of la^2 and lb^2
-      m << mean_product<kStretched>(ra, p.du, a, p), mean_product<kStretched>(ra, p.dv, a, p),
-          mean_product<kStretched>(rb, p.du, b, p), mean_product<kStretched>(rb, p.dv, b, p);
-      const double size = std::abs(m(0, 0) * m(1, 1)) + std::abs(m(0, 1) * m(1, 0));
-      const double det_m = m.determinant();
-      if (!(std::abs(det_m) > 1e-8 * size)) return la < 1.6 * r && lb < 1.6 * r && la > 0.4 * r && lb > 0.4 * r;
-      const Eigen::Vector2d missing = 0.5 * Eigen::Vector2d(r * r - la * la, r * r - lb * lb);
-      Vec2 move = to_vec2(adjugate(m) * missing / det_m);
-      const double length = std::sqrt(mean_length2<kStretched>(move.x * p.du + move.y * p.dv, p));
-      if (length > 0.5 * r) move = (0.5 * r / length) * move;
-      p.p = p.p + move;
-    }
-  }
-
   /// Where sizes are stretched, nodes in rows: from each node of a row one across, on both sides, and where none is
   /// left one along it, the finest first. Rows begin at the edges that lie along the direction, and meet nodes of the
   /// loops elsewhere; the triangles between them are right-angled in space. Rows end where sizes are about equal again.
@@ -271,7 +220,8 @@ class Front {
     const Vec3 t = normalized(a.squeeze), across = cross(a.normal, t);
     double length = a.h;
     MeshNode p;
-    if (!row_point(a, is_across ? sign * across : sign * aspect_of(a) * t, is_across ? t : across, length, p)) return;
+    if (!places_.of_row(a, is_across ? sign * across : sign * aspect_of(a) * t, is_across ? t : across, length, p))
+      return;
     const std::int32_t start = m_.triangle_towards(from, p.p);
     if (start == kNone || !insert(p, start, length, kGrowth * a.h)) return;
     if (aspect_of(p) < kRowAspect) return;
@@ -280,55 +230,13 @@ class Front {
     along_.push({-p.h, -added});
   }
 
-  /// The point from `a` along `d` (an edge of unit length in a's metric), none of it along the unit vector `aside`, as
-  /// far as the sizes at both say.
-  bool row_point(const MeshNode& a, Vec3 d, Vec3 aside, double& length, MeshNode& p) {
-    const auto first = tangent_step(a.du, a.dv, length * d);
-    if (!first) return false;
-    p.p = a.p + *first;
-    for (int step = 0; step < 4; ++step) {
-      w_.evaluate(p);
-      w_.ask_sizes(p);
-      double wanted = 0.5 * (a.h + std::min(p.h, kGrowth * a.h));
-      limit_turning(a, a, p, wanted);
-      length = step == 0 ? wanted : std::min(wanted, length);
-      const Vec3 chord = p.x - a.x;
-      const double reached = std::sqrt(length2(chord, a, p));
-      if (!(reached > 0)) return false;
-      const double aslant = dot(chord, aside);
-      if (step == 3 || (std::abs(length - reached) < kRowMiss * length && std::abs(aslant) < kRowMiss * norm(chord)))
-        break;
-      const auto back = tangent_step(p.du, p.dv, -aslant * aside);
-      if (!back) return false;
-      p.p = a.p + std::clamp(length / reached, 0.4, 2.0) * (p.p - a.p + *back);
-    }
-    return dot(a.normal, p.normal) > cos_too_far_;
-  }
-
-  /// A side along which the normal turns too far becomes shorter, whatever the field says; to a quarter at the most.
-  void limit_turning(const MeshNode& a, const MeshNode& b, MeshNode& p, double& r) const {
-    const double c = std::min(dot(a.normal, p.normal), dot(b.normal, p.normal));
-    if (c > cos_turning_ || a.is_pole || b.is_pole) return;
-    const double least = kTurningFloor * p.request;  // at a crease no length is short enough
-    r = std::max(std::min(r, least), r * w_.max_turning / std::acos(std::clamp(c, -1.0, 1.0)));
-    p.h = std::max(least, std::min(p.h, r));
-  }
-
-  bool turns_too_far(const PlaneTriangle& t) const {
-    const MeshNode &a = m_.nodes[t.v[0]], &b = m_.nodes[t.v[1]], &c = m_.nodes[t.v[2]];
-    if (a.is_pole || b.is_pole || c.is_pole) return false;
-    return std::min({dot(a.normal, b.normal), dot(b.normal, c.normal), dot(c.normal, a.normal)}) < cos_too_far_;
-  }
-
   bool place(std::int32_t t, std::int32_t ia, std::int32_t ib) {
     const MeshNode &a = m_.nodes[ia], &b = m_.nodes[ib];
-    const double base = edge_in_space(a, b);
-    if (!(base > 0)) return false;
-    const double h = 0.5 * (a.h + b.h);
-    double r = std::max(std::min(h, kGrowth * std::max(base, kShortBase * h)), 0.62 * base);
+    const double base = places_.edge_in_space(a, b);
     MeshNode p;
-    if (!ideal_point(a, b, r, p)) return false;
-    return insert(p, t, r, kGrowth * std::max(base, h));
+    double r = 0;
+    if (!(base > 0) || !places_.of_side(a, b, r, p)) return false;
+    return insert(p, t, r, kGrowth * std::max(base, 0.5 * (a.h + b.h)));
   }
 
   /// Inserts p unless it is hidden, or too near to a node or a boundary segment.
@@ -455,7 +363,7 @@ class Front {
 
   FaceWork& w_;
   Triangulation& m_;
-  double cos_turning_, cos_too_far_;
+  FrontPlaces<kStretched> places_;
   std::vector<Entry> queue_;
   std::deque<std::int32_t> across_;                             // nodes from which rows go on
   std::priority_queue<std::pair<double, std::int32_t>> along_;  // minus size, minus node: the finest first
@@ -464,43 +372,6 @@ class Front {
 };
 
 }  // namespace
-
-Vec3 squeeze_of(const LocalSize& local, Vec3 normal) {
-  const Vec3 s = local.squeeze();
-  return s - dot(s, normal) * normal;
-}
-
-void FaceWork::ask_sizes(MeshNode& n) {
-  const LocalSize local = field->local(n.x, hint);
-  n.request = n.h = local.length;
-  n.squeeze = squeeze_of(local, n.normal);
-}
-
-void FaceWork::set_surface(const Surface& s) {
-  surface = &s;
-  plane = PlaneMap(s);
-}
-
-Vec3 FaceWork::reliable_normal(const MeshNode& n) const {
-  if (norm(n.du) > kSingular && norm(n.dv) > kSingular) return n.normal;
-  const Vec2 middle{0.5 * (surface->u_min() + surface->u_max()), 0.5 * (surface->v_min() + surface->v_max())};
-  const Vec2 scale = plane.scale();
-  MeshNode inside = n;
-  inside.p = n.p + 0.01 * Vec2{(middle.x - n.uv.x) * scale.x, (middle.y - n.uv.y) * scale.y};
-  evaluate(inside);
-  return inside.normal;
-}
-
-void FaceWork::evaluate(MeshNode& n) const {
-  throw_if_late();
-  n.uv = plane.to_uv(n.p);
-  const SurfacePoint s = surface->evaluate(n.uv);
-  const Vec2 factors = plane.factors(n.uv);
-  n.x = s.x;
-  n.du = s.du / factors.x;
-  n.dv = s.dv / factors.y;
-  n.normal = normalized(cross(n.du, n.dv));
-}
 
 void advance_front(FaceWork& work) { work.field->is_stretched() ? Front<true>(work).run() : Front<false>(work).run(); }
 

@@ -1,0 +1,49 @@
+#include "meshing/face/face_work.h"
+
+#include "base/current_work.h"
+
+namespace st {
+namespace {
+
+constexpr double kSingular = 0.02;  // of its mean: a derivative shorter than this makes no reliable normal
+
+}  // namespace
+
+Vec3 squeeze_of(const LocalSize& local, Vec3 normal) {
+  const Vec3 s = local.squeeze();
+  return s - dot(s, normal) * normal;
+}
+
+void FaceWork::ask_sizes(MeshNode& n) {
+  const LocalSize local = field->local(n.x, hint);
+  n.request = n.h = local.length;
+  n.squeeze = squeeze_of(local, n.normal);
+}
+
+void FaceWork::set_surface(const Surface& s) {
+  surface = &s;
+  plane = PlaneMap(s);
+}
+
+Vec3 FaceWork::reliable_normal(const MeshNode& n) const {
+  if (norm(n.du) > kSingular && norm(n.dv) > kSingular) return n.normal;
+  const Vec2 middle{0.5 * (surface->u_min() + surface->u_max()), 0.5 * (surface->v_min() + surface->v_max())};
+  const Vec2 scale = plane.scale();
+  MeshNode inside = n;
+  inside.p = n.p + 0.01 * Vec2{(middle.x - n.uv.x) * scale.x, (middle.y - n.uv.y) * scale.y};
+  evaluate(inside);
+  return inside.normal;
+}
+
+void FaceWork::evaluate(MeshNode& n) const {
+  throw_if_late();
+  n.uv = plane.to_uv(n.p);
+  const SurfacePoint s = surface->evaluate(n.uv);
+  const Vec2 factors = plane.factors(n.uv);
+  n.x = s.x;
+  n.du = s.du / factors.x;
+  n.dv = s.dv / factors.y;
+  n.normal = normalized(cross(n.du, n.dv));
+}
+
+}  // namespace st
