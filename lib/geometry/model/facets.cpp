@@ -78,7 +78,7 @@ Facets facets_of(const Model::Impl& brep, std::span<const FaceId> ids, const Fac
     std::vector<TopoDS_Shape> faces;
     for (const FaceId f : ids) faces.push_back(brep.faces(f + 1));
     BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
-    put_facets(copy.Shape(), limits);
+    put_facets(copy.Shape(), limits, FacetsGo::kToFaces);
     for (const FaceId f : ids) add_face(TopoDS::Face(copy.ModifiedShape(brep.faces(f + 1))), f, facets);
   } catch (const Standard_Failure&) {
     return {};

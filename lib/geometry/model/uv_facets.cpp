@@ -176,7 +176,7 @@ UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_
     for (std::size_t f = 0; f < is_wanted.size(); ++f)
       if (is_wanted[f]) faces.push_back(brep.faces(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
     BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
-    put_facets(copy.Shape(), limits);
+    put_facets(copy.Shape(), limits, FacetsGo::kToAllEdges);
     for (std::size_t f = 0; f < is_wanted.size(); ++f) {
       facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
       if (!is_wanted[f]) continue;
