@@ -292,7 +292,11 @@ class ConeSpread {
   /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes.
   bool offer(std::int32_t site, std::int32_t sample, const ConeShares& shares, float& least) {
     Site& s = sites_[site];
-    if (is_any(s.refused == sample) || has(s, sample)) return false;
+    return !is_any(s.refused == sample) && !has(s, sample) && consider(s, sample, shares, least);
+  }
+
+  /// Likewise, of a sample that is new to the site. Not inlined: most offers end before.
+  [[gnu::noinline]] bool consider(Site& s, std::int32_t sample, const ConeShares& shares, float& least) {
     Lengths own;
     bool is_near = false;
     const bool is_below =
