@@ -186,7 +186,8 @@ void ProfileCutter::search(std::size_t level, std::size_t block, NearestCrossing
   }
 }
 
-std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 normal, double reach) const {
+std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 normal, double reach,
+                                                           std::vector<CutEnd>* ends) const {
   std::vector<Segment> part, todo;
   std::vector<bool> is_taken(facets_.triangle.size());
   const auto n_facets_at = [&](std::int32_t n) { return node_begin_[n + 1] - node_begin_[n]; };
@@ -209,7 +210,7 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
         is_taken[facet_[i]] = true;
         if (const std::optional<Segment> next = segment_of(facet_[i], origin, normal)) todo.push_back(*next);
       }
-      if (ends_ && n_facets == 1) ends_->push_back({facets_.face[s.facet], s.end[k]});
+      if (ends && n_facets == 1) ends->push_back({facets_.face[s.facet], s.end[k]});
     }
   }
   return part;

@@ -91,8 +91,12 @@ class ProfileCutter {
   /// The face of the facet that the plane cuts nearest to `at`; kNone: none within reach.
   FaceId nearest_face(Vec3 at, Vec3 normal, double reach) const;
 
-  /// Notes the ends of the same cut.
-  void note_ends(Vec3 edge, Vec3 normal, double reach) const { part_at(edge, normal, reach); }
+  /// The ends of the same cut.
+  std::vector<CutEnd> ends_of(Vec3 edge, Vec3 normal, double reach) const {
+    std::vector<CutEnd> ends;
+    part_at(edge, normal, reach, &ends);
+    return ends;
+  }
 
   static constexpr double kThickestPart = 0.35;
 
@@ -123,7 +127,10 @@ class ProfileCutter {
   };
   /// In the facets of a block.
   void search(std::size_t level, std::size_t block, NearestCrossing& nearest) const;
-  std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach) const;
+  std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach) const {
+    return part_at(origin, normal, reach, ends_);
+  }
+  std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach, std::vector<CutEnd>* ends) const;
 
   const Facets& facets_;
   std::vector<CutEnd>* const ends_;

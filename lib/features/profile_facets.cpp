@@ -7,6 +7,7 @@
 #include "base/boxes.h"
 #include "base/disjoint_sets.h"
 #include "base/share.h"
+#include "base/threads.h"
 #include "features/edge_places.h"
 
 namespace st {
@@ -64,15 +65,21 @@ std::vector<std::uint8_t> ProfileFacets::walls_along(std::span<const WingEdge> e
 }
 
 /// Those that the first cut meets from `n_done` on that meets any; that one is to be made again, through more facets.
+/// With several threads some cuts are made ahead: what comes after the first is dropped.
 std::vector<std::uint8_t> ProfileFacets::walls_of_next(std::span<const Cut> cuts, std::size_t& n_done) {
-  std::vector<CutEnd> ends;
-  const ProfileCutter cutter(facets_, &ends);
-  for (; n_done < cuts.size(); ++n_done) {
-    ends.clear();
-    cutter.note_ends(cuts[n_done].x, cuts[n_done].normal, limits_.reach);
-    if (ends.empty()) continue;
-    std::vector<std::uint8_t> walls = walls_beyond(ends);
-    if (std::ranges::count(walls, 1) > 0) return walls;
+  constexpr std::size_t kAhead = 32, kPerPiece = 4;
+  const ProfileCutter cutter(facets_);
+  std::vector<std::vector<CutEnd>> ends(thread_count() > 1 ? kAhead : 1);
+  while (n_done < cuts.size()) {
+    const std::span<const Cut> next = cuts.subspan(n_done, std::min(ends.size(), cuts.size() - n_done));
+    parallel_for(next.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) ends[i] = cutter.ends_of(next[i].x, next[i].normal, limits_.reach);
+    });
+    for (std::size_t i = 0; i < next.size(); ++i, ++n_done) {
+      if (ends[i].empty()) continue;
+      std::vector<std::uint8_t> walls = walls_beyond(ends[i]);
+      if (std::ranges::count(walls, 1) > 0) return walls;
+    }
   }
   return std::vector<std::uint8_t>(is_known_.size(), 0);
 }
@@ -144,11 +151,8 @@ void ProfileFacets::add_cut(EdgeId e, Vec3 x, Vec3 normal, const Executor& execu
   std::vector<std::uint8_t> next(is_known_.size(), 0);
   take_walls_at(e, nullptr, next);
   add(std::move(next), executor);
-  std::vector<CutEnd> ends;
-  do {
-    ends.clear();
-    ProfileCutter(facets_, &ends).note_ends(x, normal, limits_.reach);
-  } while (add_beyond(ends, executor));
+  while (add_beyond(ProfileCutter(facets_).ends_of(x, normal, limits_.reach), executor)) {
+  }
 }
 
 /// What a cut meets in the image of the model, its own image meets in the model.

@@ -12,6 +12,7 @@
 #include "base/limits.h"
 #include "base/radix_sort.h"
 #include "sizing/cell_limit.h"
+#include "sizing/length_store.h"
 #include "sizing/octree_nodes.h"
 
 namespace st {
@@ -31,30 +32,6 @@ class RepeatFilter {
  private:
   std::array<std::uint64_t, 4096> seen_;
 };
-
-/// Range of grid cells that a raster box meets, both ends included; empty when it lies outside the root.
-struct GridBox {
-  GridPoint lo, hi;
-  bool is_empty = false;
-};
-
-GridBox grid_box(const OctreeShape& shape, const RasterBox& box, double half) {
-  const double scale = kCoordinateEnd / shape.edge;
-  GridBox result;
-  const auto range = [&](double center, double origin, std::uint32_t& lo, std::uint32_t& hi) {
-    const double a = std::floor((center - half - origin) * scale), b = std::floor((center + half - origin) * scale);
-    if (!(a < kCoordinateEnd && b >= 0)) {
-      result.is_empty = true;
-      return;
-    }
-    lo = static_cast<std::uint32_t>(std::max(a, 0.0));
-    hi = static_cast<std::uint32_t>(std::min(b, kCoordinateEnd - 1.0));
-  };
-  range(box.center.x, shape.lo.x, result.lo.x, result.hi.x);
-  range(box.center.y, shape.lo.y, result.lo.y, result.hi.y);
-  range(box.center.z, shape.lo.z, result.lo.z, result.hi.z);
-  return result;
-}
 
 /// Coarsest level whose cells are not larger than the raster box.
 std::uint8_t required_level(double root_edge, const RasterBox& box) {
@@ -159,104 +136,6 @@ void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
   walk(walk, 0, 0);
 }
 
-namespace {
-
-/// See PackedLengths. The bits of positive floats order like their values.
-std::uint64_t pack_length(float length, std::int32_t cause) {
-  return std::uint64_t{std::bit_cast<std::uint32_t>(length)} << 32 | static_cast<std::uint32_t>(cause);
-}
-constexpr std::uint64_t kNothing = ~std::uint64_t{0};
-
-/// Gives each leaf the smallest length of the boxes that meet it. A cell that lies in a box as a whole keeps the length
-/// for all its leaves. Boxes of fine levels come first, and whole subtrees that hold smaller lengths already are
-/// skipped, so that large boxes do not visit every fine cell inside them.
-class LengthStore {
- public:
-  explicit LengthStore(const OctreeShape& shape)
-      : shape_(shape),
-        leaf_(shape.leaf_keys.size(), kNothing),
-        node_(shape.node_children.size() / 8, kNothing),
-        largest_(node_.size(), kNothing) {}
-
-  void insert(const RasterBox& box) {
-    range_ = grid_box(shape_, box, std::min(box.half, box.length));
-    if (range_.is_empty) return;
-    value_ = pack_length(box.length, box.cause);
-    visit(shape_.node_children.empty() ? ~0 : 0, {}, kCoordinateEnd / 2);
-  }
-
-  /// Worth its time once as many nodes have been visited; until then the old values are upper bounds.
-  void refresh_subtrees() {
-    if (n_visits_ < node_.size()) return;
-    n_visits_ = 0;
-    for (std::size_t node = node_.size(); node-- > 0;) {
-      std::uint64_t largest = 0;
-      for (std::size_t o = 0; o < 8; ++o) {
-        const std::int32_t child = shape_.node_children[8 * node + o];
-        largest = std::max(largest, child >= 0 ? largest_[child] : leaf_[~child]);
-      }
-      largest_[node] = std::min(largest, node_[node]);
-    }
-  }
-
-  PackedLengths take() {
-    for (std::size_t node = 0; node < node_.size(); ++node)  // parents come before their children
-      for (std::size_t o = 0; o < 8; ++o) {
-        const std::int32_t child = shape_.node_children[8 * node + o];
-        std::uint64_t& value = child >= 0 ? node_[child] : leaf_[~child];
-        value = std::min(value, node_[node]);
-      }
-    return std::move(leaf_);
-  }
-
- private:
-  /// The node's cell reaches 2*half from `lo`.
-  void visit(std::int32_t node, GridPoint lo, std::uint32_t half) {
-    if (node < 0) {
-      leaf_[~node] = std::min(leaf_[~node], value_);
-      return;
-    }
-    ++n_visits_;
-    if (largest_[node] <= value_) return;
-    if (is_inside(lo, 2 * half)) {
-      node_[node] = std::min(node_[node], value_);
-      largest_[node] = value_;
-      return;
-    }
-    const GridPoint middle{lo.x + half, lo.y + half, lo.z + half};
-    // children on the sides that the range meets, a bit each
-    const unsigned met = side_mask(range_.lo.x, range_.hi.x, middle.x, 0x55, 0xaa) &
-                         side_mask(range_.lo.y, range_.hi.y, middle.y, 0x33, 0xcc) &
-                         side_mask(range_.lo.z, range_.hi.z, middle.z, 0x0f, 0xf0);
-    for (unsigned left = met; left != 0; left &= left - 1) {
-      const auto o = static_cast<unsigned>(std::countr_zero(left));
-      visit(shape_.node_children[8 * static_cast<std::size_t>(node) + o],
-            {o & 1 ? middle.x : lo.x, o & 2 ? middle.y : lo.y, o & 4 ? middle.z : lo.z}, half / 2);
-    }
-  }
-
-  static unsigned side_mask(std::uint32_t lo, std::uint32_t hi, std::uint32_t middle, unsigned low, unsigned high) {
-    return (lo < middle ? low : 0u) | (hi >= middle ? high : 0u);
-  }
-
-  bool is_inside(GridPoint lo, std::uint32_t extent) const {
-    const auto holds = [extent](std::uint32_t a, std::uint32_t first, std::uint32_t last) {
-      return first <= a && a + (extent - 1) <= last;
-    };
-    return holds(lo.x, range_.lo.x, range_.hi.x) && holds(lo.y, range_.lo.y, range_.hi.y) &&
-           holds(lo.z, range_.lo.z, range_.hi.z);
-  }
-
-  const OctreeShape& shape_;
-  PackedLengths leaf_, node_;           // smallest so far: of a leaf, of all leaves of a node
-  std::vector<std::uint64_t> largest_;  // upper bound of what the leaves of a node have
-  std::size_t n_visits_ = 0;            // of nodes, since the last refresh
-  GridBox range_;
-  std::uint64_t value_ = 0;
-};
-
-}  // namespace
-
 Vec3 OctreeView::leaf_center(std::int32_t leaf) const {
   const GridPoint p = morton::decode(leaf_keys[leaf]);
   const double unit = edge / kCoordinateEnd, half = 0.5 * morton::cell_extent(leaf_levels[leaf]);
@@ -321,15 +200,7 @@ PackedLengths store_boxes(const OctreeShape& shape, std::span<const RasterBox> b
   ST_ASSERT(std::all_of(boxes.begin(), boxes.end(), [](const RasterBox& b) { return b.half > 0 && b.length > 0; }));
   require_countable(boxes.size(), "samples on one rank");
   const std::vector<std::uint8_t> levels = required_levels(shape.edge, boxes);
-  std::array<std::vector<std::uint32_t>, kMaxLevel + 1> by_level;
-  for (std::size_t i = 0; i < boxes.size(); ++i) by_level[levels[i]].push_back(static_cast<std::uint32_t>(i));
-  LengthStore store(shape);
-  for (std::size_t level = kMaxLevel + 1; level-- > 0;) {
-    if (by_level[level].empty()) continue;
-    for (const std::uint32_t i : by_level[level]) store.insert(boxes[i]);
-    store.refresh_subtrees();
-  }
-  return store.take();
+  return LengthStore(shape, boxes, levels).run();
 }
 
 RasterOctree unpack_octree(OctreeShape shape, const PackedLengths& packed) {
@@ -337,7 +208,7 @@ RasterOctree unpack_octree(OctreeShape shape, const PackedLengths& packed) {
   RasterOctree octree{std::move(shape), std::vector<float>(packed.size(), std::numeric_limits<float>::infinity()),
                       std::vector<std::int32_t>(packed.size(), kNone)};
   for (std::size_t leaf = 0; leaf < packed.size(); ++leaf) {
-    if (packed[leaf] == kNothing) continue;
+    if (packed[leaf] == kNothingStored) continue;
     octree.stored_length[leaf] = std::bit_cast<float>(static_cast<std::uint32_t>(packed[leaf] >> 32));
     octree.stored_cause[leaf] = static_cast<std::int32_t>(packed[leaf]);
   }

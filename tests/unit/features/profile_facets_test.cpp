@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/threads.h"
 #include "features/edge_places.h"
 #include "features/profile.h"
 #include "features/strip.h"
@@ -70,11 +71,16 @@ struct TwoRanks : test::BackwardExecutor {
   int size() const override { return 2; }
 };
 
-TEST(ProfileFacets, are_the_same_where_ranks_make_them_ahead) {
+/// Far from each other; cuts ask several times for more walls.
+Model make_four_wings() {
   Model wings = test::make_model("wing_with_pod");
   for (const char* shape : {"wing_on_body", "wing_of_8", "wing_of_8"})
     wings = append(wings, transform(test::make_model(shape), {.translation = {0, wings.tables().box().hi.y + 20, 0}}));
-  const Case c(std::move(wings));
+  return wings;
+}
+
+TEST(ProfileFacets, are_the_same_where_ranks_make_them_ahead) {
+  const Case c(make_four_wings());
   const auto facets_by = [&](const Executor& executor) {
     ProfileFacets facets(c.model, c.roles, kLimits);
     facets.add_along(c.edges, executor);
@@ -101,6 +107,19 @@ TEST(ProfileFacets, of_bodies_are_made_by_as_many_tasks) {
   EXPECT_EQ(n_tasks(TwoRanks()), 1 + 3u) << "of the edges' own walls, and of each body";
 }
 
+TEST(ProfileFacets, are_the_same_on_any_number_of_threads) {
+  const Case c(make_four_wings());
+  const Facets one = c.facets();
+  for (const int n_threads : {2, 7}) {
+    set_thread_count(n_threads);
+    const Facets many = c.facets();
+    set_thread_count(1);
+    EXPECT_EQ(many.face, one.face) << n_threads << " threads";
+    EXPECT_EQ(many.triangle, one.triangle) << n_threads << " threads";
+    EXPECT_EQ(many.xyz, one.xyz) << n_threads << " threads";
+  }
+}
+
 TEST(ProfileFacets, are_none_of_faces_that_no_profile_crosses) {
   const Case c("sharp_wing");
   const std::vector<FaceId> faces = faces_with(c.facets());
@@ -118,11 +137,11 @@ TEST(ProfileFacets, go_on_where_another_cut_ends) {
   const Case c("sharp_wing");
   ProfileFacets facets(c.model, c.roles, kLimits);
   facets.add_along(c.edges, SerialExecutor());
-  std::vector<CutEnd> ends;
-  const ProfileCutter cutter(facets.facets(), &ends);
-  cutter.note_ends({10, 0, 15}, {0, 0, 1}, kLimits.reach);
-  EXPECT_TRUE(ends.empty());
-  cutter.note_ends({10, 0, 15}, normalized(Vec3{0.02, 1, 0}), kLimits.reach);  // along the span
+  const ProfileCutter cutter(facets.facets());
+  EXPECT_TRUE(cutter.ends_of({10, 0, 15}, {0, 0, 1}, kLimits.reach).empty());
+  const std::vector<CutEnd> ends = cutter.ends_of({10, 0, 15}, normalized(Vec3{0.02, 1, 0}), kLimits.reach);  // along
+                                                                                                              // the
+                                                                                                              // span
   ASSERT_FALSE(ends.empty());
   EXPECT_TRUE(facets.add_beyond(ends, SerialExecutor()));
   EXPECT_EQ(faces_with(facets.facets()).size(), 4u) << "the tips, too";

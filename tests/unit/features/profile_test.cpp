@@ -102,14 +102,12 @@ TEST(Profile, ends_where_the_next_face_has_no_facets) {
   const Model model = test::make_model("sharp_wing");
   std::vector<std::uint8_t> wanted(static_cast<std::size_t>(model.tables().n_faces()), 1);
   const Facets all = make_facets(model, wanted, {.deflection = 0.01});
-  std::vector<CutEnd> ends;
-  ProfileCutter(all, &ends).note_ends({10, 0, 15}, {0, 0, 1}, 0.02);
-  EXPECT_TRUE(ends.empty());
+  EXPECT_TRUE(ProfileCutter(all).ends_of({10, 0, 15}, {0, 0, 1}, 0.02).empty());
   const auto profile = ProfileCutter(all).cut({10, 0, 15}, {0, 0, 1}, 0.02);
   ASSERT_TRUE(profile);
   wanted[static_cast<std::size_t>(profile->faces[0])] = 0;
   const Facets some = make_facets(model, wanted, {.deflection = 0.01});
-  ProfileCutter(some, &ends).note_ends({10, 0, 15}, {0, 0, 1}, 0.02);
+  const std::vector<CutEnd> ends = ProfileCutter(some).ends_of({10, 0, 15}, {0, 0, 1}, 0.02);
   ASSERT_EQ(ends.size(), 2u) << "at the trailing edge and at the nose";
   for (const CutEnd& end : ends) {
     EXPECT_EQ(end.face, profile->faces[1]);

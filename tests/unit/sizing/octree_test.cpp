@@ -7,9 +7,11 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "base/threads.h"
 #include "sizing/octree_nodes.h"
 #include "unit/sizing/cases.h"
 
@@ -59,6 +61,24 @@ TEST(Octree, has_no_cell_larger_than_a_box_it_meets) {
       if (!meets(octree, leaf, box, -1e-5)) continue;
       ASSERT_LE(octree.shape.view().cell_edge(octree.shape.leaf_levels[leaf]), 2.0 * box.half);
     }
+}
+
+TEST(Octree, stores_the_same_on_any_number_of_threads_as_box_by_box) {
+  std::vector<RasterBox> boxes = sphere_boxes(1000);
+  for (const double half : {0.4, 0.11, 0.06, 0.03})  // larger than the subtrees that threads fill, and as large
+    for (const double x : {0.2, 0.5, 0.8})
+      boxes.push_back({{x, 0.5, 0.35}, static_cast<float>(half), static_cast<float>(0.1 * half), 7});
+  const OctreeShape shape = make_shape(kUnitBox, split_cells(kUnitBox, boxes));
+  PackedLengths expected(shape.leaf_keys.size(), ~std::uint64_t{0});
+  for (const RasterBox& box : boxes) {
+    const PackedLengths own = store_boxes(shape, std::span(&box, 1));
+    for (std::size_t i = 0; i < own.size(); ++i) expected[i] = std::min(expected[i], own[i]);
+  }
+  for (const int n_threads : {1, 2, 7}) {
+    set_thread_count(n_threads);
+    EXPECT_EQ(store_boxes(shape, boxes), expected) << n_threads << " threads";
+  }
+  set_thread_count(1);
 }
 
 TEST(Octree, stores_the_smallest_length_that_met_each_cell_and_its_cause) {
