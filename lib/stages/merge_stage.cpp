@@ -159,6 +159,10 @@ StageSummary summarize(const MergeStageOptions& options, const MeshColumns& mesh
 }  // namespace
 
 void require_merge_outputs(const MergeStageOptions& options) {
+  if (has_export_suffix(options.output))
+    throw Error(ExitCode::kUsage, options.output +
+                                      ": is the name of an exported file, and here the mesh artifact goes; "
+                                      "give it to --export, and name the artifact .hdf");
   require_writable(options.output);
   for (const std::string& path : options.exports) {
     require_export_format(path, {});

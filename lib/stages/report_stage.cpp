@@ -363,9 +363,16 @@ std::string make_page(const ReportStageOptions& o, const RunFiles& files, const 
 
 }  // namespace
 
+void require_page(const std::string& path) {
+  if (!path.ends_with(".html") && !path.ends_with(".htm"))
+    throw Error(ExitCode::kUsage, path + ": the page is HTML; name it .html" +
+                                      (path.ends_with(".pdf") ? ", and print it to a PDF from a browser" : ""));
+  require_writable(path);
+}
+
 StageSummary run_report(const ReportStageOptions& o) {
   const Timer timer;
-  require_writable(o.output);
+  require_page(o.output);
   RunFiles files = sort_files(o);
   const std::string shown_as = !files.mesh.empty()      ? files.mesh
                                : !files.patches.empty() ? files.patches

@@ -25,6 +25,10 @@ struct ReportStageOptions {
   std::string output = "report.html";  ///< self-contained: page, mesh and figures
 };
 
+/// Throws Error(kUsage) unless a browser takes the file for a page: .html or .htm; Error(kOutput) where it cannot be
+/// written.
+void require_page(const std::string& path);
+
 /// Checks the mesh as st-check does, where that is not done yet, and writes the page. Of patches without a mesh, what
 /// there is is merged first. With a geometry alone the page shows the CAD, unchecked. Local; code kOk whatever the
 /// verdict. Throws Error.

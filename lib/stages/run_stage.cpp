@@ -248,7 +248,7 @@ void require_run_outputs(const RunStageOptions& o) {
   MergeStageOptions merge = o.merge;
   merge.output = o.output;
   require_merge_outputs(merge);
-  if (!o.report.empty()) require_writable(o.report);
+  if (!o.report.empty()) require_page(o.report);
   CheckStageOptions check = o.check;
   check.geometry = check.sizing = o.output;  // there will be some
   check.validate();

@@ -200,6 +200,37 @@ class Errors(RunTest):
         self.expect_error(USAGE, "st-run", self.model, "--unite=yes", cwd=self.folder, says="--unite")
         self.expect_only()
 
+    def test_a_name_that_says_another_format_is_refused(self):
+        for option, name, says in (("-o", "a.stl", "give it to --export"), ("-o", "a.CGNS", "give it to --export"),
+                                   ("--report", "a.pdf", "name it .html"), ("--report", "a", "name it .html")):
+            self.expect_error(USAGE, "st-run", self.model, option, name, says=says, cwd=self.folder)
+        self.expect_error(USAGE, "st-merge", one_by_one() / "patches.hdf", "-o", "a.vtu", says="give it to --export")
+        self.expect_error(USAGE, "st-report", one_by_one() / "mesh.hdf", "-o", "a.pdf", says="name it .html")
+        self.expect_only()
+
+    def test_a_folder_is_for_one_run_at_a_time(self):
+        command = [BIN / "st-run", self.model, "--lmax", "1%", "--keep", self.folder / "out", "-q"]
+        with subprocess.Popen(command) as first:
+            while first.poll() is None and not (self.folder / "out" / "geometry.hdf").exists():
+                time.sleep(0.01)
+            self.expect_error(OUTPUT, "st-run", self.model, "--keep", self.folder / "out", says="another run")
+            self.expect_error(OUTPUT, "st-run", self.model, self.model, "--into", self.folder / "out",
+                              says="another run")
+        self.assertEqual(first.returncode, OK)
+        must("st-run", self.model, "--keep", self.folder / "out", "-q")
+
+    def test_a_file_whose_name_begins_with_a_dash_is_named(self):
+        shutil.copy(self.model, self.folder / "-x.step")
+        self.expect_error(USAGE, "st-run", "-x.step", says="write ./-x.step for the file", cwd=self.folder)
+        must("st-run", "./-x.step", "-q", cwd=self.folder)
+
+    def test_names_of_facets_may_be_latin_1(self):
+        path = self.folder / "a.obj"
+        path.write_bytes("o W\u00fcrfel\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\no b\nf 2 3 4\nf 1 4 3\n"
+                         .encode("latin-1"))
+        must("st-run", path, "--unit", "mm", "-q", cwd=self.folder)
+        self.assertIn("W\u00fcrfel", Run("st-info", self.folder / "mesh.hdf", "--groups").out)
+
     def test_a_mesh_that_fails_is_5_and_stays(self):
         run = Run("st-run", self.model, "--min-quality", "1", cwd=self.folder)
         self.assertEqual(run.code, INCOMPLETE, run)

@@ -96,7 +96,8 @@ std::vector<std::string> known_keys(const CLI::App& app) {
   const std::vector<std::string> known = known_keys(app);
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
-  fail(where, "unknown option '" + key + "'" + did_you_mean(key, known) + "; " + tool + " knows " + list);
+  const char* of_stages = tool == "st-run" ? "; options of a stage stand below its table, such as [st-raster]" : "";
+  fail(where, "unknown option '" + key + "'" + did_you_mean(key, known) + "; " + tool + " knows " + list + of_stages);
 }
 
 void apply(const std::string& key, const toml::node& node, const std::string& path, const std::string& tool,

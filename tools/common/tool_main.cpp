@@ -108,6 +108,15 @@ std::string near_option(const std::string& argument, const std::vector<std::stri
   return nearest.empty() ? "" : ", did you mean '--" + nearest + "'";
 }
 
+[[noreturn]] void refuse_argument(const std::string& argument, const std::vector<std::string>& names,
+                                  const std::string& tool) {
+  std::error_code none;
+  const bool is_file = argument.starts_with("-") && std::filesystem::exists(argument, none);
+  throw Error(ExitCode::kUsage, "unexpected argument '" + argument + "'" + near_option(argument, names) +
+                                    (is_file ? "; write ./" + argument + " for the file" : "") + "; see " + tool +
+                                    " --help");
+}
+
 }  // namespace
 
 ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
@@ -293,12 +302,12 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return std::string(e.what()) + "\n";
   } catch (const CLI::ExtrasError&) {
-    const std::string argument = app_.remaining().front();
-    throw Error(ExitCode::kUsage, "unexpected argument '" + argument + "'" + near_option(argument, long_names()) +
-                                      "; see " + name_ + " --help");
+    refuse_argument(app_.remaining().front(), long_names(), name_);
   } catch (const CLI::ConversionError& e) {  // what is no number at all has been refused before
     throw Error(ExitCode::kUsage, std::string("a whole number is needed: ").append(usage_message(e, name_)));
   } catch (const CLI::ParseError& e) {
+    if (!app_.remaining().empty())
+      refuse_argument(app_.remaining().front(), long_names(), name_);  // the cause of what is missing
     throw Error(ExitCode::kUsage, usage_message(e, name_));
   }
   if (!options_file_.empty()) {

@@ -9,7 +9,8 @@ int main(int argc, char** argv) {
       "st-import",
       "Reads a CAD model (STEP, IGES, BREP, FLITE) or facets (STL), repairs them where needed and writes a geometry "
       "artifact.");
-  tool.input("model", o.model, "CAD file: .step .stp .iges .igs .brep .dat .fli; or facets: .stl .msh .vtu .fro");
+  tool.input("model", o.model,
+             "CAD file: .step .stp .iges .igs .brep .dat .fli; or facets: .stl .obj .ply .msh .vtu .fro");
   tool.output(o.output);
   st::declare(tool, o);
   tool.output_option("--suggest-groups", o.suggest_groups,

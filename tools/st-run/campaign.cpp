@@ -23,6 +23,7 @@
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
+#include "stages/report_stage.h"
 #include "stages/thumbnail.h"
 
 namespace st {
@@ -73,11 +74,12 @@ void Campaign::prepare(const ToolMain& tool) {
   fs::create_directories(o_.into, error);
   if (!fs::is_directory(o_.into))
     throw Error(ExitCode::kOutput, o_.into + ": cannot be made as a folder; choose another one with --into");
+  lock_.emplace(o_.into);
   const std::string settings = o_.into + "/st-run.toml";
   if (o_.table.empty()) o_.table = o_.into + "/results.csv";
   require_derived_outputs({settings});
   require_writable(o_.table);
-  if (!o_.page.empty()) require_writable(o_.page);
+  if (!o_.page.empty()) require_page(o_.page);
   write_text_file(settings, tool.settings());
   const int threads = tool.n_threads().value_or(std::max(1, processor_count() / o_.jobs));
   arguments_ = {"--options",

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "base/log.h"
 #include "base/number_option.h"
 #include "common/tool_main.h"
+#include "io/file/folder_lock.h"
 #include "stages/campaign.h"
 #include "stages/summary.h"
 
@@ -51,6 +53,7 @@ class Campaign {
   void write_page() const;
 
   CampaignOptions o_;
+  std::optional<FolderLock> lock_;      ///< of the folder with the results
   std::vector<std::string> arguments_;  ///< of each run, besides model and outputs
   std::vector<CampaignRow> rows_;       ///< as o_.models
   std::vector<CampaignRow> others_;     ///< of the table: models of other calls

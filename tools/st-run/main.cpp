@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
   st::OneRun run;
   st::RunStageOptions& o = run.options;
   st::ToolMain tool("st-run", "Makes a checked surface mesh of a CAD model: all stages from st-import to st-check.");
-  tool.inputs("models", c.models, "CAD files, one or several: .step .stp .iges .igs .brep .dat .fli");
+  tool.inputs("models", c.models,
+              "CAD files, one or several: .step .stp .iges .igs .brep .dat .fli; or facets: .stl .obj .ply .msh .vtu");
   tool.output(o.output, "mesh artifact to write");
   tool.outputs("--export", o.merge.exports,
                "also write the mesh to this file: a suffix that st-export knows; repeatable");

@@ -93,6 +93,7 @@ void OneRun::prepare(const ToolMain& tool) {
   note_what_is_set(raster_, options.raster);
   if (!options.keep.empty()) {
     make_folder(options.keep);
+    lock_.emplace(options.keep);
     if (fs::exists(options.keep + "/model.ref"))
       throw Error(ExitCode::kOutput,
                   options.keep + ": holds results of make; choose another folder, or run make there");

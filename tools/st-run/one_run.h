@@ -7,6 +7,7 @@
 
 #include "common/option_set.h"
 #include "common/tool_main.h"
+#include "io/file/folder_lock.h"
 #include "io/file/run_folder.h"
 #include "stages/run_stage.h"
 
@@ -35,6 +36,7 @@ class OneRun {
   OptionSet import_{"st-import", ""}, raster_{"st-raster", ""}, prolong_{"st-prolong", ""}, mesh_{"st-mesh", ""},
       merge_{"st-merge", ""}, check_{"st-check", ""};
   std::optional<RunFolder> folder_;
+  std::optional<FolderLock> lock_;     ///< of the folder that keeps the artifacts
   std::string settings_;               ///< option file of this run, where tools need one
   std::vector<std::string> of_ranks_;  ///< options of tools that are started with ranks
   const int said_;                     ///< file in memory that forks share: what the stages said

@@ -81,7 +81,7 @@ std::string format_of(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code code;
   if (!fs::exists(path, code)) fail(path, "no such file; check the path");
-  if (fs::is_directory(path, code)) fail(path, "is a directory; give a STEP, IGES or BREP file");
+  if (fs::is_directory(path, code)) fail(path, "is a directory; give a file: STEP, IGES, BREP, STL, OBJ or PLY");
   std::ifstream in(path, std::ios::binary);
   if (!in) fail(path, "cannot be opened; check its permissions");
   std::string head(4096, '\0');
@@ -94,7 +94,7 @@ std::string format_of(const std::string& path) {
   if (head.find("DBRep_DrawableShape") != std::string::npos || head.find("CASCADE Topology V") != std::string::npos)
     return "BREP";
   if (head.compare(0, 8, "\x89HDF\r\n\x1a\n") == 0)
-    fail(path, "is an HDF5 artifact, not a CAD file; give a STEP, IGES or BREP file");
+    fail(path, "is an HDF5 artifact; give a CAD file: STEP, IGES, BREP, STL, OBJ or PLY");
   const std::size_t line_end = head.find_first_of("\r\n");
   if (line_end != std::string::npos && line_end >= 73 && (head[72] == 'S' || head[72] == 'F' || head[72] == 'C'))
     return "IGES";

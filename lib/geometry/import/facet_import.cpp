@@ -15,6 +15,7 @@
 #include "geometry/import/facet_air.h"
 #include "geometry/import/half_model.h"
 #include "geometry/import/model_unit.h"
+#include "geometry/import/text_encoding.h"
 #include "geometry/import/topology_report.h"
 #include "geometry/model/group_selection.h"
 
@@ -43,6 +44,14 @@ void require_no_air(const FacetInput& input, const std::string& path) {
       throw Error(ExitCode::kUsage, fmt::format("{}: solid \"{}\" is a far field already; leave --farfield out, or "
                                                 "the solid",
                                                 path, name));
+}
+
+/// Formats of facets do not say which encoding names have.
+void write_names_as_utf8(std::vector<std::string>& names) {
+  std::string all;
+  for (const std::string& name : names) all += name + "\n";
+  const occt::TextEncoding encoding = occt::detect_encoding(all);
+  for (std::string& name : names) name = occt::valid_utf8(occt::to_utf8(name, encoding));
 }
 
 std::vector<Box3> edge_boxes(const FacetShape& shape, const ModelTables& tables) {
@@ -75,6 +84,7 @@ void report(const ImportOptions& options, ImportResult& result) {
 
 ImportResult import_facets(FacetInput input, const ImportOptions& options, const std::string& path) {
   require_known(options, path);
+  write_names_as_utf8(input.part_name);
   std::optional<occt::SymmetryPlane> plane;
   std::optional<occt::FarField> far;
   if (!options.symmetry.empty()) plane = occt::parse_symmetry(options.symmetry, "--symmetry");

@@ -211,6 +211,8 @@ std::vector<std::vector<std::int64_t>> elements_by_group(const ExportTask& task)
   return of_group;
 }
 
+bool has_export_suffix(const std::string& path) { return find_format(name_of_file(path)) != nullptr; }
+
 void require_export_format(const std::string& path, const ExportOptions& options) {
   const Format& format = format_of(path, options);
   if (options.has_quads) require_room(path, format, kQuads, "triangles", "--quads");

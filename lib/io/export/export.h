@@ -42,6 +42,9 @@ struct ExportMesh {
   std::span<const NodeValues> node_values = {};
 };
 
+/// Whether export_mesh() knows a format by the suffix of this path.
+bool has_export_suffix(const std::string& path);
+
 /// Throws Error(kUsage) unless a format is known that has all that is wanted: encoding, quadrilaterals, second order.
 void require_export_format(const std::string& path, const ExportOptions& options);
 

@@ -47,7 +47,7 @@ class ByteCursor {
   double real() {
     const std::string_view text = word();
     double value = 0;
-    if (!parse(text, value)) fail(text.empty() ? "cut off: a number is missing" : quoted(text) + " is no number");
+    if (!parse(text, value)) fail_at_number(text);
     return value;
   }
   std::int64_t integer() {
@@ -55,14 +55,14 @@ class ByteCursor {
     std::int64_t value = 0;
     const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc() || stop != text.data() + text.size() || text.empty())
-      fail(text.empty() ? "cut off: an integer is missing" : quoted(text) + " is no integer");
+      fail(text.empty() ? "cut off: an integer is missing; write the file again" : quoted(text) + " is no integer");
     return value;
   }
   /// The next value in binary.
   template <class T>
   T value() {
     std::array<char, sizeof(T)> bytes;
-    if (bytes_.size() - at_ < sizeof(T)) fail("cut off: the file ends inside its data");
+    if (bytes_.size() - at_ < sizeof(T)) fail("cut off: the file ends inside its data; write it again");
     std::memcpy(bytes.data(), bytes_.data() + at_, sizeof(T));
     if (is_swapped) std::reverse(bytes.begin(), bytes.end());
     at_ += sizeof(T);
@@ -72,7 +72,8 @@ class ByteCursor {
   std::size_t count(std::int64_t n, std::size_t least, const char* what) {
     if (n < 0) fail("a negative number of " + std::string(what));
     if (static_cast<std::uint64_t>(n) > (bytes_.size() - at_) / least)
-      fail("cut off: it should have " + std::to_string(n) + " " + what + ", more than there is room for");
+      fail("cut off: it should have " + std::to_string(n) + " " + what +
+           ", more than there is room for; write the file again");
     return static_cast<std::size_t>(n);
   }
   std::size_t position() const { return at_; }
@@ -104,6 +105,12 @@ class ByteCursor {
   }
 
  private:
+  [[noreturn]] void fail_at_number(std::string_view text) const {
+    if (text.empty()) fail("cut off: a number is missing; write the file again");
+    const bool has_comma = text.find(',') != std::string_view::npos;
+    fail(quoted(text) + " is no number" + (has_comma ? "; write the file again with decimal points" : ""));
+  }
+
   const std::string& path_;
   std::string_view bytes_;
   std::size_t at_ = 0;

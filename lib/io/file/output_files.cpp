@@ -103,7 +103,7 @@ class Checksum {
 std::string checksum_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   Checksum sum;
-  std::vector<char> piece(1 << 20);
+  std::vector<char> piece(1 << 16);
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())) || file.gcount() > 0)
     sum.add(reinterpret_cast<const unsigned char*>(piece.data()), static_cast<std::size_t>(file.gcount()));
   return file.is_open() && !file.bad() ? sum.text() : "";

@@ -11,6 +11,7 @@
 namespace st {
 namespace {
 
+constexpr char kExport[] = "; export the mesh again";
 constexpr std::string_view kWords[] = {"v", "vn", "vt", "f", "g", "o", "s", "l", "p", "mtllib", "usemtl"};
 
 /// A name and the numbers of those in the file, in the order in which they first have a polygon.
@@ -71,14 +72,14 @@ class ObjReader {
       std::int64_t number = 0;
       const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), number);
       if (error != std::errc() || stop != word.data() + word.size())
-        in_.fail("no polygon: " + ByteCursor::quoted(line));
+        in_.fail("not a number of a point in polygon " + ByteCursor::quoted(line) + kExport);
       const auto n_nodes = static_cast<std::int64_t>(file_.node_xyz.size());
       number = number < 0 ? n_nodes + number : number - 1;
       if (number < 0 || number >= n_nodes)
-        in_.fail("a polygon names a point that does not stand before it: " + ByteCursor::quoted(line));
+        in_.fail("a polygon names a point that does not stand before it: " + ByteCursor::quoted(line) + kExport);
       polygon_.push_back(number);
     }
-    if (polygon_.size() < 3) in_.fail("no polygon: " + ByteCursor::quoted(line));
+    if (polygon_.size() < 3) in_.fail("a polygon of fewer than three points: " + ByteCursor::quoted(line) + kExport);
     split_polygon(file_.node_xyz, polygon_, file_.triangles);
     if (file_.triangles.size() > kMaxTriangles) in_.fail("has more triangles than can be handled");
     group_.resize(file_.triangles.size(), groups_.number());

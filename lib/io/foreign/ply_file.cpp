@@ -1,4 +1,6 @@
 // PLY of scanners and 3-D programs, ascii or binary: points and polygons.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 
@@ -53,6 +55,7 @@ class PlyReader {
           read_polygon(e);
       }
     }
+    if (!in_.is_at_end()) in_.fail("has more in it than its header says; export the mesh again");
     return std::move(file_);
   }
 
@@ -61,7 +64,8 @@ class PlyReader {
     in_.line();
     bool has_format = false;
     for (;;) {
-      if (in_.position() >= in_.bytes().size()) in_.fail("cut off: the header has no end_header");
+      if (in_.position() >= in_.bytes().size())
+        in_.fail("cut off: the header has no end_header; export the mesh again");
       const std::string_view line = in_.line();
       ByteCursor words(in_.path(), line);
       const std::string_view word = words.word();
@@ -131,7 +135,8 @@ class PlyReader {
     values_.clear();
     double n = 1;
     if (p.count != Number::kNone) n = number(p.count);
-    if (!(n >= 0 && n <= static_cast<double>(in_.bytes().size()))) in_.fail("a list has no valid length");
+    if (!(n >= 0 && n <= static_cast<double>(in_.bytes().size())))
+      in_.fail("a list has no valid length; export the mesh again");
     for (double i = 0; i < n; ++i) values_.push_back(number(p.type));
     return values_;
   }
@@ -146,7 +151,7 @@ class PlyReader {
       if (p.name == "y") x.y = value[0], ++found;
       if (p.name == "z") x.z = value[0], ++found;
     }
-    if (found != 3) in_.fail("the points have no x, y and z");
+    if (found != 3) in_.fail("the points have no x, y and z; export the mesh again");
     file_.node_xyz.push_back(x);
   }
 
@@ -154,12 +159,13 @@ class PlyReader {
   void read_polygon(const Element& e) {
     for (const Property& p : e.properties) {
       const std::vector<double>& value = values(p);
-      if (e.name == "tristrips") in_.fail("has strips of triangles; write triangles");
+      if (e.name == "tristrips") in_.fail("has strips of triangles; export it as triangles");
       if (e.name != "face" || p.count == Number::kNone || !p.name.starts_with("vertex_ind")) continue;
       polygon_.clear();
       for (const double v : value) {
         if (!(v >= 0 && v < static_cast<double>(file_.node_xyz.size())))
-          in_.fail("a polygon names point " + std::to_string(v) + " of " + std::to_string(file_.node_xyz.size()));
+          in_.fail(fmt::format("a polygon names point {} of 0 to {}; export the mesh again", v,
+                               static_cast<std::int64_t>(file_.node_xyz.size()) - 1));
         polygon_.push_back(static_cast<std::int64_t>(v));
       }
       split_polygon(file_.node_xyz, polygon_, file_.triangles);

@@ -117,13 +117,13 @@ void number_faces(const TriangulationFile& file, const std::vector<std::size_t>&
 SurfaceMesh make_mesh(const std::string& path, TriangulationFile&& file) {
   SurfaceMesh mesh;
   mesh.node_xyz = std::move(file.node_xyz);
-  if (file.triangles.empty()) fail(path, "no triangles in it");
+  if (file.triangles.empty()) fail(path, "no triangles in it; export it with its faces");
   if (file.triangles.size() > kMaxTriangles || mesh.node_xyz.size() > 3 * kMaxTriangles)
     fail(path, "has more triangles than can be handled");
   const auto n_nodes = static_cast<std::int64_t>(mesh.node_xyz.size());
   for (std::int64_t n = 0; n < n_nodes; ++n)
     if (const Vec3 x = mesh.node_xyz[n]; !std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
-      fail(path, "the coordinates of node " + std::to_string(n + 1) + " are not finite");
+      fail(path, "the coordinates of node " + std::to_string(n + 1) + " are not finite; export the mesh again");
   for (std::size_t n = 0; n < file.node_size.size(); ++n)
     if (!(file.node_size[n] >= 0) || !std::isfinite(file.node_size[n]))
       fail(path, "the length (point data 'size') of node " + std::to_string(n + 1) + " is not positive and finite");

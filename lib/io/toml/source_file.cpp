@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string_view>
 
@@ -237,7 +238,9 @@ class SourceTable {
     for (const auto& [key, node] : table_)
       if (std::find(keys.begin(), keys.end(), key.str()) == keys.end()) {
         const std::string name(key.str());
-        fail("unknown key '" + name + "' of a source" + did_you_mean(name, keys), &node);
+        std::string known;
+        for (const std::string& k : std::set(keys.begin(), keys.end())) known += (known.empty() ? "" : ", ") + k;
+        fail("unknown key '" + name + "' of a source" + did_you_mean(name, keys) + "; the keys are " + known, &node);
       }
   }
 

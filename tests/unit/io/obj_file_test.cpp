@@ -52,9 +52,10 @@ TEST(ObjFile, DamageHasAMessage) {
   EXPECT_ERROR(parse("f 1 2 9\n"), kInput, "a.obj: line 6: a polygon names a point that does not stand before it");
   EXPECT_ERROR(parse("f 1 2 0\n"), kInput, "does not stand before it");
   EXPECT_ERROR(parse("f 1 2 -9\n"), kInput, "does not stand before it");
-  EXPECT_ERROR(parse("f 1 2\n"), kInput, "no polygon");
-  EXPECT_ERROR(parse("f 1 2 x\n"), kInput, "no polygon");
+  EXPECT_ERROR(parse("f 1 2\n"), kInput, "fewer than three points: ' 1 2'; export");
+  EXPECT_ERROR(parse("f 1 2 x\n"), kInput, "not a number of a point in polygon ' 1 2 x'; export");
   EXPECT_ERROR(parse("v 1 2\n"), kInput, "cut off");
+  EXPECT_ERROR(parse("v 0,5 1 2\n"), kInput, "line 5: '0,5' is no number; write the file again with decimal points");
 }
 
 }  // namespace

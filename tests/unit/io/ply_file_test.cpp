@@ -76,7 +76,9 @@ TEST(PlyFile, DamageHasAMessage) {
                "no x, y and z");
   EXPECT_ERROR(
       parse(ply_header("ascii", 2) + "0 0 2 255\n1 0 2 255\n1 1 2 255\n0 1 2 255\n1 7\n3 0 1 9 0.5\n4 0 1 2 3 0\n"),
-      kInput, "names point 9.000000 of 4");
+      kInput, "names point 9 of 0 to 3; export");
+  EXPECT_ERROR(parse(ply_header("ascii", 1) + kPlyText), kInput, "more in it than its header says");
+  EXPECT_ERROR(parse(binary_ply(false) + "more"), kInput, "more in it than its header says");
   const std::string whole = binary_ply(false);
   for (const std::size_t cut : {1u, 5u, 20u, 40u})
     EXPECT_ERROR(parse(whole.substr(0, whole.size() - cut)), kInput, "cut off");

@@ -146,7 +146,7 @@ TEST_F(SourceFiles, toml_errors_name_file_line_and_cause) {
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = \"1 parsec\"", "parsec");
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]", "needs a length");
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nlenght = 2",
-               "unknown key 'lenght' of a source, did you mean 'length'");
+               "unknown key 'lenght' of a source, did you mean 'length'; the keys are aspect, at, delete, direction");
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0, 0]\nlength = 1\nradius = 2\ndoubling = 1",
                "larger than radius");
   expect_error("[[source]]\ntype = \"line\"\npoints = [[0, 0, 0]]\nlength = 1", "2 points");
