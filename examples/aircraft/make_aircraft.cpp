@@ -3,6 +3,8 @@
 // Exit codes as those of the tools: 0 ok, 2 usage, 4 the geometry is not valid or not written as intended.
 
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepAlgoAPI_Fuse.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepCheck_Analyzer.hxx>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
@@ -21,6 +23,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <gp_Ax2.hxx>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -43,6 +46,18 @@ struct Report {
   std::map<std::string, int> faces_per_group;
 };
 
+template <class Operation>
+TopoDS_Shape solid_of(Operation& operation) {
+  operation.Build();
+  if (operation.HasErrors()) {
+    std::ostringstream why;
+    operation.DumpErrors(why);
+    throw std::runtime_error("the boolean operation failed: " + why.str());
+  }
+  TopExp_Explorer solids(operation.Shape(), TopAbs_SOLID);
+  return solids.More() ? solids.Current() : operation.Shape();
+}
+
 /// The air: far field minus all parts, in one operation.
 TopoDS_Shape subtract(const TopoDS_Solid& far_field, const std::vector<Part>& parts) {
   TopTools_ListOfShape air, bodies;
@@ -51,14 +66,20 @@ TopoDS_Shape subtract(const TopoDS_Solid& far_field, const std::vector<Part>& pa
   BRepAlgoAPI_Cut cut;
   cut.SetArguments(air);
   cut.SetTools(bodies);
-  cut.Build();
-  if (cut.HasErrors()) {
-    std::ostringstream why;
-    cut.DumpErrors(why);
-    throw std::runtime_error("the boolean operation failed: " + why.str());
-  }
-  TopExp_Explorer solids(cut.Shape(), TopAbs_SOLID);
-  return solids.More() ? solids.Current() : cut.Shape();
+  return solid_of(cut);
+}
+
+/// Both halves of the air as one solid; nothing stays of the symmetry plane between them.
+TopoDS_Shape with_image(const TopoDS_Shape& half, NameTable& names) {
+  gp_Trsf mirror;
+  mirror.SetMirror(gp_Ax2(gp::Origin(), gp::DY()));
+  const TopoDS_Shape image = BRepBuilderAPI_Transform(half, mirror, true).Shape();
+  TopTools_IndexedMapOfShape faces, images;
+  TopExp::MapShapes(half, TopAbs_FACE, faces);
+  TopExp::MapShapes(image, TopAbs_FACE, images);
+  for (int i = 1; i <= faces.Extent(); ++i) names.set(TopoDS::Face(images(i)), names.of(TopoDS::Face(faces(i))));
+  BRepAlgoAPI_Fuse both(half, image);
+  return solid_of(both);
 }
 
 double length(const TopoDS_Edge& edge) {
@@ -126,10 +147,11 @@ void check(const Report& r, bool is_variant) {
   require(r.n_faces >= 150, "the model has some hundred faces");
 }
 
-void make(const std::string& path, const Shape& shape, bool is_variant) {
+void make(const std::string& path, const Shape& shape, bool is_variant, bool is_whole) {
   NameTable names;
   const std::vector<Part> parts = make_parts(shape, names);
-  const TopoDS_Shape air = subtract(make_far_field(names), parts);
+  TopoDS_Shape air = subtract(make_far_field(names), parts);
+  if (is_whole) air = with_image(air, names);
   const Report report = inspect(air, names);
   print(report);
   write_step(path, "transport_aircraft", air, names);
@@ -141,13 +163,14 @@ void make(const std::string& path, const Shape& shape, bool is_variant) {
 }
 
 constexpr const char* kUsage =
-    "usage: make_aircraft OUT.step [--sweep DEG] [--dihedral DEG] [--engines N] [--tail KIND] [--flaps DEG]\n"
+    "usage: make_aircraft OUT.step [--sweep DEG] [--dihedral DEG] [--engines N] [--tail KIND] [--flaps DEG] [--whole]\n"
     "Writes a generic transport aircraft (half configuration, metres) in a half box of air. Variants of it:\n"
     "  --sweep DEG     of the wing's leading edge, 10 to 45\n"
     "  --dihedral DEG  of the wing, -4 to 10; default 5.5\n"
     "  --engines N     under each wing, 0 to 2; default 1\n"
     "  --tail KIND     conventional, t, cross, v or none\n"
-    "  --flaps DEG     deflection of a slotted flap, 0 to 40; default 0: none\n";
+    "  --flaps DEG     deflection of a slotted flap, 0 to 40; default 0: none\n"
+    "  --whole         both halves, in a whole box of air\n";
 
 struct BadUsage : std::runtime_error {
   using std::runtime_error::runtime_error;
@@ -194,17 +217,18 @@ void set(Shape& shape, const std::string& option, const std::string& value) {
 }  // namespace aircraft
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  std::vector<std::string> arguments(argv + 1, argv + argc);
   if (arguments.size() == 1 && arguments[0] == "--help") {
     std::fputs(aircraft::kUsage, stdout);
     return 0;
   }
   Message::DefaultMessenger()->ChangePrinters().Clear();  // no chatter of the STEP translator
+  const bool is_whole = std::erase(arguments, "--whole") > 0;
   try {
     if (arguments.size() % 2 == 0 || arguments[0].starts_with("-")) throw aircraft::BadUsage("one file is needed");
     aircraft::Shape shape;
     for (std::size_t i = 1; i < arguments.size(); i += 2) aircraft::set(shape, arguments[i], arguments[i + 1]);
-    aircraft::make(arguments[0], shape, arguments.size() > 1);
+    aircraft::make(arguments[0], shape, arguments.size() > 1 || is_whole, is_whole);
     return 0;
   } catch (const aircraft::BadUsage& error) {
     std::fprintf(stderr, "make_aircraft: %s\n%s", error.what(), aircraft::kUsage);
