@@ -372,7 +372,7 @@ void require_page(const std::string& path) {
 
 StageSummary run_report(const ReportStageOptions& o) {
   const Timer timer;
-  require_page(o.output);
+  require_writable(o.output);
   RunFiles files = sort_files(o);
   const std::string shown_as = !files.mesh.empty()      ? files.mesh
                                : !files.patches.empty() ? files.patches

@@ -205,7 +205,6 @@ class Errors(RunTest):
                                    ("--report", "a.pdf", "name it .html"), ("--report", "a", "name it .html")):
             self.expect_error(USAGE, "st-run", self.model, option, name, says=says, cwd=self.folder)
         self.expect_error(USAGE, "st-merge", one_by_one() / "patches.hdf", "-o", "a.vtu", says="give it to --export")
-        self.expect_error(USAGE, "st-report", one_by_one() / "mesh.hdf", "-o", "a.pdf", says="name it .html")
         self.expect_only()
 
     def test_a_folder_is_for_one_run_at_a_time(self):
