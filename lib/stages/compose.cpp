@@ -26,9 +26,8 @@ constexpr double kDefaultAlpha = radians(10);  // likewise
 constexpr double kChartDeflection = 1e-3;      // of the diagonal
 constexpr double kChartAngle = radians(12);
 
-/// Marks edges that groups, also of their vertices, names and wings keep.
-std::vector<std::uint8_t> kept_edges(const Model& cad) {
-  const ModelTables& t = cad.tables();
+/// Marks edges that groups, also of their vertices, and names keep.
+std::vector<std::uint8_t> kept_edges(const ModelTables& t) {
   std::vector<std::uint8_t> is_kept(static_cast<std::size_t>(t.n_edges()), 0);
   for (EdgeId e = 0; e < t.n_edges(); ++e) is_kept[e] = !t.edge_name[e].empty();
   for (const EntityGroup& g : t.labels.edge_groups)
@@ -40,7 +39,6 @@ std::vector<std::uint8_t> kept_edges(const Model& cad) {
     for (const std::size_t k : {0, 1})
       if (const VertexId v = t.edge_vertices[2 * static_cast<std::size_t>(e) + k]; v != kNone && is_grouped[v])
         is_kept[e] = 1;
-  for (const WingEdge& w : wing_edges_to_see(cad)) is_kept[w.edge] = 1;
   return is_kept;
 }
 
@@ -51,6 +49,21 @@ bool are_alike(const ModelTables& t, FaceId a, FaceId b) {
          t.face_solid[a] == t.face_solid[b] && t.face_shell[a] == t.face_shell[b] &&
          std::ranges::all_of(l.tables,
                              [&](const GroupTable& table) { return table.face_group[a] == table.face_group[b]; });
+}
+
+/// Marks smooth edges between two faces that are alike.
+std::vector<std::uint8_t> edges_inside(const Model& cad) {
+  const ModelTables& t = cad.tables();
+  std::vector<std::uint8_t> is_inside = find_smooth_edges(cad);
+  const std::vector<std::uint8_t> is_kept = kept_edges(t);
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (is_inside[e] &&
+        (is_kept[e] || offsets[e + 1] - offsets[e] != 2 || !are_alike(t, faces[offsets[e]], faces[offsets[e] + 1])))
+      is_inside[e] = 0;
+  return is_inside;
 }
 
 /// Finds edges that force bad triangles.
@@ -169,22 +182,15 @@ bool asks_for_composites(const std::string& word, const std::string& path) {
 JoinRequest join_request(const Model& cad, bool is_harm_only) {
   const ModelTables& t = cad.tables();
   JoinRequest request;
-  request.may_join = find_smooth_edges(cad);
-  const std::vector<std::uint8_t> is_kept = kept_edges(cad);
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
-  for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (request.may_join[e] &&
-        (is_kept[e] || offsets[e + 1] - offsets[e] != 2 || !are_alike(t, faces[offsets[e]], faces[offsets[e] + 1])))
-      request.may_join[e] = 0;
+  request.may_join = edges_inside(cad);
+  request.urgency = is_harm_only ? HarmFinder(cad, request.may_join).take() : t.edge_length;
+  bool is_asked = false;
+  for (EdgeId e = 0; e < t.n_edges(); ++e) is_asked |= request.may_join[e] && request.urgency[e] > 0;
+  if (!is_asked) return request;
+  for (const WingEdge& w : wing_edges_to_see(cad)) request.may_join[w.edge] = 0;
   const std::vector<std::uint8_t> is_ridge = find_ridge_edges(cad, request.may_join);
-  for (std::size_t e = 0; e < is_ridge.size(); ++e)
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (is_ridge[e]) request.may_join[e] = 0;
-  if (is_harm_only)
-    request.urgency = HarmFinder(cad, request.may_join).take();
-  else
-    request.urgency = t.edge_length;
   request.must_end.assign(static_cast<std::size_t>(t.n_vertices()), 0);
   for (const EntityGroup& g : t.labels.vertex_groups)
     for (const VertexId v : g.ids) request.must_end[v] = 1;

@@ -77,9 +77,9 @@ class CompositeFinder {
   FaceId side(EdgeId e, int k) const { return face_of_coedge_[uses_[e][k]]; }
 
   void make_facets() {
-    std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t_.n_faces()), 0);
+    std::vector<std::uint8_t> is_wanted(part_of_.size(), 0);
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      if (request_.may_join[e])
+      if (request_.may_join[e] && request_.urgency[e] > 0)  // other faces are in no union
         for (const int k : {0, 1}) is_wanted[side(e, k)] = 1;
     facets_ = make_uv_facets(cad_, is_wanted, request_.facets);
     across_.assign(facets_.mate.size(), kNone);
@@ -94,10 +94,7 @@ class CompositeFinder {
       can_join_[e] = 1;
       for (std::size_t i = 0; i < a.size(); ++i) across_[a[i]] = b[i], across_[b[i]] = a[i];
     }
-    for (FaceId f = 0; f < t_.n_faces(); ++f) {
-      part_of_[f] = f;
-      parts_[f] = {f};
-    }
+    for (FaceId f = 0; f < t_.n_faces(); ++f) parts_[part_of_[f] = f] = {f};
   }
 
   void grow(std::vector<EdgeId> edges, std::int32_t most_faces) {
@@ -394,6 +391,9 @@ class CompositeFinder {
 }  // namespace
 
 FoundComposites find_composites(const Model& cad, const JoinRequest& request) {
+  bool is_asked = false;
+  for (std::size_t e = 0; e < request.may_join.size(); ++e) is_asked |= request.may_join[e] && request.urgency[e] > 0;
+  if (!is_asked) return {};
   return CompositeFinder(cad, request).run();
 }
 
