@@ -24,8 +24,15 @@ bool has_curved_noses(const ModelTables& t, const LiftingSurface& surface) {
 }  // namespace
 
 bool has_through_holes(const ModelTables& t) {
-  std::int64_t characteristic = t.n_vertices() + 2 * t.n_faces() - t.n_loops();
-  for (EdgeId e = 0; e < t.n_edges(); ++e) characteristic -= t.edge_is_degenerate[e] ? 0 : 1;
+  std::int64_t characteristic = -std::int64_t{t.n_loops()};
+  for (FaceId f = 0; f < t.n_faces(); ++f) characteristic += t.loops(f).empty() ? 0 : 2;
+  std::vector<std::uint8_t> is_used(static_cast<std::size_t>(t.n_vertices()), 0);  // joined faces leave some unused
+  for (EdgeId e = 0; e < t.n_edges(); ++e) {
+    if (t.edge_is_degenerate[e]) continue;
+    --characteristic;
+    for (const std::size_t k : {0, 1}) is_used[t.edge_vertices[2 * static_cast<std::size_t>(e) + k]] = 1;
+  }
+  for (const std::uint8_t used : is_used) characteristic += used;
   return characteristic < 2 * static_cast<std::int64_t>(t.n_shells);
 }
 

@@ -74,7 +74,8 @@ class LimitsMaker {
       Limits own;
       if (roles_.role[f] != FaceRole::kSymmetry && roles_.role[f] != FaceRole::kInterface) own = wall_;
       if (roles_.role[f] == FaceRole::kFarfield) own->max_length = far_length(f);
-      if (const Body* body = body_of(f)) limit_by_body(*body, *own);
+      if (t_.loops(static_cast<FaceId>(f)).empty()) own.reset();  // joined to another face
+      if (const Body* body = body_of(f); body && own) limit_by_body(*body, *own);
       face_.surface.push_back(own);
     }
     face_.curve = face_.surface;

@@ -255,6 +255,7 @@ CheckedMesh read_own_mesh(const CheckStageOptions& o) {
   if (!o.geometry.empty()) {
     geometry = read_geometry(o.geometry);
     require_same_geometry(o.mesh, result.artifact.header, o.geometry, geometry->header);
+    part_as_meshed(result.artifact, *geometry);
   }
   run_jobs({[&] {  // reads no file: HDF5 is for one thread at a time
               if (!geometry) return;

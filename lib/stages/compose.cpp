@@ -161,10 +161,10 @@ std::string said(const GeometryArtifact& geometry, const std::vector<std::string
     ++reasons[why.substr(std::min(why.size(), why.find("): ") + 3))];
   }
   const Composites& c = geometry.composites;
-  std::string text = c.empty()
-                         ? "no faces joined"
-                         : fmt::format("{} faces and {} edges after joining ({} faces became {})",
-                                       geometry.tables.n_faces(), geometry.tables.n_edges(), c.member.size(), c.size());
+  const EntityCounts left = count_left(geometry.tables);
+  std::string text = c.empty() ? "no faces joined"
+                               : fmt::format("{} faces and {} edges after joining ({} faces became {})", left.faces,
+                                             left.edges, c.member.size(), c.size());
   for (const auto& [why, n] : reasons) text += fmt::format(", {} {} refused: {}", n, n == 1 ? "union" : "unions", why);
   return text;
 }

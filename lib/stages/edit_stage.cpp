@@ -17,6 +17,7 @@
 #include "geometry/import/import.h"
 #include "geometry/model/bodies.h"
 #include "geometry/model/edit_model.h"
+#include "geometry/model/joined_tables.h"
 #include "geometry/model/model_state.h"
 #include "geometry/model/unused_labels.h"
 #include "io/file/json_text.h"
@@ -24,6 +25,7 @@
 #include "io/hdf5/artifact.h"
 #include "judge/part_crossings.h"
 #include "judge/same_place.h"
+#include "stages/carried_composites.h"
 #include "stages/edit_names.h"
 #include "stages/edit_provenance.h"
 #include "stages/edit_trace.h"
@@ -37,6 +39,7 @@ struct EditInputs {
   std::vector<std::string> names;
   std::vector<InputRef> files;
   std::vector<std::vector<ImportFinding>> findings;
+  std::vector<JoinedInput> joined;
   bool are_closed = true;
 };
 
@@ -96,7 +99,11 @@ void require_same_unit(const std::string& path_a, const ModelTables& a, const st
 /// All inputs side by side.
 Edited put_together(const EditStageOptions& o, EditInputs& inputs) {
   std::vector<GeometryArtifact> artifacts;
-  for (const std::string& path : o.geometries) artifacts.push_back(read_geometry(path));
+  for (const std::string& path : o.geometries) {
+    GeometryArtifact& a = artifacts.emplace_back(read_geometry(path));
+    inputs.joined.push_back({a.cad, a.composites});
+    part_joined_faces(a);
+  }
   inputs.names = input_names(o.as, o.geometries, artifacts);
   const std::vector<std::string> join = split_names(o.join);
   require_join_names(join, artifacts);
@@ -340,6 +347,14 @@ std::string write(const EditStageOptions& o, const EditInputs& inputs, const Edi
   g.previous_faces = previous_ids(e.trace.faces);
   g.previous_edges = previous_ids(e.trace.edges);
   g.previous_vertices = previous_ids(e.trace.vertices);
+  int n_left = 0;
+  g.composites = carry_composites(inputs.joined, e.trace, g.tables, e.motion, n_left);
+  if (n_left > 0)
+    log_report(
+        fmt::format("  {} unions of joined faces are apart: some of their faces are gone, were scaled or "
+                    "mirrored, or moved on their own",
+                    n_left));
+  if (!g.composites.empty()) g.cad = std::exchange(g.tables, join_tables(g.tables, g.composites).tables);
   return write_geometry(o.output, g);
 }
 

@@ -124,6 +124,7 @@ std::vector<float> cad_face_numbers(const Model& model, const SurfaceMesh& mesh)
 void use_geometry(const ExportStageOptions& o, const QuadPairs& elements, MeshArtifact& artifact, Additions& added) {
   GeometryArtifact geometry = read_geometry(o.geometry);
   require_same_geometry(o.artifact, artifact.header, o.geometry, geometry.header);
+  part_as_meshed(artifact, geometry);
   const std::vector<NodeId> nodes_in_groups = artifact.mesh.segment_nodes;
   const std::vector<EdgeId> edges_in_groups = artifact.mesh.segment_edge;
   add_all_segments(artifact.mesh, geometry.tables.edge_vertices);
@@ -255,7 +256,7 @@ std::vector<std::string> export_artifact(const ExportStageOptions& o) {
     Progress progress("exporting", 1);
     progress.step("faces and edges", 0);
     GeometryArtifact geometry = read_geometry(artifact);
-    write_cell_view(output, view_cad(stored_model(geometry, artifact), geometry.findings));
+    write_cell_view(output, view_cad(stored_model(geometry, artifact).cad(), geometry.findings));
   } else {
     throw Error(
         ExitCode::kInput,

@@ -53,9 +53,11 @@ Identity identity_of(const std::string& path) {
     throw Error(ExitCode::kInput,
                 fmt::format("{}: is a {} artifact, which has no groups; give a geometry, patches or mesh artifact",
                             path, schema));
-  SurfaceMesh m = read_mesh(path).mesh;
+  MeshArtifact artifact = read_mesh(path);
+  SurfaceMesh& m = artifact.mesh;
   m.labels.face_group.assign(m.labels.face_name.size(), kNone);
-  for (std::size_t t = 0; t < m.triangles.size(); ++t) m.labels.face_group[m.triangle_face[t]] = m.triangle_group[t];
+  for (const std::vector<FaceId>* faces : {&m.triangle_face, &artifact.triangle_cad_face})
+    for (std::size_t t = 0; t < faces->size(); ++t) m.labels.face_group[(*faces)[t]] = m.triangle_group[t];
   return {std::move(m.labels)};
 }
 

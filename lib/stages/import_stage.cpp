@@ -15,6 +15,7 @@
 #include "features/wing_edges.h"
 #include "geometry/import/facet_import.h"
 #include "geometry/import/import.h"
+#include "geometry/model/joined_tables.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -30,6 +31,7 @@ namespace st {
 namespace {
 
 constexpr int kFindingsShown = 10;
+constexpr const char* kUsualComposites = "none";
 
 std::string file_hash(const std::string& path) {
   const std::string bytes = read_text_file(path);
@@ -453,16 +455,45 @@ ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& grou
   return options;
 }
 
-void require_composable(const ImportStageOptions& o) {
+/// Which faces become one: "none", "harm" or "smooth". What cannot be joined is refused where that was asked for, else
+/// left as it is.
+std::string composites_asked(const ImportStageOptions& o) {
+  const bool is_given = !o.composite.empty();
+  const std::string word = is_given ? o.composite : kUsualComposites;
+  const bool has_facets = !triangulation_format(o.model).empty();
+  if (word == "none" || (!is_given && (has_facets || o.check))) return "none";
+  if (!is_given && !o.mirror.empty()) {
+    log_report("  --mirror: faces that meet smoothly stay apart");
+    return "none";
+  }
+  asks_for_composites(word, o.model);
   if (o.check) throw Error(ExitCode::kUsage, "--composite joins faces of what is written, and --check writes nothing");
   if (!o.mirror.empty())
     throw Error(ExitCode::kUsage, "--composite joins faces across the plane of --mirror; give one of them");
+  return word;
+}
+
+/// Joins faces, and says so where any were or it was asked for.
+void join_faces(const ImportStageOptions& o, const std::string& word, GeometryArtifact& g, nlohmann::json& used,
+                nlohmann::json& json, std::string& line) {
+  if (word == "none") return;
+  std::string said;
+  try {
+    said = compose(g, word == "harm");
+  } catch (const Error& e) {
+    if (!o.composite.empty()) throw;
+    log_info(fmt::format("  faces stay apart: {}", e.what()));
+  }
+  if (o.composite.empty() && g.composites.empty()) return;
+  line += "; " + said;
+  used["composite"] = word;
+  const EntityCounts left = count_left(g.tables);
+  json["joined"] = {{"faces", left.faces}, {"edges", left.edges}, {"vertices", left.vertices}};
 }
 
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
-  const bool is_composed = asks_for_composites(o.composite, o.model);
-  if (is_composed) require_composable(o);
+  const std::string composite = composites_asked(o);
   ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
   nlohmann::json json = report(o.model, r);
@@ -490,10 +521,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
     for (const auto& [name, given] : {std::pair{"unite", o.unite}, {"join", o.join}, {"cap", o.cap}})
       if (given) used[name] = true;
-    if (is_composed) used["composite"] = o.composite;
     if (o.feature_angle) used["feature_angle"] = *o.feature_angle;
     if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
-    g.header.options_json = json_text(used);
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
@@ -505,11 +534,8 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.mirror = std::move(r.mirror);
     g.tables = std::move(r.tables);
     std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
-    if (is_composed) {
-      s.line += "; " + compose(g, o.composite == "harm");
-      json["joined"] = {
-          {"faces", g.tables.n_faces()}, {"edges", g.tables.n_edges()}, {"vertices", g.tables.n_vertices()}};
-    }
+    join_faces(o, composite, g, used, json, s.line);
+    g.header.options_json = json_text(used);
     json["hash"] = write_geometry(o.output, g);
     json["output"] = o.output;
   }

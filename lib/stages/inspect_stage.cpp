@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "geometry/model/joined_tables.h"
 #include "io/file/json_text.h"
 #include "io/hdf5/artifact.h"
 #include "io/hdf5/inspect.h"
@@ -96,9 +97,9 @@ FaceOrigins face_origins(const std::string& path, const ArtifactDescription& art
   FaceOrigins origins;
   if (artifact.header.schema != "geometry") return origins;
   if (artifact.rows("/st/composites/member") > 0) {
-    const ModelTables joined = read_geometry(path).tables;
-    origins.n_joined_faces = joined.n_faces();
-    origins.n_joined_edges = joined.n_edges();
+    const EntityCounts left = count_left(read_geometry(path).tables);
+    origins.n_joined_faces = left.faces;
+    origins.n_joined_edges = left.edges;
   }
   if (artifact.rows("/st/face/previous_id") == 0) return origins;
   const std::vector<InputRef>& inputs = artifact.header.inputs;

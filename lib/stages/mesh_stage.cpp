@@ -29,6 +29,7 @@
 #include "stages/cell_budget.h"
 #include "stages/expected_triangles.h"
 #include "stages/fitting_files.h"
+#include "stages/joined_numbers.h"
 #include "stages/pair_input.h"
 #include "stages/patches_result.h"
 #include "stages/resumption.h"
@@ -105,9 +106,15 @@ MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std:
   return plan;
 }
 
-void require_whole(const MeshStageOptions& o, const Composites& composites, const Mirror& mirror) {
-  if (!o.pairs.empty() && !composites.empty())
-    throw Error(ExitCode::kInput, o.geometry + ": --pairs needs the faces of the CAD; import it without --composite");
+/// Pairs are of faces that the CAD has.
+GeometryArtifact read_geometry_for(const MeshStageOptions& o) {
+  GeometryArtifact geometry = read_geometry(o.geometry);
+  if (!o.pairs.empty() && part_joined_faces(geometry))
+    log_report("  --pairs: joined faces are apart, as the CAD has them");
+  return geometry;
+}
+
+void require_whole(const MeshStageOptions& o, const Mirror& mirror) {
   if (mirror.empty()) return;
   for (const auto& [name, value] : {std::pair{"--faces", &o.faces}, {"--group", &o.group}, {"--edges", &o.edges}})
     if (!value->empty())
@@ -237,11 +244,13 @@ StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
   Progress progress("st-mesh", 1);
   progress.step("reading", 0);
   require_fitting({{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.edges, "patches"}});
-  GeometryArtifact geometry = read_geometry(o.geometry);
+  GeometryArtifact geometry = read_geometry_for(o);
   const Composites composites = geometry.composites;
   const Mirror mirror = std::move(geometry.mirror);
-  require_whole(o, composites, mirror);
-  std::vector<FaceId> faces = mirror.empty() ? select_faces(o, geometry.tables) : faces_to_mesh(mirror);
+  require_whole(o, mirror);
+  std::vector<FaceId> faces = mirror.empty()
+                                  ? whole_faces(select_faces(o, geometry.tables), composites, "--faces " + o.faces)
+                                  : faces_to_mesh(mirror);
   std::optional<MappedSizing> mapped;
   std::optional<Model> stored;
   run_jobs(

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/share.h"
 #include "base/threads.h"
+#include "geometry/model/joined_tables.h"
 #include "io/file/json_text.h"
 #include "io/file/output_files.h"
 #include "io/file/temporary_file.h"
@@ -179,7 +180,7 @@ nlohmann::json result_json(const ModelTables& t, const MeshResult& r) {
   nlohmann::json failures = nlohmann::json::array(), folds = nlohmann::json::array();
   for (const FaceFailure& f : r.failures) failures.push_back(failure_json(t, f));
   for (const RefinementPoint& p : r.folds) folds.push_back({p.x.x, p.x.y, p.x.z});
-  return {{"faces", t.n_faces()},
+  return {{"faces", count_left(t).faces},
           {"faces_failed", r.failures.size()},
           {"failures", failures},
           {"folds", folds},
@@ -208,7 +209,7 @@ StageSummary summary_of(const std::string& path, const ModelTables& t, const Art
                                     [](const FaceFailure& f) { return f.is_closed && f.is_near; });
   s.code = is_sound ? ExitCode::kOk : ExitCode::kIncomplete;
   s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path,
-                       w.n_triangles, w.n_patches, t.n_faces(), result.n_rounds, seconds, facts.n_ranks,
+                       w.n_triangles, w.n_patches, count_left(t).faces, result.n_rounds, seconds, facts.n_ranks,
                        seconds > 0 ? static_cast<double>(w.n_triangles) / seconds : 0.0);
   nlohmann::json json = result_json(t, result);
   json.update({{"tool", header.tool},
@@ -246,7 +247,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   out.composites = facts.composites;
   const std::vector<PatchCounts> counts = counts_of(result);
   const std::vector<FaceId> closed = closed_faces(out.merged, out.edges, out.edge_vertices);
-  out.is_complete = static_cast<std::int32_t>(counts.size() + closed.size()) == t.n_faces();
+  out.is_complete = static_cast<std::int32_t>(counts.size() + closed.size()) == count_left(t).faces;
   Written written;
   written.n_patches = counts.size();
   for (const PatchCounts& c : counts) {

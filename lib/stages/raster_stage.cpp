@@ -44,6 +44,7 @@
 #include "stages/cell_budget.h"
 #include "stages/coarse_surface.h"
 #include "stages/common_octree.h"
+#include "stages/joined_numbers.h"
 #include "stages/phase_times.h"
 #include "stages/same_inputs.h"
 #include "stages/size_tally.h"
@@ -597,6 +598,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
 Bytes locate(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
              double seconds, Vec3 origin, FaceId f) {
   const ModelTables& t = model.tables();
+  if (t.loops(f).empty()) return packed(std::vector<CellArea>(), std::string());  // joined to another face
   const CurrentWork at_face("face", f + 1, {seconds, WhenLate::kThrow});
   std::vector<CellArea> cells;
   std::string failure;
@@ -801,7 +803,7 @@ class RasterRun {
         progress_(progress),
         geometry_(read_geometry(o.geometry)),
         sizes_(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
-        rules_(all_rules(o, sizes_, geometry_.tables)),
+        rules_(all_rules(o, {rules_on_joined(sizes_.rules, geometry_), sizes_.hash}, geometry_.tables)),
         model_(same_model(comm)),
         roles_(face_roles(model_, trace_)),
         wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),

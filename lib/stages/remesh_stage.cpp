@@ -161,10 +161,11 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
                 fmt::format("--moved: {} is not a mesh artifact: only these know the geometry that moved", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
   if (!geometry.composites.empty())
-    throw Error(ExitCode::kInput,
-                fmt::format("{}: has joined faces, and {} is no mesh artifact: import the CAD without --composite for "
-                            "meshes of other programs",
-                            o.geometry, o.mesh));
+    throw Error(
+        ExitCode::kInput,
+        fmt::format("{}: has joined faces, and {} is no mesh artifact: import the CAD with --composite none for "
+                    "meshes of other programs",
+                    o.geometry, o.mesh));
   if (!o.tolerance.empty())
     require_unit(parse_length(o.tolerance, "--tolerance"), geometry.header.unit_in_m, "--tolerance");
   MappedSizing sizing = map_sizing(o.sizing);
@@ -236,6 +237,7 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   MappedSizing sizing = map_sizing(o.sizing);
   if (!o.moved) require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
+  part_as_meshed(old, geometry);
   ArtifactHeader header = geometry.header;
   Composites composites = geometry.composites;
   RemeshInput in{std::move(old), std::move(header), stored_model(geometry, o.geometry), std::move(sizing)};

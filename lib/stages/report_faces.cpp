@@ -46,7 +46,7 @@ nlohmann::ordered_json cad_numbers(const GeometryArtifact& geometry) {
   using Json = nlohmann::ordered_json;
   if (geometry.composites.empty()) return Json::object();
   const JoinedTables joined = join_tables(geometry.cad, geometry.composites);
-  Json faces(joined.cad_face.size(), Json::array()), edges = Json::array();
+  Json faces(joined.face_of.size(), Json::array()), edges = Json::array();
   for (std::size_t f = 0; f < joined.face_of.size(); ++f)
     faces[static_cast<std::size_t>(joined.face_of[f])].push_back(f + 1);
   for (EdgeId e = 0; e < joined.tables.n_edges(); ++e) {

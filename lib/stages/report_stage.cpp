@@ -258,6 +258,7 @@ Contents read_contents(const RunFiles& files) {
   c.is_meshed = !files.mesh.empty();
   if (c.is_meshed) c.mesh = read_mesh(files.mesh);
   if (geometry) {
+    if (c.is_meshed) part_as_meshed(c.mesh, *geometry);
     c.findings = std::move(geometry->findings);
     c.is_closed = geometry->is_closed;
     c.cad_numbers = cad_numbers(*geometry);

@@ -23,14 +23,26 @@ inline Model stored_model(GeometryArtifact& geometry, const std::string& path) {
   }
 }
 
-/// Likewise, where facets do not do: Error(kInput) for a model of them.
+/// Tables are those of the CAD, whatever is joined. Returns whether any face was.
+inline bool part_joined_faces(GeometryArtifact& geometry) {
+  if (geometry.composites.empty()) return false;
+  geometry.tables = std::move(geometry.cad);
+  geometry.cad = {};
+  geometry.composites = {};
+  return true;
+}
+
+/// Likewise where `mesh` was made of the faces of the CAD: such a mesh has no `cad_face` beside its faces.
+inline void part_as_meshed(const MeshArtifact& mesh, GeometryArtifact& geometry) {
+  if (mesh.triangle_cad_face.empty()) part_joined_faces(geometry);
+}
+
+/// As stored_model(), as the CAD has it. Error(kInput) for a model of facets.
 inline Model stored_cad(GeometryArtifact& geometry, const std::string& path) {
   if (!geometry.facets.empty())
     throw Error(ExitCode::kInput,
                 path + ": has facets, and this needs a CAD model: give one that st-import made of one");
-  if (!geometry.composites.empty())
-    throw Error(ExitCode::kInput,
-                path + ": has composite faces, and this needs those of the CAD: import it without --composite");
+  part_joined_faces(geometry);
   return stored_model(geometry, path);
 }
 

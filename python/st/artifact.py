@@ -68,14 +68,14 @@ class Artifact:
 
 
 class Geometry(Artifact):
-    """geometry.hdf: faces, edges, groups, findings; where faces of the CAD are joined, numbered as in the mesh."""
+    """geometry.hdf: faces, edges, groups, findings. All have the numbers of the CAD, from 0; joined ones the lowest."""
 
     def __init__(self, path):
         super().__init__(path)
         self.face_name, self.edge_name = self["/st/face/name"], self["/st/edge/name"]
         self.face_area, self.edge_length = self["/st/face/area"], self["/st/edge/length"]
         self.group_name, self.face_group = self["/st/group/name"], self["/st/face/group"]
-        # of each face and edge, the numbers, from 0, in the CAD: several where they are joined
+        # of each face and edge, those that are one with it: several where they are joined, none where part of a lower
         self.cad_faces = [[f] for f in range(len(self.face_name))]
         self.cad_edges = [[e] for e in range(len(self.edge_name))]
         if "/st/composites/member" in self:
@@ -84,14 +84,17 @@ class Geometry(Artifact):
     def _join(self):
         members, offsets = self["/st/composites/member"], self["/st/composites/member_offsets"]
         unions = [members[a:b].tolist() for a, b in zip(offsets, offsets[1:])]
-        others = sorted(set(range(len(self.face_name))) - {f for union in unions for f in union})
-        self.cad_faces = sorted(unions + [[f] for f in others])
-        first = [faces[0] for faces in self.cad_faces]
-        self.face_name, self.face_group = [self.face_name[f] for f in first], self.face_group[first]
-        self.face_area = numpy.array([self.face_area[faces].sum() for faces in self.cad_faces])
-        self.cad_edges = self._chains({f for union in unions for f in union})
-        self.edge_name = [self.edge_name[edges[0]] for edges in self.cad_edges]
-        self.edge_length = numpy.array([self.edge_length[edges].sum() for edges in self.cad_edges])
+        for union in unions:
+            area = self.face_area[union].sum()
+            self.face_area[union] = 0
+            self.face_area[union[0]] = area
+            for f in union:
+                self.cad_faces[f] = union if f == union[0] else []
+        length, chains = self.edge_length.copy(), self._chains({f for union in unions for f in union})
+        self.edge_length[:] = 0
+        self.cad_edges = [[] for _ in length]
+        for edges in chains:
+            self.cad_edges[edges[0]], self.edge_length[edges[0]] = edges, length[edges].sum()
 
     def _chains(self, joined_faces):
         """Edges that are left, those that go on as one together; poles of joined faces are gone."""

@@ -85,8 +85,49 @@ class Composite(ToolTest):
         folder = self.chain()
         must("st-export", folder / "mesh.hdf", "-o", folder / "m.stl")
         self.expect_error(INPUT, "st-remesh", folder / "m.stl", folder / "geometry.hdf", folder / "sizing.hdf", "-o",
-                          folder / "n.hdf", says=["has joined faces", "without --composite"])
-        self.assertEqual(Run("st-check", folder / "mesh.hdf", "--geometry", folder / "geometry.hdf").code, OK)
+                          folder / "n.hdf", says=["has joined faces", "--composite none"])
+        for mesh in ("mesh.hdf", "m.stl"):
+            self.assertEqual(Run("st-check", folder / mesh, "--geometry", folder / "geometry.hdf").code, OK, mesh)
+
+    def test_numbers_are_those_of_the_cad(self):
+        folder = self.chain()
+        info = must("st-info", folder / "geometry.hdf", "--json").json()
+        faces = must("st-info", folder / "mesh.hdf", "--groups", "--json").json()["tables"][0]["groups"]
+        self.assertEqual(sorted(f for g in faces for f in g["faces"]), list(range(1, info["counts"]["faces"] + 1)))
+        rule = '[[size]]\nfaces = [{}]\nlmax = "1%"\n'
+        said = {}
+        for face in range(1, info["counts"]["faces"] + 1):
+            (folder / "sizes.toml").write_text(rule.format(face))
+            run = must("st-raster", folder / "geometry.hdf", "-o", folder / "r.hdf", "--sizes", folder / "sizes.toml",
+                       "--json")
+            said.setdefault(("are joined" in run.err + run.out, run.json()["hash"]), []).append(face)
+        skins = [faces for (is_joined, _), faces in said.items() if is_joined]
+        self.assertEqual([len(faces) for faces in skins], [4, 4], said)  # each of a skin's 4 stands for all of it
+
+    def test_a_part_of_a_union_is_meshed_whole(self):
+        folder = self.chain()
+        run = must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "p.hdf", "--faces", "2-3",
+                   "--json")
+        self.assertEqual(run.json()["faces_meshed"], 1)
+        self.assertIn("are joined", run.err + run.out)
+
+    def test_edits_keep_unions_that_move_as_one(self):
+        folder = self.chain()
+        must("st-edit", folder / "geometry.hdf", "-o", folder / "moved.hdf", "--transform", "rotate 0 0 1 10")
+        before, after = (must("st-info", folder / f, "--json").json()["joined"] for f in ("geometry.hdf", "moved.hdf"))
+        self.assertEqual(before, after)
+        must("st-raster", folder / "moved.hdf", "-o", folder / "r.hdf")
+        must("st-prolong", folder / "r.hdf", "-o", folder / "s.hdf")
+        must("st-remesh", folder / "mesh.hdf", folder / "moved.hdf", folder / "s.hdf", "--moved", "--merged",
+             folder / "n.hdf")
+        self.assertEqual(Run("st-check", folder / "n.hdf", "--geometry", folder / "moved.hdf").code, OK)
+        run = must("st-edit", folder / "geometry.hdf", "-o", folder / "large.hdf", "--transform", "scale 2")
+        self.assertIn("are apart", run.err + run.out)
+        self.assertNotIn("joined", must("st-info", folder / "large.hdf", "--json").json())
+
+    def test_the_cad_is_exported_as_flite(self):
+        folder = self.chain()
+        must("st-export", folder / "geometry.hdf", "-o", folder / "all.dat")
 
 
 if __name__ == "__main__":

@@ -10,16 +10,8 @@ namespace st {
 
 CadPlaces::CadPlaces(const Composites& composites, FaceId n_faces)
     : composites_(composites), composite_(static_cast<std::size_t>(n_faces), kNone) {
-  const FaceId n_cad = n_faces - composites.size() + static_cast<FaceId>(composites.member.size());
-  std::vector<std::int32_t> composite_of(static_cast<std::size_t>(n_cad), kNone);
   for (std::int32_t i = 0; i < composites.size(); ++i)
-    for (const FaceId f : composites.members(i)) composite_of[static_cast<std::size_t>(f)] = i;
-  for (FaceId f = 0; f < n_cad; ++f) {
-    const std::int32_t i = composite_of[static_cast<std::size_t>(f)];
-    if (i != kNone && composites.members(i).front() != f) continue;
-    composite_[cad_face_.size()] = i;
-    cad_face_.push_back(f);
-  }
+    composite_[static_cast<std::size_t>(composites.members(i).front())] = i;
 }
 
 std::vector<CadPlace> CadPlaces::on(FaceId face, std::span<const Vec2> uv) const {
@@ -27,7 +19,7 @@ std::vector<CadPlace> CadPlaces::on(FaceId face, std::span<const Vec2> uv) const
   std::vector<CadPlace> places;
   places.reserve(uv.size());
   if (i == kNone) {
-    for (const Vec2 p : uv) places.push_back({cad_face_[static_cast<std::size_t>(face)], p});
+    for (const Vec2 p : uv) places.push_back({face, p});
     return places;
   }
   const Chart chart = composites_.chart(i);
@@ -51,11 +43,10 @@ std::vector<Vec2> middles(std::span<const Vec2> uv) {
 bool has_sound_charts(const Composites& c, FaceId n_faces) {
   if (c.member_offsets.empty()) return false;
   const auto n = static_cast<std::size_t>(c.size());
-  const std::int64_t n_cad = std::int64_t{n_faces} - c.size() + static_cast<std::int64_t>(c.member.size());
   std::vector<FaceId> members = c.member;
   std::ranges::sort(members);
-  if (n_faces < c.size() || !are_offsets(c.member_offsets, n, c.member.size()) || members.empty() ||
-      members.front() < 0 || members.back() >= n_cad || std::ranges::adjacent_find(members) != members.end() ||
+  if (!are_offsets(c.member_offsets, n, c.member.size()) || members.empty() || members.front() < 0 ||
+      members.back() >= n_faces || std::ranges::adjacent_find(members) != members.end() ||
       !are_offsets(c.node_offsets, n, c.node_uv.size()) || c.node_xyz.size() != c.node_uv.size() ||
       !are_offsets(c.triangle_offsets, n, c.triangle_nodes.size()) ||
       c.triangle_face.size() != c.triangle_nodes.size() || c.triangle_uv.size() != c.triangle_nodes.size())

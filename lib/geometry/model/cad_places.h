@@ -19,7 +19,7 @@ struct CadPlace {
 
 class CadPlaces {
  public:
-  /// `composites` outlive it. `n_faces`: those left after joining.
+  /// `composites` outlive it. `n_faces`: of the CAD.
   CadPlaces(const Composites& composites, FaceId n_faces);
 
   /// Of places (u,v) on a face: the member at each, and (u,v) there. Cost: the chart's facets once, then some triangles
@@ -28,8 +28,7 @@ class CadPlaces {
 
  private:
   const Composites& composites_;
-  std::vector<FaceId> cad_face_;         // [n_faces] the lowest
-  std::vector<std::int32_t> composite_;  // [n_faces] kNone: one CAD face
+  std::vector<std::int32_t> composite_;  // [n_faces] at its lowest face, else kNone
 };
 
 /// Middles of triangles, from the (u,v) of their corners.

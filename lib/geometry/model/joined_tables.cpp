@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "geometry/model/rectangle_width.h"
-#include "geometry/model/select_tables.h"
 
 namespace st {
 namespace {
@@ -34,20 +33,14 @@ class TableJoiner {
   JoinedTables run() {
     mark();
     find_chains();
-    for (FaceId f = 0; f < cad_.n_faces(); ++f)
-      if (const std::int32_t i = composite_of_[f]; i == kNone || composites_.members(i).front() == f)
-        joined_.cad_face.push_back(f);
-    ModelTables& t = joined_.tables;
-    select_faces(cad_, joined_.cad_face, t);
-    add_edges();
+    joined_.tables = cad_;
+    join_edges();
     add_loops();
-    for (FaceId f = 0; f < t.n_faces(); ++f)
-      if (joined_.composite[f] != kNone) measure(f);
-    t.n_shells = cad_.n_shells;
-    t.n_solids = cad_.n_solids;
-    t.volume = cad_.volume;
-    t.unit = cad_.unit;
-    t.unit_in_m = cad_.unit_in_m;
+    for (FaceId f = 0; f < cad_.n_faces(); ++f)
+      if (joined_.composite[f] != kNone)
+        measure(f);
+      else if (joined_.face_of[f] != f)
+        empty(f);
     return std::move(joined_);
   }
 
@@ -95,44 +88,38 @@ class TableJoiner {
             at_vertex_[v].push_back(e);
     joined_.piece_offsets = {0};
     for (EdgeId e = 0; e < cad_.n_edges(); ++e) {
-      if (is_gone(e) || chain_of_[e] != kNone) continue;
-      EdgePiece p{e, false};
-      if (!cad_.edge_is_degenerate[e])
-        for (EdgePiece before = beyond(p, false); before.edge != kNone && before.edge != e; before = beyond(p, false))
-          p = before;
-      for (; p.edge != kNone && chain_of_[p.edge] == kNone;
-           p = cad_.edge_is_degenerate[e] ? EdgePiece{} : beyond(p, true)) {
-        chain_of_[p.edge] = static_cast<EdgeId>(joined_.piece_offsets.size()) - 1;
-        place_in_chain_[p.edge] = static_cast<std::int32_t>(joined_.pieces.size()) - joined_.piece_offsets.back();
-        joined_.pieces.push_back(p);
-      }
+      if (!is_gone(e) && chain_of_[e] == kNone) add_chain(e);
       joined_.piece_offsets.push_back(static_cast<std::int32_t>(joined_.pieces.size()));
     }
   }
 
-  void add_edges() {
-    std::vector<EdgeId> first;
-    std::vector<std::uint8_t> is_used(static_cast<std::size_t>(cad_.n_vertices()), 0), is_left = is_used;
-    for (EdgeId e = 0; e < cad_.n_edges(); ++e)
-      for (const int k : {0, 1}) {
-        const VertexId v = cad_.edge_vertices[2 * static_cast<std::size_t>(e) + k];
-        is_used[v] = 1;
-        if (!is_gone(e) && !is_inside_[v]) is_left[v] = 1;
-      }
-    std::vector<VertexId> vertices;
-    for (VertexId v = 0; v < cad_.n_vertices(); ++v)
-      if (is_left[v] || !is_used[v]) vertices.push_back(v);
-    const auto n = static_cast<EdgeId>(joined_.piece_offsets.size()) - 1;
-    for (EdgeId e = 0; e < n; ++e) first.push_back(joined_.pieces_of(e).front().edge);
+  void add_chain(EdgeId e) {
+    EdgePiece p{e, false};
+    if (!cad_.edge_is_degenerate[e])
+      for (EdgePiece before = beyond(p, false); before.edge != kNone && before.edge != e; before = beyond(p, false))
+        p = before;
+    for (; p.edge != kNone && chain_of_[p.edge] == kNone;
+         p = cad_.edge_is_degenerate[e] ? EdgePiece{} : beyond(p, true)) {
+      chain_of_[p.edge] = e;
+      place_in_chain_[p.edge] = static_cast<std::int32_t>(joined_.pieces.size()) - joined_.piece_offsets.back();
+      joined_.pieces.push_back(p);
+    }
+  }
+
+  void join_edges() {
     ModelTables& t = joined_.tables;
-    const std::vector<std::int32_t> place = places(vertices, cad_.n_vertices());
-    select_edges(cad_, first, vertices, t);
-    for (EdgeId e = 0; e < n; ++e) {
+    for (EdgeId e = 0; e < cad_.n_edges(); ++e) {
       const auto pieces = joined_.pieces_of(e);
-      if (pieces.size() == 1) continue;
       const auto row = 2 * static_cast<std::size_t>(e);
-      t.edge_vertices[row] = place[end(pieces.front(), false)];
-      t.edge_vertices[row + 1] = place[end(pieces.back(), true)];
+      if (pieces.empty()) {  // a point without a use
+        t.edge_vertices[row + 1] = t.edge_vertices[row];
+        t.edge_length[e] = 0;
+        t.edge_is_degenerate[e] = 1;
+        t.edge_name[e].clear();
+      }
+      if (pieces.size() < 2) continue;
+      t.edge_vertices[row] = end(pieces.front(), false);
+      t.edge_vertices[row + 1] = end(pieces.back(), true);
       t.edge_length[e] = 0;
       for (const EdgePiece& p : pieces) {
         t.edge_length[e] += cad_.edge_length[p.edge];
@@ -211,23 +198,22 @@ class TableJoiner {
   void add_loops() {
     ModelTables& t = joined_.tables;
     t.face_loop_offsets = t.loop_coedge_offsets = {0};
+    t.coedge_edge.clear();
+    t.coedge_is_reversed.clear();
     joined_.coedge_piece_offsets = {0};
-    joined_.face_of.resize(static_cast<std::size_t>(cad_.n_faces()));
-    for (FaceId f = 0; f < t.n_faces(); ++f) {
-      const FaceId cad = joined_.cad_face[f];
-      const std::int32_t composite = composite_of_[cad];
-      joined_.composite.push_back(composite);
-      if (composite == kNone) {
-        joined_.face_of[cad] = f;
-        for (const LoopId l : cad_.loops(cad)) {
+    for (FaceId f = 0; f < cad_.n_faces(); ++f) {
+      const std::int32_t composite = composite_of_[f];
+      const FaceId first = composite == kNone ? f : composites_.members(composite).front();
+      joined_.face_of.push_back(first);
+      joined_.composite.push_back(first == f ? composite : kNone);
+      if (composite == kNone)
+        for (const LoopId l : cad_.loops(f)) {
           std::vector<Step> loop;
           for (const CoedgeId c : cad_.loop_coedges(l)) loop.push_back(step(c));
           add_loop(std::move(loop));
         }
-      } else {
-        for (const FaceId m : composites_.members(composite)) joined_.face_of[m] = f;
+      else if (first == f)
         for (std::vector<Step>& loop : rim_loops(composite)) add_loop(std::move(loop));
-      }
       t.face_loop_offsets.push_back(t.n_loops());
     }
   }
@@ -288,6 +274,12 @@ class TableJoiner {
           composites_.uv_bounds[4 * static_cast<std::size_t>(composite) + k];
   }
 
+  /// All of it is in the composite.
+  void empty(FaceId f) {
+    joined_.tables.face_area[f] = joined_.tables.face_width[f] = 0;
+    joined_.tables.face_type[f] = SurfaceType::kOther;
+  }
+
   bool is_flat(std::int32_t composite, double tolerance) const {
     const Chart chart = composites_.chart(composite);
     Vec3 sum{};
@@ -313,6 +305,20 @@ class TableJoiner {
 
 JoinedTables join_tables(const ModelTables& cad, const Composites& composites) {
   return TableJoiner(cad, composites).run();
+}
+
+EntityCounts count_left(const ModelTables& t) {
+  EntityCounts n;
+  std::vector<std::uint8_t> has_edge(static_cast<std::size_t>(t.n_edges()), 0),
+      has_vertex(static_cast<std::size_t>(t.n_vertices()), 0);
+  for (FaceId f = 0; f < t.n_faces(); ++f) n.faces += t.loops(f).empty() ? 0 : 1;
+  for (const EdgeId e : t.coedge_edge) {
+    has_edge[e] = 1;
+    for (const std::size_t k : {0, 1}) has_vertex[t.edge_vertices[2 * static_cast<std::size_t>(e) + k]] = 1;
+  }
+  n.edges = static_cast<std::int32_t>(std::ranges::count(has_edge, 1));
+  n.vertices = static_cast<std::int32_t>(std::ranges::count(has_vertex, 1));
+  return n;
 }
 
 }  // namespace st

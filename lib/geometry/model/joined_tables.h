@@ -19,10 +19,9 @@ struct EdgePiece {
 /// Tables, and what of the CAD each of their entities is.
 struct JoinedTables {
   ModelTables tables;
-  std::vector<std::int32_t> composite;             ///< [n_faces] kNone: one CAD face
-  std::vector<FaceId> cad_face;                    ///< [n_faces] the lowest
-  std::vector<FaceId> face_of;                     ///< [n CAD faces]
-  std::vector<EdgePiece> pieces;                   ///< along each edge
+  std::vector<std::int32_t> composite;             ///< [n_faces] kNone: one CAD face, or part of a lower one
+  std::vector<FaceId> face_of;                     ///< [n_faces] the lowest of the composite, else the face itself
+  std::vector<EdgePiece> pieces;                   ///< along each edge; none where it is joined or part of a lower one
   std::vector<std::int32_t> piece_offsets;         ///< [n_edges+1]
   std::vector<CoedgeId> coedge_pieces;             ///< CAD coedges along the edge of each coedge
   std::vector<std::int32_t> coedge_piece_offsets;  ///< [n_coedges+1]
@@ -38,9 +37,17 @@ struct JoinedTables {
   }
 };
 
-/// A composite has the number of its lowest member among the faces that are left, and what the CAD says of that one;
-/// its normal points outward. Edges between members go, those that go on into each other are one. Precondition:
-/// `composites` does not contradict `cad`.
+/// All entities keep the numbers of the CAD. A composite is the lowest of its members, and has what the CAD says of
+/// that one; its normal points outward. The others have no loops and no area. Edges between members, and the higher
+/// ones of those that go on into each other, are degenerate and in no loop. Precondition: `composites` does not
+/// contradict `cad`.
 JoinedTables join_tables(const ModelTables& cad, const Composites& composites);
+
+struct EntityCounts {
+  std::int32_t faces = 0, edges = 0, vertices = 0;
+};
+
+/// Of tables: faces with loops, edges in these, and their vertices. The others are part of joined ones.
+EntityCounts count_left(const ModelTables& tables);
 
 }  // namespace st

@@ -146,7 +146,7 @@ const Model& Model::cad() const { return impl_->cad ? *impl_->cad : *this; }
 
 std::vector<FaceId> Model::cad_faces(FaceId face, std::span<const Vec2> uv) const {
   const std::int32_t i = impl_->cad ? impl_->joined.composite[face] : kNone;
-  if (i == kNone) return std::vector<FaceId>(uv.size(), impl_->cad ? impl_->joined.cad_face[face] : face);
+  if (i == kNone) return std::vector<FaceId>(uv.size(), face);
   const ChartSurface chart(impl_->composites.chart(i));
   const std::span<const FaceId> of_triangle =
       std::span(impl_->composites.triangle_face)
@@ -202,7 +202,7 @@ std::unique_ptr<Curve2d> Model::Impl::trimming(FaceId face, CoedgeId coedge, Edg
   const std::int32_t i = joined.composite[face];
   std::vector<std::unique_ptr<Curve2d>> curves;
   for (const CoedgeId c : joined.pieces_of_coedge(coedge))
-    curves.push_back(i == kNone ? cad->pcurve(joined.cad_face[face], c) : rim(i, c));
+    curves.push_back(i == kNone ? cad->pcurve(face, c) : rim(i, c));
   if (curves.size() == 1) return std::move(curves[0]);
   return std::make_unique<ChainCurve2d>(parameters_of(cad->tables(), joined.pieces_of(edge)), std::move(curves));
 }
@@ -230,8 +230,7 @@ std::unique_ptr<Surface> Model::surface(FaceId face) const {
   return impl_->surfaces.get(face, [&]() -> std::unique_ptr<Surface> {
     if (impl_->cad) {
       const std::int32_t composite = impl_->joined.composite[face];
-      return composite == kNone ? impl_->cad->surface(impl_->joined.cad_face[face])
-                                : impl_->composite(composite, tables_.face_type[face], b);
+      return composite == kNone ? impl_->cad->surface(face) : impl_->composite(composite, tables_.face_type[face], b);
     }
     if (!facets_.empty()) return surface_of(facets_, tables_, face);
     return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {b[0], b[1], b[2], b[3]});

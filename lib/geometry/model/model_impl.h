@@ -72,7 +72,7 @@ struct Model::Impl {
 
   std::vector<FaceId> cad_faces(FaceId face) const {
     const std::int32_t i = joined.composite[face];
-    if (i == kNone) return {joined.cad_face[face]};
+    if (i == kNone) return {face};
     const std::span<const FaceId> members = composites.members(i);
     return {members.begin(), members.end()};
   }

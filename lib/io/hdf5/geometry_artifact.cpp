@@ -1,7 +1,5 @@
 // geometry.hdf: docs/artifacts.md
-#include <charconv>
 #include <cmath>
-#include <map>
 #include <type_traits>
 #include <utility>
 
@@ -213,28 +211,6 @@ FacetShape read_facets(const Hdf5Reader& r) {
   return f;
 }
 
-/// The import names faces and edges by their numbers in the CAD: stages look for those of the tables.
-void name_as_joined(const JoinedTables& joined, std::vector<ImportFinding>& findings) {
-  std::map<EdgeId, EdgeId> edge_of;
-  for (EdgeId e = 0; e < joined.tables.n_edges(); ++e)
-    for (const EdgePiece& p : joined.pieces_of(e)) edge_of[p.edge] = e;
-  for (ImportFinding& f : findings) {
-    const bool is_face = f.entity.starts_with("face "), is_edge = f.entity.starts_with("edge ");
-    if (!is_face && !is_edge) continue;
-    const std::size_t end = std::min(f.entity.find(' ', 5), f.entity.size());
-    std::int32_t number = 0;
-    if (std::from_chars(&f.entity[5], f.entity.data() + end, number).ptr != f.entity.data() + end) continue;
-    const auto edge = edge_of.find(number - 1);
-    const std::string rest = f.entity.substr(end);
-    if (is_edge && edge == edge_of.end())
-      f.entity = "joined edge " + std::to_string(number) + rest;
-    else if (is_edge || (number >= 1 && static_cast<std::size_t>(number) <= joined.face_of.size()))
-      f.entity = f.entity.substr(0, 5) +
-                 std::to_string((is_edge ? edge->second : joined.face_of[static_cast<std::size_t>(number) - 1]) + 1) +
-                 " (" + std::to_string(number) + " of the CAD)" + rest;
-  }
-}
-
 void write_mirror(Hdf5Writer& w, const Mirror& mirror) {
   if (mirror.empty()) return;
   w.write("/st/mirror/plane", std::vector<double>{static_cast<double>(mirror.axis), mirror.value});
@@ -275,16 +251,7 @@ void join_faces(const Hdf5Reader& r, GeometryArtifact& geometry) {
   const Composites& c = geometry.composites = read_composites(r);
   if (const std::string what = c.contradiction(geometry.tables); !what.empty())
     r.fail("/st/composites", "the " + what + " contradict the tables");
-  JoinedTables joined = join_tables(geometry.tables, c);
-  name_as_joined(joined, geometry.findings);
-  geometry.cad = std::exchange(geometry.tables, std::move(joined.tables));
-  std::vector<std::int32_t> previous;
-  for (const FaceId f : joined.cad_face) {
-    const bool is_same = geometry.previous_faces.empty();
-    previous.push_back(is_same ? f : geometry.previous_faces[2 * static_cast<std::size_t>(f)]);
-    previous.push_back(is_same ? 0 : geometry.previous_faces[2 * static_cast<std::size_t>(f) + 1]);
-  }
-  geometry.previous_faces = std::move(previous);
+  geometry.cad = std::exchange(geometry.tables, join_tables(geometry.tables, c).tables);
 }
 
 }  // namespace

@@ -80,6 +80,8 @@ MeshPart read_mesh_part(const std::string& path, int part, int n_parts) {
     m.triangles[i / 3].n[i % 3] = static_cast<NodeId>(nodes[i]) - (is_inner ? result.inner_shift : 0);
   }
   m.triangle_face = zero_based(rows.read<std::int32_t>("/VTKHDF/CellData/face", begin, n));
+  if (r.has("/VTKHDF/CellData/cad_face"))
+    result.artifact.triangle_cad_face = zero_based(rows.read<std::int32_t>("/VTKHDF/CellData/cad_face", begin, n));
   m.node_xyz = read_nodes<Vec3>(rows, "/VTKHDF/Points", range);
   m.node_entity_dim = read_nodes<std::uint8_t>(rows, "/VTKHDF/PointData/entity_dim", range);
   m.node_entity = zero_based(read_nodes<std::int32_t>(rows, "/VTKHDF/PointData/entity_id", range));

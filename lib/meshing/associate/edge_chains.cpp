@@ -53,7 +53,8 @@ class VertexFinder {
  private:
   void find_nearest() {
     is_used_.assign(t_.n_vertices(), 0);
-    for (const VertexId v : t_.edge_vertices) is_used_[v] = 1;
+    for (const EdgeId e : t_.coedge_edge)  // those of joined edges have none
+      for (const int k : {0, 1}) is_used_[t_.edge_vertices[2 * e + k]] = 1;
     node_.assign(t_.n_vertices(), kNone);
     const MatchedParts parts = match_parts(mesh_, t_);
     std::vector<std::vector<NodeId>> nodes(parts.n_parts);
@@ -89,6 +90,7 @@ class VertexFinder {
     std::vector<VertexId> best(t_.n_vertices(), kNone);
     for (std::size_t i = 0; i < t_.edge_vertices.size(); ++i) {
       const VertexId v = t_.edge_vertices[i], root = result.tables.edge_vertices[i];
+      if (!is_used_[v]) continue;
       if (best[root] == kNone || std::pair(off(v), v) < std::pair(off(best[root]), best[root])) best[root] = v;
     }
     std::vector<VertexId> without;

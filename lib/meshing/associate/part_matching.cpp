@@ -20,14 +20,17 @@ struct Extent {
 /// Connected component of each vertex: a face connects the vertices of all its edges.
 std::vector<std::int32_t> vertex_components(const ModelTables& t, std::int32_t& n) {
   DisjointSets sets(t.n_vertices());
+  std::vector<char> is_used(t.n_vertices(), 0);  // not by joined edges
   for (FaceId f = 0; f < t.n_faces(); ++f) {
     VertexId first = kNone;
+    for (const EdgeId e : t.edges_of(f)) is_used[t.edge_vertices[2 * e]] = is_used[t.edge_vertices[2 * e + 1]] = 1;
     for (const CoedgeId c : t.coedges(f))
       for (const VertexId v : {t.edge_vertices[2 * t.coedge_edge[c]], t.edge_vertices[2 * t.coedge_edge[c] + 1]})
         first == kNone ? void(first = v) : sets.join(first, v);
   }
   std::vector<std::int32_t> component(t.n_vertices(), kNone);
-  for (VertexId v = 0; v < t.n_vertices(); ++v) component[v] = sets.find(v) == v ? n++ : component[sets.find(v)];
+  for (VertexId v = 0; v < t.n_vertices(); ++v)
+    if (is_used[v]) component[v] = sets.find(v) == v ? n++ : component[sets.find(v)];
   return component;
 }
 
@@ -85,7 +88,7 @@ MatchedParts match_parts(const SurfaceMesh& mesh, const ModelTables& t) {
     part_of[c] = p;
     is_taken[p] = 1;
   }
-  for (const std::int32_t c : component) result.vertex_part.push_back(part_of[c]);
+  for (const std::int32_t c : component) result.vertex_part.push_back(c == kNone ? 0 : part_of[c]);
   return result;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "geometry/model/joined_tables.h"
 #include "geometry/shape/flatten.h"
 #include "unit/geometry/joined_models.h"
 
@@ -21,13 +22,13 @@ TEST(FindComposites, keeps_one_cut_of_a_tube) {
   const test::Joined joined("cylinder_of_8");
   EXPECT_EQ(joined.composites.member.size(), 8u);
   EXPECT_EQ(joined.composites.joined_edges.size(), 7u);
-  EXPECT_EQ(joined.model.tables().n_faces(), 3);
+  EXPECT_EQ(count_left(joined.model.tables()).faces, 3);
 }
 
 TEST(FindComposites, joins_faces_with_seams) {
   const test::Joined joined("cone_on_cylinder");
   EXPECT_EQ(joined.composites.member.size(), 2u);
-  EXPECT_EQ(joined.model.tables().n_faces(), 3);
+  EXPECT_EQ(count_left(joined.model.tables()).faces, 3);
 }
 
 TEST(FindComposites, lays_ruled_skins_out_without_stretch) {

@@ -17,7 +17,8 @@ struct Skin {
 
   Skin() {
     for (FaceId f = 0; f < joined.model.tables().n_faces(); ++f)
-      if (joined.model.tables().face_type[f] != SurfaceType::kPlane) face = f;
+      if (joined.model.tables().face_type[f] != SurfaceType::kPlane && !joined.model.tables().loops(f).empty())
+        face = f;
     surface = joined.model.surface(face);
   }
   /// Places inside the chart.

@@ -38,8 +38,9 @@ TEST(Compose, reads_words) {
 TEST(Compose, joins_the_skins_of_a_wing_and_says_so_in_the_artifact) {
   const GeometryArtifact g = composed("wing_of_200", "smooth", "");
   EXPECT_EQ(g.cad.n_faces(), 202);
-  EXPECT_LE(g.tables.n_faces(), 4);
-  EXPECT_EQ(g.previous_faces.size(), 2 * static_cast<std::size_t>(g.tables.n_faces()));
+  EXPECT_EQ(g.tables.n_faces(), 202);
+  EXPECT_LE(count_left(g.tables).faces, 4);
+  EXPECT_TRUE(g.previous_faces.empty());  // all have the numbers of the CAD
 }
 
 TEST(Compose, keeps_the_cad_as_it_is_without_the_option) {
@@ -101,9 +102,10 @@ TEST(Compose, says_both_numbers_of_faces) {
   GeometryArtifact geometry = cut_wing_artifact();
   const FaceId n = geometry.tables.n_faces();
   const std::string said = compose(geometry, false);
-  EXPECT_LT(geometry.tables.n_faces(), n);
+  const EntityCounts left = count_left(geometry.tables);
+  EXPECT_LT(left.faces, n);
   EXPECT_EQ(geometry.cad.n_faces(), n);
-  EXPECT_NE(said.find(std::to_string(geometry.tables.n_faces()) + " faces and "), std::string::npos) << said;
+  EXPECT_NE(said.find(std::to_string(left.faces) + " faces and "), std::string::npos) << said;
 }
 
 TEST(Compose, says_that_nothing_is_joined) {
@@ -138,16 +140,13 @@ TEST(Compose, findings_mark_the_face_that_theirs_is_in) {
   write_geometry(path, geometry);
   GeometryArtifact read = read_geometry(path);
   EXPECT_EQ(read.header.schema_version, 2);
-  const JoinedTables joined = join_tables(read.cad, read.composites);
-  for (FaceId f = 0; f < n; ++f)
-    EXPECT_EQ(read.findings[f].entity,
-              "face " + std::to_string(joined.face_of[f] + 1) + " (" + std::to_string(f + 1) + " of the CAD) \"S\"");
-  const std::vector<ImportFinding> last = {read.findings.back()};
-  const CellView view = view_cad(stored_model(read, path), last);
+  for (FaceId f = 0; f < n; ++f) EXPECT_EQ(read.findings[f].entity, "face " + std::to_string(f + 1) + " \"S\"");
+  const std::vector<ImportFinding> skin = {read.findings[3]};
+  const CellView view = view_cad(stored_model(read, path).cad(), skin);
   std::set<std::int32_t> marked;
   for (std::size_t i = 0; i < view.types.size(); ++i)
     if (view.values[5].second[i] > 0 && view.values[0].second[i] == 2) marked.insert(view.values[1].second[i]);
-  EXPECT_EQ(marked, (std::set<std::int32_t>{joined.face_of[n - 1] + 1}));
+  EXPECT_EQ(marked, (std::set<std::int32_t>{4}));
 }
 
 TEST(Compose, damaged_records_of_joined_faces_are_no_loop_without_end) {
