@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kSharpCorner = radians(25);   // a triangle in it has no larger angle
 constexpr double kShort = 0.7;                 // of the length: an edge or a width below it spoils triangles
+constexpr double kAcross = 1.5;                // widths: an edge across a narrow face is no longer
 constexpr double kDefaultLmax = 0.025;         // of the diagonal: as st-raster has it
 constexpr double kDefaultAlpha = radians(10);  // likewise
 constexpr double kChartDeflection = 1e-3;      // of the diagonal
@@ -116,9 +117,11 @@ class HarmFinder {
       if (t_.edge_length[other] < kShort * length_at(own)) add(own, 1);
   }
 
+  /// Beyond an edge across a narrow face it is as narrow.
   void judge_width(FaceId f, CoedgeId c) {
     const EdgeId e = t_.coedge_edge[c];
-    if (may_join_[e] && t_.face_width[f] < kShort * length_at(e)) add(e, 2);
+    if (may_join_[e] && t_.edge_length[e] > kAcross * t_.face_width[f] && t_.face_width[f] < kShort * length_at(e))
+      add(e, 2);
   }
 
   /// What st-raster would ask for at an edge by default, about.

@@ -58,6 +58,21 @@ TEST(Compose, asks_only_for_edges_that_do_harm) {
   EXPECT_EQ(std::ranges::count(all.may_join, 1), 8);
 }
 
+TEST(Compose, narrow_faces_are_no_reason_to_join_at_edges_across_them) {
+  ImportResult cad = test::import_shape("cylinder_of_8");
+  const Model model(cad.tables, cad.brep);
+  const JoinRequest before = join_request(model, true);
+  for (EdgeId e = 0; e < cad.tables.n_edges(); ++e)  // as if the strips were short, and the edges between them across
+    if (before.urgency[e] > 0) cad.tables.edge_length[e] = 0.05;
+  std::ranges::fill(cad.tables.face_width, 0.05);
+  const JoinRequest across = join_request(Model(cad.tables, cad.brep), true);
+  for (EdgeId e = 0; e < cad.tables.n_edges(); ++e) {
+    if (before.urgency[e] > 0) {
+      EXPECT_LT(across.urgency[e], before.urgency[e]);
+    }
+  }
+}
+
 TEST(Compose, leaves_groups_and_named_edges_apart) {
   ImportResult cad = test::import_shape("cylinder_of_8");
   const JoinRequest all = join_request(Model(cad.tables, cad.brep), false);
