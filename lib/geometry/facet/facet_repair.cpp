@@ -96,14 +96,17 @@ class FacetRepair {
     for (std::size_t n = 0; n < in_.x.size(); ++n)
       std::sort(order.begin() + offsets[n], order.begin() + offsets[n + 1],
                 [&](std::int32_t a, std::int32_t b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
-    std::vector<std::uint8_t> is_kept(sorted.size(), 1);
+    std::vector<std::uint8_t> is_kept(sorted.size(), 0);
     std::size_t n_duplicates = 0;
     Vec3 place;
-    for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t i = 0, j; i < order.size(); i = j) {
       const Corners& c = sorted[order[i]];
-      const bool is_same = i > 0 && c == sorted[order[i - 1]], is_point = c[0] == c[1] || c[1] == c[2];
-      if (is_same && !is_point && n_duplicates++ == 0) place = in_.x[c[0]];
-      is_kept[order[i]] = !is_same && !is_point;
+      for (j = i + 1; j < order.size() && sorted[order[j]] == c;) ++j;
+      if (c[0] == c[1] || c[1] == c[2]) continue;
+      if (j - i > 1 && n_duplicates == 0) place = in_.x[c[0]];
+      const bool is_left = (j - i) % 2 == 1 || flatness(c) > kNoNormal;  // two without area on one another are nothing
+      is_kept[order[i]] = is_left;
+      n_duplicates += j - i - is_left;
     }
     if (n_duplicates > 0) add(FindingKind::kDuplicateFacets, place, 0, n_duplicates);
     std::size_t n = 0;
@@ -315,11 +318,20 @@ class FacetRepair {
     const bool is_flat = dot(normalized(area_normal(c)), normalized(normal)) > kAtCorner;
     if (!is_flat && flatness(c) > kNoNormal && !is_folded(t, neighbours)) return false;  // a sharp edge
     if (opposite == apex || has_side(apex, opposite)) return false;
-    if (!(dot(area_normal(first), normal) > 0 && dot(area_normal(second), normal) > 0)) return false;
-    if (std::min(flatness(first), flatness(second)) <= flatness(c)) return false;
+    if (!is_line_on_line(c, o, a + b)) {
+      if (!(dot(area_normal(first), normal) > 0 && dot(area_normal(second), normal) > 0)) return false;
+      if (std::min(flatness(first), flatness(second)) <= flatness(c)) return false;
+    }
     in_.corners[t] = first;
     in_.corners[other] = second;
     return true;
+  }
+
+  /// Whether two facets without area have their longest side in common, of nodes that add up to `ends`. Each node lies
+  /// within it, so that turning it makes all sides shorter.
+  bool is_line_on_line(const Corners& c, const Corners& o, std::int32_t ends) const {
+    const int k = longest_side(o);
+    return std::max(flatness(c), flatness(o)) <= kNoNormal && o[k] + o[(k + 1) % 3] == ends && is_cap(o, k);
   }
 
   bool is_folded(std::int32_t t, const std::vector<Corners>& neighbours) const {

@@ -64,6 +64,35 @@ TEST(FacetRepair, drops_duplicates_points_and_unused_nodes) {
   EXPECT_EQ(in.x.size(), 8u);
 }
 
+/// Facets over the corners 0 to 3 of a square whose diagonal, from 0 to 1, has further nodes at these shares.
+FacetInput slit_square(const std::vector<Corners>& corners, const std::vector<double>& places) {
+  FacetInput in;
+  in.x = {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}};
+  for (const double s : places) in.x.push_back({s, s, 0});
+  in.corners = corners;
+  in.part.assign(in.corners.size(), 0);
+  return in;
+}
+
+TEST(FacetRepair, drops_both_of_two_facets_without_area) {
+  FacetInput in = slit_square({{0, 1, 4}, {4, 1, 0}, {0, 2, 4}, {4, 2, 1}, {0, 4, 3}, {4, 1, 3}}, {0.5});
+  EXPECT_TRUE(has_kind(repair_facets(in), FindingKind::kDuplicateFacets));
+  EXPECT_EQ(in.corners, (std::vector<Corners>{{0, 2, 4}, {4, 2, 1}, {0, 4, 3}, {4, 1, 3}}));
+}
+
+TEST(FacetRepair, turns_a_line_on_a_line) {
+  FacetInput in = slit_square({{0, 1, 4}, {5, 1, 0}, {0, 2, 5}, {5, 2, 1}, {0, 4, 3}, {4, 1, 3}}, {0.25, 0.5});
+  repair_facets(in);
+  double area = 0;
+  for (const Corners& c : in.corners) {
+    const double own = norm(cross(in.x[c[1]] - in.x[c[0]], in.x[c[2]] - in.x[c[0]])) / 2;
+    EXPECT_GT(own, 0.05);
+    area += own;
+  }
+  EXPECT_NEAR(area, 1, 1e-12);
+  EXPECT_EQ(in.corners.size(), 6u);
+}
+
 TEST(FacetRepair, joins_free_nodes_in_almost_one_place) {
   FacetInput in = test::cube_facets();
   in.x.push_back(in.x[0] + Vec3{1e-7, 0, 0});
