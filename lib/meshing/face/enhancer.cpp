@@ -4,7 +4,9 @@
 
 #include "base/predicates.h"
 #include "geometry/shape/surface_forms.h"
+#include "meshing/face/flaw_mending.h"
 #include "meshing/face/front.h"
+#include "meshing/face/swap_quad.h"
 #include "meshing/face/triangle_shape.h"
 
 namespace st {
@@ -94,31 +96,7 @@ class Enhancer {
     }
   }
 
-  /// The quadrilateral about edge k of t: edge a-b, opposite nodes c (in t) and d. False for a boundary segment or the
-  /// rim.
-  struct Quad {
-    std::int32_t t, o, a, b, c, d;
-  };
-  bool quad_at(std::int32_t t, int k, Quad& q) const {
-    const PlaneTriangle& r = m_.triangles[t];
-    const std::int32_t o = r.n[k];
-    if (o == kNone || (r.constrained >> k & 1)) return false;
-    const PlaneTriangle& s = m_.triangles[o];
-    const int j = s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2;
-    q = {t, o, r.v[k], r.v[kNext[k]], r.v[kPrev[k]], s.v[kPrev[j]]};
-    return true;
-  }
-
-  /// May c-d replace a-b? Not between seam twins or nodes of a pole, nor along the surface much further than through
-  /// the air.
-  bool may_swap(const Quad& q, int k) const {
-    const MeshNode &nc = m_.nodes[q.c], &nd = m_.nodes[q.d];
-    if ((nc.id != kNone && nc.id == nd.id) || are_one_pole(nc, nd) || !m_.can_swap(q.t, k)) return false;
-    const double chord = side_length(nc, nd);
-    return edge_length(q.c, q.d) <= chord || edge_length(q.a, q.b) > side_length(m_.nodes[q.a], m_.nodes[q.b]);
-  }
-
-  void swap(const Quad& q, int k) {
+  void swap(const SwapQuad& q, int k) {
     m_.swap(q.t, k);
     for (const std::int32_t n : {q.a, q.b, q.c, q.d}) is_active_[n] = 1;
     update(q.t);
@@ -130,11 +108,11 @@ class Enhancer {
   }
 
   bool try_swap(std::int32_t t, int k) {
-    Quad q;
-    if (!quad_at(t, k, q)) return false;
+    SwapQuad q;
+    if (!quad_at(m_, t, k, q)) return false;
     const double before = std::min(quality_[q.t], quality_[q.o]);
     const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
-    if (after <= before + kSwapGain || !may_swap(q, k)) return false;
+    if (after <= before + kSwapGain || !may_swap<kStretched>(w_, q, k)) return false;
     swap(q, k);
     return true;
   }
@@ -151,12 +129,12 @@ class Enhancer {
   void try_relax(std::int32_t t, int k) {
     const PlaneTriangle& r = m_.triangles[t];
     if (r.n[k] < t || degree_[r.v[k]] <= 5 || degree_[r.v[kNext[k]]] <= 5) return;  // each edge once
-    Quad q;
-    if (!quad_at(t, k, q)) return;
+    SwapQuad q;
+    if (!quad_at(m_, t, k, q)) return;
     if (!is_inner(q.a) || !is_inner(q.b) || !is_inner(q.c) || !is_inner(q.d)) return;
     if (degree_[q.a] + degree_[q.b] - degree_[q.c] - degree_[q.d] < 3) return;
     const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
-    if (after < kRelaxLeast || !may_swap(q, k)) return;
+    if (after < kRelaxLeast || !may_swap<kStretched>(w_, q, k)) return;
     swap(q, k);
   }
 
@@ -364,7 +342,9 @@ class Enhancer {
 }  // namespace
 
 void enhance(FaceWork& work, int rounds) {
-  work.field->is_stretched() ? Enhancer<true>(work).run(rounds) : Enhancer<false>(work).run(rounds);
+  if (!work.field->is_stretched()) return Enhancer<false>(work).run(rounds);
+  Enhancer<true>(work).run(rounds);
+  mend_flaws(work);
 }
 
 }  // namespace st

@@ -1,0 +1,126 @@
+// Single flaws of stretched meshes, made by hand.
+#include "meshing/face/flaw_mending.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "unit/meshing/face_work.h"
+
+namespace st::test {
+namespace {
+
+constexpr int kColumns = 6, kRows = 4;
+constexpr double kAlong = 1, kAcross = 0.2;
+
+/// A plate of long rectangles, cut in two, and nodes that do not belong there.
+struct Plate {
+  StretchedField field{LocalSize{kAcross, kAlong, {1, 0, 0}}};
+  FaceBoundary boundary;
+  std::optional<Prepared> made;
+
+  static Vec2 at(double i, double j) { return {1 + kAlong * i, 1 + kAcross * j}; }
+
+  /// `odd`: node (3,2) lies there, in columns and rows.
+  explicit Plate(Vec2 odd = {3, 2}) {
+    std::vector<Vec2> loop;
+    for (int i = 0; i < kColumns; ++i) loop.push_back(at(i, 0));
+    for (int j = 0; j < kRows; ++j) loop.push_back(at(kColumns, j));
+    for (int i = kColumns; i > 0; --i) loop.push_back(at(i, kRows));
+    for (int j = kRows; j > 0; --j) loop.push_back(at(0, j));
+    boundary = polygons({loop}, kAcross);
+    made.emplace(kPlane, boundary, field);
+    for (int i = 1; i < kColumns; ++i)
+      for (int j = 1; j < kRows; ++j) EXPECT_NE(made->insert(at(i, j)), kNone);
+    for (MeshNode& n : mesh().nodes)
+      if (norm(n.uv - at(3, 2)) < 1e-9) {
+        n.p = made->work.plane.to_plane(at(odd.x, odd.y));
+        made->work.evaluate(n);
+      }
+    EXPECT_GT(made->worst_cosine(), 0);
+  }
+  Triangulation& mesh() { return made->work.mesh; }
+  double largest_angle() { return degrees(std::acos(least_cosine())); }
+  double largest_growth() {
+    double most = 1;
+    for (const PlaneTriangle& t : mesh().triangles)
+      for (const std::int32_t other : t.n)
+        if (Prepared::is_inside(t) && other != kNone && Prepared::is_inside(mesh().triangles[other]))
+          most = std::max(most, std::sqrt(area(t) / area(mesh().triangles[other])));
+    return most;
+  }
+
+ private:
+  Vec3 x(const PlaneTriangle& t, int k) { return mesh().nodes[t.v[k % 3]].x; }
+  double area(const PlaneTriangle& t) { return 0.5 * norm(cross(x(t, 1) - x(t, 0), x(t, 2) - x(t, 0))); }
+  double least_cosine() {
+    double least = 1;
+    for (const PlaneTriangle& t : mesh().triangles)
+      for (int k = 0; k < 3 && Prepared::is_inside(t); ++k)
+        least = std::min(least, dot(normalized(x(t, k + 1) - x(t, k)), normalized(x(t, k + 2) - x(t, k))));
+    return least;
+  }
+};
+
+std::vector<std::array<std::int32_t, 3>> corners_of(const Triangulation& m) {
+  std::vector<std::array<std::int32_t, 3>> all;
+  for (const PlaneTriangle& t : m.triangles) all.push_back({t.v[0], t.v[1], t.v[2]});
+  return all;
+}
+
+TEST(FlawMending, leaves_sound_rows_as_they_are) {
+  Plate plate;
+  const auto corners = corners_of(plate.mesh());
+  const auto nodes = plate.mesh().nodes;
+  mend_flaws(plate.made->work);
+  EXPECT_EQ(corners_of(plate.mesh()), corners);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_TRUE(plate.mesh().nodes[i].x == nodes[i].x);
+}
+
+TEST(FlawMending, leaves_no_obtuse_triangle_about_an_odd_node) {
+  for (const Vec2 odd : {Vec2{3.45, 2.4}, Vec2{2.6, 1.6}}) {
+    SCOPED_TRACE(odd.x);
+    Plate plate(odd);
+    ASSERT_GT(plate.largest_angle(), 140);
+    const BoundaryWatch watch(*plate.made);
+    mend_flaws(plate.made->work);
+    EXPECT_LE(plate.largest_angle(), 140);
+    EXPECT_LE(plate.largest_growth(), kMostGrowth);
+    watch.expect_unchanged();
+    expect_valid(plate.boundary, plate.made->mesh());
+  }
+}
+
+TEST(FlawMending, moves_no_node_of_a_row) {
+  Plate plate({3.45, 2.4});
+  for (MeshNode& n : plate.mesh().nodes) n.is_laid = true;
+  const auto nodes = plate.mesh().nodes;
+  mend_flaws(plate.made->work);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_TRUE(plate.mesh().nodes[i].x == nodes[i].x) << i;
+}
+
+TEST(FlawMending, makes_large_steps_of_size_smaller) {
+  Plate plate({3, 2.85});
+  ASSERT_GT(plate.largest_growth(), 2.5);
+  mend_flaws(plate.made->work);
+  EXPECT_LE(plate.largest_growth(), kMostGrowth);
+  expect_valid(plate.boundary, plate.made->mesh());
+}
+
+/// Seen from the side nothing is better than what is there.
+TEST(FlawMending, turns_no_triangle_away_from_the_surface) {
+  Plate plate({3.45, 2.4});
+  ASSERT_GT(plate.largest_angle(), 140);
+  const auto corners = corners_of(plate.mesh());
+  for (MeshNode& n : plate.mesh().nodes) {
+    n.normal = {0, 0.995, 0.1};
+    n.is_laid = true;
+  }
+  mend_flaws(plate.made->work);
+  EXPECT_EQ(corners_of(plate.mesh()), corners);
+}
+
+}  // namespace
+}  // namespace st::test
