@@ -21,6 +21,7 @@ constexpr double kAngleFrom = 0.75;  // of the negative cosine of the largest an
 constexpr double kAngleUnit = 0.1;
 constexpr double kGrowthFrom = 2.1;  // of steps of size
 constexpr double kGrowthUnit = 0.4;
+constexpr double kFlawCost = 0.5;                  // more where an angle or a step is above what is asked for
 constexpr double kMostCost = 10;                   // of one angle or step
 constexpr std::array<double, 2> kSteps{0.5, 0.2};  // of the way to a node beside, or to the middle of all
 
@@ -69,13 +70,19 @@ class FlawMending {
   }
   /// 1 where one of the areas is none.
   static double growth(double a, double b) { return a > 0 && b > 0 ? std::sqrt(std::max(a, b) / std::min(a, b)) : 1; }
-  static double angle_cost(double bluntness) { return cost_above(bluntness, kAngleFrom, kAngleUnit); }
-  static double growth_cost(double a, double b) { return cost_above(growth(a, b), kGrowthFrom, kGrowthUnit); }
+  static double angle_cost(double bluntness) {
+    return cost_above(bluntness, kAngleFrom, kAngleUnit) + (is_blunt(bluntness) ? kFlawCost : 0);
+  }
+  static double growth_cost(double a, double b) {
+    const double ratio = growth(a, b);
+    return cost_above(ratio, kGrowthFrom, kGrowthUnit) + (ratio > kMostGrowth ? kFlawCost : 0);
+  }
+  static bool is_blunt(double bluntness) { return bluntness > -std::cos(kMostAngle); }
 
   bool is_flawed(std::int32_t t) const {
     const double own = area(t);
     if (!(own > 0)) return false;
-    if (bluntness(corners(m_.triangles[t])) > -std::cos(kMostAngle)) return true;
+    if (is_blunt(bluntness(corners(m_.triangles[t])))) return true;
     for (const std::int32_t other : m_.triangles[t].n)
       if (growth(own, area(other)) > kMostGrowth) return true;
     return false;
