@@ -1,32 +1,31 @@
 #!/usr/bin/python3
 """A mesh that follows its flow: mesh, volume, potential flow, sizes from the pressure, remesh, and again.
 
-usage: adapt.py MODEL FOLDER [--cycles 4] [--bin BIN_DIR] [--volume tetgen|gmsh] [--farfield CUBOID:SIZE]
+usage: adapt.py MODEL FOLDER [--cycles 4] [--compare] [--bin BIN_DIR] [--farfield CUBOID:SIZE]
 
 MODEL is a CAD file of the fluid, or of bodies with --farfield and --symmetry as for st-import. FOLDER is a new folder.
 Each cycle prints a line: triangles on the walls, tetrahedra, the error estimate of the pressure coefficient there, the
 drag of the pressure (without viscosity it is 0, so what is left is error), seconds in all and in ST. The table is also
 FOLDER/cycles.csv. Needs what examples/openfoam needs; a cycle without change of the mesh ends the run.
+--compare then makes a mesh of the first lengths, all scaled by one factor to as many triangles, and a reference: half
+of the smaller length of both. It tells how far the pressure of both is from the reference's.
 Exit codes: 2 usage; 5 a step failed, its output is above and in FOLDER.
 """
 import argparse
 import csv
 import os
+import re
 import subprocess
 import sys
 import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parent / "openfoam"))
-sys.path.insert(0, str(HERE.parents[1] / "scripts"))
-import draw_pressure  # noqa: E402
-from render_common import numpy, vtk, vtk_to_numpy  # noqa: E402
-from vtk.util import numpy_support  # noqa: E402
+sys.path.insert(0, str(HERE))
+from wall_pressure import Walls  # noqa: E402
 
-STREAM = (0.9986, 0.0, 0.0523)  # of speed 1, as case/0/Phi has it
-NORM = "2"  # of the error that st-metric makes small
-GROWTH = 1.5  # of the number of nodes, from cycle to cycle
+NORM = "1"  # of the error that st-metric makes small
+GROWTH = 1.25  # of the number of nodes, from cycle to cycle
 SLOPE = "0.3"  # few triangles beside what the flow asks for
 COLUMNS = ("cycle", "triangles", "tetrahedra", "error", "drag", "seconds", "seconds_st")
 
@@ -56,67 +55,31 @@ class Steps:
         self.seconds_st += self.seconds - before
 
 
-def cells_with_pressure(case, output):
-    """Writes the volume's cells with the pressure coefficient `cp` for st-metric; their number."""
-    reader = vtk.vtkOpenFOAMReader()
-    reader.SetFileName(str(case / "case.foam"))
-    reader.UpdateInformation()
-    reader.DisableAllPatchArrays()
-    reader.SetPatchArrayStatus("internalMesh", 1)
-    reader.CreateCellToPointOff()
-    reader.Update()
-    leaves = reader.GetOutput().NewIterator()
-    grid = leaves.GetCurrentDataObject()
-    velocity = vtk_to_numpy(grid.GetCellData().GetArray("grad(Phi)")).astype(float)
-    cp = numpy_support.numpy_to_vtk(1 - (velocity**2).sum(axis=1), deep=1)
-    cp.SetName("cp")
-    plain = vtk.vtkUnstructuredGrid()
-    plain.CopyStructure(grid)
-    plain.GetCellData().AddArray(cp)
-    writer = vtk.vtkXMLUnstructuredGridWriter()
-    writer.SetFileName(str(output))
-    writer.SetInputData(plain)
-    writer.SetDataModeToAppended()
-    writer.EncodeAppendedDataOff()
-    writer.SetCompressorTypeToNone()
-    writer.Write()
-    return plain.GetNumberOfCells()
+def set_stream(case, stream):
+    """Writes the flow far away into the case's potential, which is minus OpenFOAM's."""
+    file = case / "0/Phi"
+    x, y, z = stream
+    text, n = re.subn(r'valueExpr "[^"]*"', f'valueExpr "-({x:g}*pos().x() + {y:g}*pos().y() + {z:g}*pos().z())"',
+                      file.read_text(encoding="utf-8"))
+    if n != 1:
+        sys.exit(f"adapt: error: {file} has {n} lines with valueExpr instead of 1")
+    file.write_text(text, encoding="utf-8")
 
 
-def wall_figures(case):
-    """Triangles on the walls; error of their pressure coefficient; drag over their area; a box of twice their size.
-
-    The error is the mean, by area, of how far a triangle's value is from the mean of its corners', each of which is
-    the mean of the triangles there by area (Zienkiewicz and Zhu, 1987, for values that are constant in each).
-    """
-    names = [name for name, kind in draw_pressure.patch_types(str(case)).items() if kind == "wall"]
-    clean = vtk.vtkCleanPolyData()  # patches share the points of their common edges
-    clean.SetInputData(draw_pressure.patches(str(case), names))
-    clean.Update()
-    walls = clean.GetOutput()
-    n = walls.GetNumberOfCells()
-    corner = vtk_to_numpy(walls.GetPolys().GetConnectivityArray()).reshape(n, 3)
-    x = vtk_to_numpy(walls.GetPoints().GetData()).astype(float)
-    velocity = vtk_to_numpy(walls.GetCellData().GetArray("grad(Phi)")).astype(float)
-    cp = 1 - (velocity**2).sum(axis=1)
-    normal = 0.5 * numpy.cross(x[corner[:, 1]] - x[corner[:, 0]], x[corner[:, 2]] - x[corner[:, 0]])
-    area = numpy.linalg.norm(normal, axis=1)
-    weight, at_node = numpy.zeros(len(x)), numpy.zeros(len(x))
-    for k in range(3):
-        numpy.add.at(weight, corner[:, k], area)
-        numpy.add.at(at_node, corner[:, k], area * cp)
-    at_node /= weight
-    apart = cp - at_node[corner].mean(axis=1)
-    error = (area * numpy.abs(apart)).sum() / area.sum()
-    # OpenFOAM's normals point out of the fluid, into the wall, as the pressure does
-    drag = (cp[:, None] * normal).sum(axis=0) @ numpy.array(STREAM) / area.sum()
-    lo, hi = x.min(axis=0), x.max(axis=0)
-    return n, float(error), float(drag), (*(1.5 * lo - 0.5 * hi), *(1.5 * hi - 0.5 * lo))
+def number_of_cells(case):
+    return int(re.search(r"^ +cells: +(\d+)", (case / "log.checkMesh").read_text(), re.M)[1])
 
 
 def mesh_hash(steps, mesh):
     tool = steps.tools / "st-info" if steps.tools else "st-info"
     return subprocess.run([str(tool), str(mesh), "--hash"], capture_output=True, text=True, check=True).stdout
+
+
+def mesh_by(steps, sizing, name):
+    """FOLDER/mesh<NAME>.hdf, made anew."""
+    f = steps.folder
+    steps.st("st-mesh", f / "geometry.hdf", sizing, "-o", f / "patches.hdf")
+    steps.st("st-merge", f / "patches.hdf", "-o", f / f"mesh{name}.hdf")
 
 
 def first_mesh(steps, options):
@@ -125,67 +88,130 @@ def first_mesh(steps, options):
     more = [word for name in ("farfield", "symmetry") if getattr(options, name)
             for word in (f"--{name}", getattr(options, name))]
     steps.st("st-import", options.model, "-o", f / "geometry.hdf", *more)
-    steps.st("st-raster", f / "geometry.hdf", "-o", f / "raster.hdf", *options.raster.split())
+    raster = ("st-raster", f / "geometry.hdf", *options.raster.split())
+    steps.st(*raster, "-o", f / "raster.hdf")
+    # the bounds of the flow's lengths: --max-aspect would stretch the first mesh as well, and lmin make it finer
+    steps.st(*raster, "-o", f / "bounds.hdf", *options.bounds.split(), "--max-aspect", options.max_aspect)
     steps.st("st-prolong", f / "raster.hdf", "-o", f / "sizing1.hdf", "--slope", SLOPE)
-    steps.st("st-mesh", f / "geometry.hdf", f / "sizing1.hdf", "-o", f / "patches.hdf")
-    steps.st("st-merge", f / "patches.hdf", "-o", f / "mesh1.hdf")
+    mesh_by(steps, f / "sizing1.hdf", 1)
 
 
-def flow(steps, cycle, volume):
-    """The flow around mesh CYCLE: the figures of its walls and its number of cells; flowCYCLE.vtu has them."""
+def flow(steps, name, options):
+    """The flow around mesh NAME: its walls, number of cells; flowNAME.vtu has the pressure on the walls."""
     f = steps.folder
-    case, surface = f / f"case{cycle}", f / f"mesh{cycle}.{'smesh' if volume == 'tetgen' else 'msh'}"
-    steps.st("st-export", f / f"mesh{cycle}.hdf", "-o", surface)
+    case, surface = f / f"case{name}", f / f"mesh{name}.{'smesh' if options.volume == 'tetgen' else 'msh'}"
+    steps.st("st-export", f / f"mesh{name}.hdf", "-o", surface)
     steps.run([HERE.parent / "openfoam/volume.sh", surface, case])
+    set_stream(case, options.stream)
     steps.run([HERE.parent / "openfoam/flow.sh", case])
-    (case / "case.foam").touch()
-    triangles, error, drag, box = wall_figures(case)
-    return triangles, cells_with_pressure(case, f / f"flow{cycle}.vtu"), error, drag, box
+    walls = Walls(case)
+    walls.write(f / f"flow{name}.vtu")
+    return walls, number_of_cells(case)
 
 
-def follow(steps, cycle, box, nodes):
+def follow(steps, cycle, options):
     """Mesh CYCLE+1 from the flow around mesh CYCLE. False: nothing changed."""
     f, new = steps.folder, cycle + 1
-    steps.st("st-metric", f"{f / f'flow{cycle}.vtu'}:cp", "-o", f / f"sizes{new}.solb", "--norm", NORM,
-             "--box", " ".join(f"{c:.6g}" for c in box), "--nodes", f"{nodes:.0f}")
-    steps.st("st-prolong", f / "raster.hdf", "--only", "--background", f / f"sizes{new}.solb", "--slope", SLOPE,
+    nodes = options.nodes * GROWTH**(new - options.cycles)
+    metric(steps, cycle, f"sizes{new}", nodes, options)
+    steps.st("st-prolong", f / "bounds.hdf", "--only", "--background", f / f"sizes{new}.solb", "--slope", SLOPE,
              "-o", f / f"sizing{new}.hdf")
     steps.st("st-remesh", f / f"mesh{cycle}.hdf", f / "geometry.hdf", f / f"sizing{new}.hdf", "--merged",
              f / f"mesh{new}.hdf")
     return mesh_hash(steps, f / f"mesh{cycle}.hdf") != mesh_hash(steps, f / f"mesh{new}.hdf")
 
 
-def main():
+def metric(steps, cycle, name, nodes, options):
+    f = steps.folder
+    steps.st("st-metric", f"{f / f'flow{cycle}.vtu'}:cp", "-o", f / f"{name}.solb", "--norm", NORM, "--max-aspect",
+             options.max_aspect, "--nodes", f"{nodes:.0f}")
+
+
+def even_mesh(steps, first, wanted, options):
+    """The first lengths times a factor, for the wanted triangles on the walls or 1 % fewer: factor, walls, cells."""
+    f, scale = steps.folder, 0.99 * (len(first.triangle) / wanted)**0.5
+    for attempt in range(1, 4):
+        steps.st("st-prolong", f / "raster.hdf", "-o", f / "sizing_even.hdf", "--slope", SLOPE, "--scale", scale)
+        name = f"_even{attempt}"
+        mesh_by(steps, f / "sizing_even.hdf", name)
+        walls, cells = flow(steps, name, options)
+        if len(walls.triangle) >= 0.99 * wanted:
+            break
+        scale *= 0.99 * (len(walls.triangle) / wanted)**0.5
+    return scale, walls, cells
+
+
+def compare(steps, cycle, first, last, options):
+    """Distances of the pressure of the last mesh and of an evenly scaled one from a reference; prints a line.
+
+    The reference's lengths are at each place, in all directions, half of the smallest of both. st-metric is asked for
+    lengths divided by the even mesh's factor, so that one factor then fits both.
+    """
+    f = steps.folder
+    scale, even, cells = even_mesh(steps, first, len(last.triangle), options)
+    metric(steps, cycle, "sizes_reference", options.nodes * scale**2, options)
+    steps.st("st-prolong", f / "raster.hdf", "--background", f / "sizes_reference.solb", "--slope", SLOPE,
+             "--scale", 0.5 * scale, "-o", f / "sizing_reference.hdf")
+    mesh_by(steps, f / "sizing_reference.hdf", "_reference")
+    reference, reference_cells = flow(steps, "_reference", options)
+    own, other = last.distance(reference), even.distance(reference)
+    print(f"distance {own:.4g} with {len(last.triangle)} triangles; evenly scaled by {scale:.3f}: {other:.4g} with "
+          f"{len(even.triangle)} triangles, {cells} tetrahedra; ratio {own / other:.3f}; reference: "
+          f"{len(reference.triangle)} triangles, {reference_cells} tetrahedra", flush=True)
+
+
+def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("model")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--cycles", type=int, default=4)
+    parser.add_argument("--compare", action="store_true", help="with an evenly scaled mesh and a finer one")
     parser.add_argument("--bin", type=Path, help="where the tools are; else they are found by PATH")
     parser.add_argument("--volume", choices=("tetgen", "gmsh"), default="tetgen")
+    parser.add_argument("--stream", default="1 0 0", help="direction of the flow far away, 'X Y Z'")
     parser.add_argument("--farfield", help="for st-import")
     parser.add_argument("--symmetry", help="for st-import")
     parser.add_argument("--raster", default="--alpha 40 --lmax 8% --edge-size none",
-                        help="options of st-raster: lengths of the first mesh, and the bounds of all")
-    parser.add_argument("--nodes", type=int, default=30000, help="of the volume near the walls, after the first cycle")
+                        help="options of st-raster: lengths of the first mesh, and the largest of all")
+    parser.add_argument("--bounds", default="--lmin 0.02%", help="further options of st-raster for the later meshes")
+    parser.add_argument("--max-aspect", default="3", help="longest over shortest length of the later meshes")
+    parser.add_argument("--nodes", type=int, default=8000, help="on the walls that the last sizes ask for")
     options = parser.parse_args()
     if options.folder.exists():
         parser.error(f"'{options.folder}' exists: remove it or choose another name")
+    try:
+        stream = [float(v) for v in options.stream.split()]
+        length = sum(v * v for v in stream)**0.5
+        options.stream = [v / length for v in stream]
+    except (ValueError, ZeroDivisionError):
+        parser.error(f"--stream '{options.stream}': takes three numbers, not all 0")
+    if len(options.stream) != 3:
+        parser.error(f"--stream takes three numbers, not {len(options.stream)}")
+    return options
+
+
+def main():
+    options = parse()
     options.folder.mkdir(parents=True)
     steps = Steps(options.folder.resolve(), options.bin and options.bin.resolve())
     first_mesh(steps, options)
+    first = None
     with open(options.folder / "cycles.csv", "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file)
         table.writerow(COLUMNS)
         for cycle in range(1, options.cycles + 1):
-            triangles, cells, error, drag, box = flow(steps, cycle, options.volume)
-            row = (cycle, triangles, cells, f"{error:.4g}", f"{drag:.4g}", f"{steps.seconds:.0f}",
-                   f"{steps.seconds_st:.1f}")
+            walls, cells = flow(steps, cycle, options)
+            first = first or walls
+            row = (cycle, len(walls.triangle), cells, f"{walls.error():.4g}", f"{walls.drag(options.stream):.4g}",
+                   f"{steps.seconds:.0f}", f"{steps.seconds_st:.1f}")
             table.writerow(row)
             file.flush()
             print("  ".join(f"{name} {value}" for name, value in zip(COLUMNS, row)), flush=True)
-            if cycle < options.cycles and not follow(steps, cycle, box, options.nodes * GROWTH**(cycle - 1)):
+            if cycle < options.cycles and not follow(steps, cycle, options):
                 print("the mesh no longer changes")
                 break
+    if options.compare:
+        compare(steps, cycle, first, walls, options)
 
 
 if __name__ == "__main__":
