@@ -53,7 +53,7 @@ void HoleMarker::request_lengths(const SizeField& field) {
   std::vector<LocalSize> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
   share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
-  options_.becomes_stretched = is_stretched_ && ignores_stretch();
+  options_.becomes_stretched = is_stretched_ ? faces_without_stretch() : std::vector<char>();
 }
 
 /// Whether the mesh has more edges far longer than they were made for than a mesh without stretch has.
@@ -69,28 +69,31 @@ bool HoleMarker::has_long_edges() const {
   return static_cast<double>(n_long) > kShare * 3 * static_cast<double>(mesh_.mesh.triangles.size());
 }
 
-/// Collective. Whether the mesh was made for other stretch, or none: half of its edges that lie along the direction of
-/// stretched sizes are too short for these.
-bool HoleMarker::ignores_stretch() const {
-  std::int64_t n_along = 0, n_short = 0;
+/// Collective. Faces whose mesh was made for other stretch, or none: half of their edges that lie along the direction
+/// of stretched sizes are too short for these. Fewer are where st-mesh ended the stretch.
+std::vector<char> HoleMarker::faces_without_stretch() const {
+  const FaceId n_faces = model_.tables().n_faces();
+  std::vector<std::int64_t> n_along(n_faces, 0), n_short(n_faces, 0);
   for (TriangleId t = share_.begin; t < share_.end; ++t)
     for (int k = 0; k < 3; ++k) {
+      const FaceId f = mesh_.mesh.triangle_face[t];
       const NodeId a = mesh_.mesh.triangles[t].n[k], b = mesh_.mesh.triangles[t].n[(k + 1) % 3];
       const Vec3 d = mesh_.mesh.node_xyz[b] - mesh_.mesh.node_xyz[a];
       const double of_a = dot(wanted_[a].squeeze(), d), of_b = dot(wanted_[b].squeeze(), d),
                    squeezed = std::sqrt(norm2(d) - 0.5 * (of_a * of_a + of_b * of_b));
       if (squeezed > options_.too_short * norm(d)) continue;
-      ++n_along;
-      n_short += squeezed < options_.too_short * 0.5 * (wanted_[a].length + wanted_[b].length);
+      ++n_along[f];
+      n_short[f] += squeezed < options_.too_short * 0.5 * (wanted_[a].length + wanted_[b].length);
     }
-  std::int64_t of_all[2] = {0, 0};
+  std::vector<std::int64_t> of_all(n_faces, 0);  // twice those too short, less those along
   for (const Bytes& bytes : executor_.gather(packed(n_along, n_short))) {
     unpack(bytes, n_along, n_short);
-    of_all[0] += n_along, of_all[1] += n_short;
+    for (FaceId f = 0; f < n_faces; ++f) of_all[f] += 2 * n_short[f] - n_along[f];
   }
-  char ignores = 2 * of_all[1] > of_all[0];
-  share(executor_, ignores);
-  return ignores != 0;
+  std::vector<char> are_without(n_faces, 0);
+  for (FaceId f = 0; f < n_faces; ++f) are_without[f] = of_all[f] > 0;
+  share(executor_, are_without);
+  return are_without;
 }
 
 std::vector<LocalSize> HoleMarker::refined_sizes(const Refinements& refinements) const {

@@ -37,17 +37,14 @@ class Marker {
  private:
   bool keeps(FaceId f) const { return !options_.keep_face.empty() && options_.keep_face[f]; }
 
+  bool becomes_stretched(FaceId f) const {
+    return !options_.becomes_stretched.empty() && options_.becomes_stretched[f];
+  }
+
   bool has_moved(NodeId a, NodeId b, double length) const {
     if (options_.earlier_xyz.empty()) return false;
     const double earlier = distance(options_.earlier_xyz[a], options_.earlier_xyz[b]);
     return std::abs(length - earlier) > options_.change * earlier;
-  }
-
-  /// Far off although the length across is as before: made for more stretch, or for less.
-  bool is_of_other_aspect(double ratio, double in_space) const {
-    constexpr double kFarTooLong = 2.5, kFarTooShort = 0.4;
-    return ratio > kFarTooLong ||
-           (ratio < kFarTooShort && in_space > options_.too_short && in_space < options_.too_long);
   }
 
   /// As stretched sizes see it.
@@ -57,13 +54,15 @@ class Marker {
     return std::sqrt(norm2(d) - 0.5 * (along_a * along_a + along_b * along_b));
   }
 
-  bool violates(NodeId a, NodeId b) const {
+  /// Edges far too long for their direction are of more stretch. Shorter ones stay: there st-mesh ended the stretch.
+  bool violates(NodeId a, NodeId b, bool becomes_stretched) const {
+    constexpr double kFarTooLong = 2.5;
     const double size = 0.5 * (wanted_[a] + wanted_[b]), before = 0.5 * (mesh_.node_size[a] + mesh_.node_size[b]);
     const double length = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]);
     const double ratio = (options_.squeeze.empty() ? length : squeezed_length(a, b)) / size;
-    const bool is_squeezed = options_.becomes_stretched && ratio * size < (1 - options_.change) * length;
+    const bool is_squeezed = becomes_stretched && ratio * size < (1 - options_.change) * length;
     if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length) && !is_squeezed)
-      return options_.was_stretched && is_of_other_aspect(ratio, length / size);
+      return options_.was_stretched && ratio > kFarTooLong;
     return ratio > options_.too_long || ratio < options_.too_short;
   }
 
@@ -82,7 +81,12 @@ class Marker {
   void mark_segments() {
     if (options_.only_redo) return;
     const std::vector<char> is_free = free_edges();
-    for (const CadSegment& s : cad_.segments) marks_.segment[s.index] = is_free[s.edge] && violates(s.low, s.high);
+    const ModelTables& t = cad_.tables;
+    std::vector<char> becomes_stretched(t.n_edges(), 0);
+    for (FaceId f = 0; f < t.n_faces(); ++f)
+      for (const EdgeId e : t.edges_of(f)) becomes_stretched[e] |= this->becomes_stretched(f);
+    for (const CadSegment& s : cad_.segments)
+      marks_.segment[s.index] = is_free[s.edge] && violates(s.low, s.high, becomes_stretched[s.edge]);
   }
 
   /// A segment between two marked ones goes with them.
@@ -103,7 +107,9 @@ class Marker {
     for (TriangleId i = share_.begin; i < share_.end; ++i) {
       const NodeId* n = mesh_.triangles[i].n;
       if (marks_.triangle[i] || keeps(mesh_.triangle_face[i])) continue;
-      marks_.triangle[i] = violates(n[0], n[1]) || violates(n[1], n[2]) || violates(n[2], n[0]);
+      const bool becomes = becomes_stretched(mesh_.triangle_face[i]);
+      marks_.triangle[i] =
+          violates(n[0], n[1], becomes) || violates(n[1], n[2], becomes) || violates(n[2], n[0], becomes);
     }
   }
 

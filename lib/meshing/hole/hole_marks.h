@@ -20,9 +20,9 @@ struct HoleMarkOptions {
                                            ///< or shorter count, too
   std::vector<Vec3> squeeze = {};          ///< empty, or [n_nodes] of stretched sizes, see base/local_size.h
   bool was_stretched = false;              ///< the mesh was made for stretched sizes, or these are
-  bool becomes_stretched = false;          ///< these are, and the mesh was not
-  std::vector<TriangleId> redo = {};       ///< marked whatever their edges, unless kept
-  bool only_redo = false;                  ///< lengths do not count: what is not in `redo` or near it stays
+  std::vector<char> becomes_stretched = {};  ///< empty, or [n_faces] 1: these are, and the face's mesh was not
+  std::vector<TriangleId> redo = {};         ///< marked whatever their edges, unless kept
+  bool only_redo = false;                    ///< lengths do not count: what is not in `redo` or near it stays
 };
 
 /// 1: to be redone.
