@@ -78,12 +78,30 @@ SPANS = {
     "cranked_canard": [1.48, 1.48],
     "split_nose": [4.02],
     "cove_wing": [4],
+    "joined_wing": [3.57, 3.27],
+    "gull_wing": [3.1],
+    "canards_and_v_tail": [1.31, 1.31, 1.03, 1.03],
+    "keel_with_bulb": [1.85],
+    "swept_tip_rotor": [0.86, 0.86],
+    "engine_with_core": [4, 2.19, 0.45],  # wing, nacelle without what the pylon takes of it, pylon
+    "flap_tracks": [3.92],
+    "h_rotor": [2, 2, 2, 0.99, 0.99, 0.99, 0.99, 0.92, 0.92],  # blades, struts
+    "fenced_wing": [1.39, 1.39, 1.2],
+    "tunnel_wing": [4],
+    "c_wing": [4.6],
+    "scimitar_tips": [2.98, 0.73, 0.39],
+    "braced_wing": [3.56, 3.56, 1.52, 1.52],
+    "shaft_brackets": [1.02, 1.02],
+    "far_wing": [3002],
+    "strip_wing": [4.02],
+    "wing_with_rods": [3.96],
 }
 # Noses before slots and flaps, where the trailing edge is another part's or none.
 NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing": 0.36, "gapped_aileron": 1.3,
                "fixed_slat": 2.4, "two_elements": 0, "kinked_wing": 0}
-PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib", "seal",
-         "oval_bar", "saw", "door_stop", "snap_hook", "plow", "hole_plate")
+PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib",
+         "seal", "oval_bar", "saw", "door_stop", "snap_hook", "plow", "hole_plate", "cam", "lever", "dovetail",
+         "funnel", "shim", "pulley", "fan_disc", "leaf_spring", "drill", "bezel", "axe")
 
 
 class WingShapes(ToolTest):
