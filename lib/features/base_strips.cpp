@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <span>
 
 #include "base/box_tree.h"
@@ -32,6 +33,7 @@ class BaseStripFinder {
   std::vector<Strip> run() {
     std::vector<Strip> all = united();
     add_cut_bases(all);
+    add_short_pieces(all);
     measure_rows(all);
     for (Strip& ring : find_rings(model_)) all.push_back(std::move(ring));
     std::ranges::stable_sort(all, {}, &Strip::face);
@@ -87,6 +89,57 @@ class BaseStripFinder {
       }
     }
     return all;
+  }
+
+  /// A face of four edges, seen from one of them.
+  struct Quad {
+    FaceId face;
+    EdgeId beyond;  // across from that edge
+    std::array<EdgeId, 2> sides;
+  };
+
+  /// Beyond an edge of a face; nothing where the surface has a corner there, and where it is much wider or narrower on.
+  std::optional<Quad> quad_beyond(FaceId from, EdgeId e) const {
+    if (offsets_[e + 1] - offsets_[e] != 2 || t_.edge_is_degenerate[e] || !is_smooth(e)) return std::nullopt;
+    const FaceId f = edge_faces_[offsets_[e]] == from ? edge_faces_[offsets_[e] + 1] : edge_faces_[offsets_[e]];
+    const auto loop = t_.edges_of(f);
+    if (f == from || t_.loops(f).size() != 1 || loop.size() != 4) return std::nullopt;
+    const auto at = static_cast<std::size_t>(std::ranges::find(loop, e) - loop.begin());
+    const Quad quad{f, loop[(at + 2) % 4], {loop[(at + 1) % 4], loop[(at + 3) % 4]}};
+    const auto is_side = [&](EdgeId side) {
+      return !t_.edge_is_degenerate[side] && offsets_[side + 1] - offsets_[side] == 2 &&
+             t_.edge_vertices[2 * side] != t_.edge_vertices[2 * side + 1];
+    };
+    const double a = t_.edge_length[e], b = t_.edge_length[quad.beyond];
+    return std::ranges::all_of(quad.sides, is_side) && quad.sides[0] != quad.sides[1] && a <= kAlike * b &&
+                   b <= kAlike * a
+               ? std::optional(quad)
+               : std::nullopt;
+  }
+
+  /// Between two strips of a row may be pieces that are too short for strips, or strips across it.
+  void add_short_pieces(std::vector<Strip>& all) const {
+    constexpr std::size_t kMost = 16;  // one after another
+    std::map<FaceId, std::array<EdgeId, 2>> sides;
+    for (const Strip& s : all)
+      if (s.others.empty() && !s.cut_side) sides[s.face] = {s.edges[0], s.edges[1]};
+    const auto goes_on = [&](const Quad& quad) {
+      const auto own = sides.find(quad.face);
+      return own != sides.end() && std::ranges::count(own->second, quad.beyond) == 0;
+    };
+    std::map<FaceId, Quad> found;
+    for (const auto& [face, own] : sides)
+      for (const EdgeId end : t_.edges_of(face)) {
+        if (std::ranges::count(own, end) > 0) continue;
+        std::vector<Quad> pieces;
+        std::optional<Quad> next = quad_beyond(face, end);
+        for (; next && !goes_on(*next) && pieces.size() < kMost; next = quad_beyond(next->face, next->beyond))
+          pieces.push_back(*next);
+        if (next && goes_on(*next))
+          for (const Quad& piece : pieces) found.emplace(piece.face, piece);
+      }
+    std::erase_if(all, [&](const Strip& s) { return s.others.empty() && !s.cut_side && found.contains(s.face); });
+    for (const auto& [face, piece] : found) all.push_back(measured_strip(model_, face, piece.sides[0], piece.sides[1]));
   }
 
   /// From strip to strip, as far as it is smooth and they are none of another one; `e` becomes the edge at the end.

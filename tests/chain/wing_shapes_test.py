@@ -90,6 +90,7 @@ SPANS = {
     "tunnel_wing": [4],
     "c_wing": [4.6],
     "scimitar_tips": [2.98, 0.73, 0.39],
+    "random_base": [4],
     "braced_wing": [3.56, 3.56, 1.52, 1.52],
     "shaft_brackets": [1.02, 1.02],
     "far_wing": [3002],
