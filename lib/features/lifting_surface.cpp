@@ -47,6 +47,8 @@ constexpr double kOnPlane = 1e-6;              // of the reference diagonal: fro
 constexpr double kAcrossSpan = 0.7;            // cosine between the normal of a tip or a root and the chain
 constexpr double kParallelSides = radians(1);  // of a base, from square to it
 constexpr double kRoundCorner = radians(150);  // material at the edges of a base without corners
+constexpr double kWidestCut = 0.1;             // of the chord: base of a profile whose tail may have been cut off
+constexpr double kThickBefore = 1.8;           // thickness of such a profile over its base, at least
 constexpr double kShortest = 0.2;              // span over the median chord: pylons, blades of impellers
 constexpr double kSmallPart = 0.01;            // of the reference diagonal: a shorter one has to be half a chord long
 constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
@@ -242,10 +244,13 @@ class SurfaceMeasurer {
     try_other_cuts(places, profiles);
     LiftingSurface surface = assemble(chain, places, profiles);
     if (!is_measured(surface)) return std::nullopt;
-    if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size())
-      return find_without(
+    if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
+      std::optional<SurfaceDraft> draft = find_without(
           {without(chain, part), fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase)}, part,
           why);
+      why.may_be_wing = why.may_be_wing || (part.empty() && is_cut_off(surface, profiles));
+      return draft;
+    }
     if (const std::vector<WingEdge> part = without_rims(chain, surface); part.size() < chain.size())
       return find_without({without(chain, part), kRimOfEnd}, part, why);
     why = {why_no_wing(surface), false};
@@ -318,6 +323,16 @@ class SurfaceMeasurer {
     for (std::size_t k = 0; k < chain.size(); ++k)
       if (surface.trailing[k].base_width <= kWidestBase * surface.median_chord) part.push_back(chain[k]);
     return part;
+  }
+
+  /// A profile that is thick before its wide base, as where a wing's tail was cut off.
+  static bool is_cut_off(const LiftingSurface& surface, std::span<const std::optional<Profile>> profiles) {
+    std::vector<double> thickness;
+    for (const auto& p : profiles)
+      if (p) thickness.push_back(p->thickness * p->chord);
+    double width = 0;
+    for (const ChordEdge& edge : surface.trailing) width = std::max(width, edge.base_width);
+    return width <= kWidestCut * surface.median_chord && median(thickness) >= kThickBefore * width;
   }
 
   /// Without rims of planes across the span that run along the chord: skins that meet a tip or a root at a small angle.

@@ -149,6 +149,10 @@ class WingShapes(ToolTest):
             self.assertEqual([round(span, 2) for span in found], spans, name)
             self.assertRegex(done.err, rf"warning: .* edges = \[{edges}\], trailing_edge = true", name)
 
+    def test_a_wing_without_its_tail_is_warned_of(self):
+        done = self.raster("cut_tail", "rans")  # its base is 6.6 % of the chord
+        self.assertRegex(done.err, r"warning: 2 trailing edges, 8 long, .* edges = \[1, 3\], trailing_edge = true")
+
     def test_elements_of_one_span_have_their_own_chords(self):
         wings = self.raster("three_elements", "rans").json()["lifting_surfaces"]
         for chord, asked in zip(sorted(wing["chord"][1] for wing in wings), (0.16, 0.3, 1)):
