@@ -31,7 +31,6 @@ namespace st {
 namespace {
 
 constexpr int kFindingsShown = 10;
-constexpr const char* kUsualComposites = "none";
 
 std::string file_hash(const std::string& path) {
   const std::string bytes = read_text_file(path);
@@ -455,45 +454,16 @@ ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& grou
   return options;
 }
 
-/// Which faces become one: "none", "harm" or "smooth". What cannot be joined is refused where that was asked for, else
-/// left as it is.
-std::string composites_asked(const ImportStageOptions& o) {
-  const bool is_given = !o.composite.empty();
-  const std::string word = is_given ? o.composite : kUsualComposites;
-  const bool has_facets = !triangulation_format(o.model).empty();
-  if (word == "none" || (!is_given && (has_facets || o.check))) return "none";
-  if (!is_given && !o.mirror.empty()) {
-    log_report("  --mirror: faces that meet smoothly stay apart");
-    return "none";
-  }
-  asks_for_composites(word, o.model);
+void require_composable(const ImportStageOptions& o) {
   if (o.check) throw Error(ExitCode::kUsage, "--composite joins faces of what is written, and --check writes nothing");
   if (!o.mirror.empty())
     throw Error(ExitCode::kUsage, "--composite joins faces across the plane of --mirror; give one of them");
-  return word;
-}
-
-/// Joins faces, and says so where any were or it was asked for.
-void join_faces(const ImportStageOptions& o, const std::string& word, GeometryArtifact& g, nlohmann::json& used,
-                nlohmann::json& json, std::string& line) {
-  if (word == "none") return;
-  std::string said;
-  try {
-    said = compose(g, word == "harm");
-  } catch (const Error& e) {
-    if (!o.composite.empty()) throw;
-    log_info(fmt::format("  faces stay apart: {}", e.what()));
-  }
-  if (o.composite.empty() && g.composites.empty()) return;
-  line += "; " + said;
-  used["composite"] = word;
-  const EntityCounts left = count_left(g.tables);
-  json["joined"] = {{"faces", left.faces}, {"edges", left.edges}, {"vertices", left.vertices}};
 }
 
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
-  const std::string composite = composites_asked(o);
+  const bool is_composed = asks_for_composites(o.composite, o.model);
+  if (is_composed) require_composable(o);
   ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
   nlohmann::json json = report(o.model, r);
@@ -534,7 +504,12 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.mirror = std::move(r.mirror);
     g.tables = std::move(r.tables);
     std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
-    join_faces(o, composite, g, used, json, s.line);
+    if (is_composed) {
+      s.line += "; " + compose(g, o.composite == "harm");
+      used["composite"] = o.composite;
+      const EntityCounts left = count_left(g.tables);
+      json["joined"] = {{"faces", left.faces}, {"edges", left.edges}, {"vertices", left.vertices}};
+    }
     g.header.options_json = json_text(used);
     json["hash"] = write_geometry(o.output, g);
     json["output"] = o.output;
