@@ -46,7 +46,7 @@ class BodyFinder {
     bodies.of_face.assign(is_wall_.size(), kNone);
     std::vector<Box3> box, own_box;
     for (FaceId f = 0; f < t_.n_faces(); ++f) {
-      if (!is_wall_[f] || is_wing_[f] || t_.loops(f).empty()) continue;
+      if (!is_wall_[f] || is_wing_[f] || t_.is_joined(f)) continue;
       const FaceId first = sets_.find(f);
       if (first == f) {
         bodies.of_face[f] = static_cast<std::int32_t>(box.size());

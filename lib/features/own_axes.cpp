@@ -144,7 +144,7 @@ std::vector<Box3> boxes_along(const Axes& axes, const ModelTables& t, const Face
   for (std::size_t i = 0; i < facets.triangle.size(); ++i)
     for (const std::int32_t n : facets.triangle[i]) boxes[facets.face[i]].add(along(facets.xyz[n]));
   for (std::size_t f = 0; f < boxes.size(); ++f) {
-    if (!boxes[f].is_empty() || t.loops(static_cast<FaceId>(f)).empty()) continue;  // or joined to another
+    if (!boxes[f].is_empty() || t.is_joined(static_cast<FaceId>(f))) continue;
     const Box3& b = t.face_box[f];
     for (const double x : {b.lo.x, b.hi.x})
       for (const double y : {b.lo.y, b.hi.y})

@@ -25,7 +25,7 @@ bool has_curved_noses(const ModelTables& t, const LiftingSurface& surface) {
 
 bool has_through_holes(const ModelTables& t) {
   std::int64_t characteristic = -std::int64_t{t.n_loops()};
-  for (FaceId f = 0; f < t.n_faces(); ++f) characteristic += t.loops(f).empty() ? 0 : 2;
+  for (FaceId f = 0; f < t.n_faces(); ++f) characteristic += t.is_joined(f) ? 0 : 2;
   std::vector<std::uint8_t> is_used(static_cast<std::size_t>(t.n_vertices()), 0);  // joined faces leave some unused
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
     if (t.edge_is_degenerate[e]) continue;

@@ -74,7 +74,7 @@ class LimitsMaker {
       Limits own;
       if (roles_.role[f] != FaceRole::kSymmetry && roles_.role[f] != FaceRole::kInterface) own = wall_;
       if (roles_.role[f] == FaceRole::kFarfield) own->max_length = far_length(f);
-      if (t_.loops(static_cast<FaceId>(f)).empty()) own.reset();  // joined to another face
+      if (t_.is_joined(static_cast<FaceId>(f))) own.reset();
       if (const Body* body = body_of(f); body && own) limit_by_body(*body, *own);
       face_.surface.push_back(own);
     }

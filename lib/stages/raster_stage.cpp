@@ -598,7 +598,7 @@ void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, co
 Bytes locate(const Model& model, const OctreeShape& shape, const ModelLimits& limits, const FaceLoops& loops,
              double seconds, Vec3 origin, FaceId f) {
   const ModelTables& t = model.tables();
-  if (t.loops(f).empty()) return packed(std::vector<CellArea>(), std::string());  // joined to another face
+  if (t.is_joined(f)) return packed(std::vector<CellArea>(), std::string());
   const CurrentWork at_face("face", f + 1, {seconds, WhenLate::kThrow});
   std::vector<CellArea> cells;
   std::string failure;

@@ -21,6 +21,8 @@ ONCE = [
      r"MostRepeated|ClearlyFewer|PerFailure|MostForWalls) =", "lib/meshing/engine/refinement_policy.h"),
     ("what counts as the same", r"constexpr double k(?:AboutSameArea|SameArea|SamePlace|Harmless) =",
      "lib/geometry/model/sameness.h"),
+    ("whether a face is joined to another", r"\bloops\((?:[^()]|\([^()]*\))*\)\.empty\(\)",
+     "lib/geometry/model/model.h"),
 ]
 NEVER = [
     ("a summary's JSON parsed again", r"parse\([\w.>-]*(?:summary|association)[\w.>-]*json", "pass its values"),
@@ -58,6 +60,7 @@ PLANTS = [
     lint.Plant("lib/meshing/planted.cpp", "tiled.share_cuts(executor_);\n", "planted.cpp:1: cutting regions"),
     lint.Plant("lib/mesh/planted.cpp", "constexpr double kLoopFloor = 0.1;\n", "planted.cpp:1: when refining stops"),
     lint.Plant("lib/mesh/planted.cpp", "constexpr double kSameArea = 1;\n", "planted.cpp:1: what counts as the same"),
+    lint.Plant("lib/mesh/planted.cpp", "if (t.loops(f).empty()) return;\n", "planted.cpp:1: whether a face is joined"),
     lint.Plant("lib/mesh/planted.cpp", "auto j = json::parse(summary.json);\n", "planted.cpp:1: a summary's JSON"),
     lint.Plant("lib/mesh/planted.cpp", "run_named_tasks(\n  {order, {}, {}});\n", "planted.cpp:1: tasks without"),
     lint.Plant("lib/mesh/planted.cpp", "\n" * 401, "files are longer than 400 lines"),

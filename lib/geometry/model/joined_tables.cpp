@@ -311,7 +311,7 @@ EntityCounts count_left(const ModelTables& t) {
   EntityCounts n;
   std::vector<std::uint8_t> has_edge(static_cast<std::size_t>(t.n_edges()), 0),
       has_vertex(static_cast<std::size_t>(t.n_vertices()), 0);
-  for (FaceId f = 0; f < t.n_faces(); ++f) n.faces += t.loops(f).empty() ? 0 : 1;
+  for (FaceId f = 0; f < t.n_faces(); ++f) n.faces += t.is_joined(f) ? 0 : 1;
   for (const EdgeId e : t.coedge_edge) {
     has_edge[e] = 1;
     for (const std::size_t k : {0, 1}) has_vertex[t.edge_vertices[2 * static_cast<std::size_t>(e) + k]] = 1;

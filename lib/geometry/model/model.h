@@ -65,6 +65,8 @@ struct ModelTables {
   std::int32_t n_loops() const { return static_cast<std::int32_t>(loop_coedge_offsets.size()) - 1; }
   std::int32_t n_coedges() const { return static_cast<std::int32_t>(coedge_edge.size()); }
   IdRange loops(FaceId f) const { return {face_loop_offsets[f], face_loop_offsets[f + 1]}; }
+  /// Whether it has no loops, because it is part of a lower face of its composite (see joined_tables.h).
+  bool is_joined(FaceId f) const { return loops(f).empty(); }
   IdRange loop_coedges(LoopId l) const { return {loop_coedge_offsets[l], loop_coedge_offsets[l + 1]}; }
   /// The coedges of all its loops.
   IdRange coedges(FaceId f) const {

@@ -96,7 +96,7 @@ class RegionFinder {
   void list_faces() {
     edge_faces_.resize(t_.n_edges());
     for (FaceId f = 0; f < t_.n_faces(); ++f) {
-      if (t_.loops(f).empty()) continue;  // joined to another
+      if (t_.is_joined(f)) continue;
       bool has_edge = false;
       for (const CoedgeId c : t_.coedges(f)) {
         if (t_.edge_is_degenerate[t_.coedge_edge[c]]) continue;
@@ -165,7 +165,7 @@ class RegionFinder {
     std::string text;
     int n = 0;
     for (FaceId f = 0; f < t_.n_faces(); ++f)
-      if (!t_.loops(f).empty() && result_.triangles[f].empty() && ++n <= 4)
+      if (!t_.is_joined(f) && result_.triangles[f].empty() && ++n <= 4)
         text += (n > 1 ? ", " : "") + t_.face_label(f) + " at " + place(t_.face_box[f].center());
     if (n > 0)
       throw Error(ExitCode::kMismatch,

@@ -7,7 +7,7 @@ namespace st {
 MeshPlan plan_all(const MeshTopology& topology) {
   std::vector<FaceId> faces;
   for (FaceId f = 0; f < topology.tables().n_faces(); ++f)
-    if (!topology.tables().loops(f).empty()) faces.push_back(f);  // others are joined to one of these
+    if (!topology.tables().is_joined(f)) faces.push_back(f);
   MeshPlan plan{{}, std::move(faces), EdgeMesh::of_edges(topology.tables().n_edges()), {}, {}};
   for (EdgeId e = 0; e < topology.tables().n_edges(); ++e)
     if (!topology.tables().edge_is_degenerate[e]) plan.edges.push_back(e);
