@@ -1,9 +1,9 @@
 #!/bin/bash
-# Writes stdin to a file, unless the file holds just that: its time stamp changes only with its content.
+# Writes stdin, which is text, to a file, unless the file holds just that: its time stamp changes only with its content.
 # usage: ... | scripts/replace_if_changed.sh FILE
 set -eu
-mkdir -p "$(dirname "$1")"
-temporary=$1.tmp.$$
-trap 'rm -f "$temporary"' EXIT
-cat > "$temporary"
-cmp -s "$temporary" "$1" || mv "$temporary" "$1"
+text=$(< /dev/stdin)
+if [ -f "$1" ] && [ "$(< "$1")" = "$text" ]; then exit 0; fi
+[ -d "${1%/*}" ] || mkdir -p "${1%/*}"
+printf '%s\n' "$text" > "$1.tmp.$$"
+mv "$1.tmp.$$" "$1"

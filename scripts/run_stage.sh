@@ -13,13 +13,13 @@ for ((i = 1; i < $#; ++i)); do
   case ${!i} in -o | --merged) artifact=${!next} ;; esac
 done
 log=$out/log/$stage
-mkdir -p "$out/log"
+[ -d "$out/log" ] || mkdir -p "$out/log"
 runs() { kill -0 "$1" 2> /dev/null && ! grep -q '^State:.Z' "/proc/$1/status" 2> /dev/null; }
-for leftover in "$(dirname "$artifact")/.$(basename "$artifact").tmp."*; do  # of a run that was killed
+for leftover in "${artifact%/*}/.${artifact##*/}.tmp."*; do  # of a run that was killed
   owner=${leftover##*.tmp.}
   [ ! -f "$leftover" ] || runs "${owner%%.*}" || rm -f "$leftover"
 done
-touch "$out/log/fresh"  # something ran: the report is new
+: > "$out/log/fresh"  # something ran: the report is new
 
 start=${EPOCHREALTIME/[.,]/}
 printf '%s\n' "$(printf '%q ' "$@")" > "$log.log"

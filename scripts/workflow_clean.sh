@@ -7,7 +7,7 @@ set -eu -o pipefail
 shopt -s nullglob dotglob
 out=$1 force=$2
 shift 2
-own=$(dirname "$0")/workflow_own.sh
+own=${0%/*}/workflow_own.sh
 if [ ! -e "$out" ]; then exit 0; fi
 option_files=()
 for stage in import raster prolong mesh merge check remesh; do

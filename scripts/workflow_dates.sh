@@ -5,8 +5,8 @@
 set -eu -o pipefail
 out=$1 n=0 before=
 [ -d "$out" ] || exit 0
-now=$(date +%s.%N)
-seconds=${now%.*} nanoseconds=$((10#${now#*.}))
+now=${EPOCHREALTIME/,/.}
+seconds=${now%.*} nanoseconds=$((10#${now#*.} * 1000))
 while IFS= read -r -d '' entry; do
   [ "${entry%% *}" = "$before" ] || n=$((n + 1000))
   before=${entry%% *}

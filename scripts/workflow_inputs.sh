@@ -34,7 +34,7 @@ named_files() {
 # The table of a stage in what st-run has left.
 kept_options() { awk -v table="[$1]" '/^\[/ { is_own = $0 == table; next } is_own && NF' "$out/st-run.toml"; }
 
-mkdir -p "$out/log"
+[ -d "$out/log" ] || mkdir -p "$out/log"
 stages=() kinds=() files=()  # what is hashed
 add() { stages+=("$1") kinds+=("$2") files+=("$3"); }
 for stage in "$@"; do

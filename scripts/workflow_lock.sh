@@ -12,7 +12,7 @@ shift 3
 hold() {
   local file=$out/log/lock status
   while true; do
-    mkdir -p "$out/log"
+    [ -d "$out/log" ] || mkdir -p "$out/log"
     exec 9>> "$file"
     status=0
     flock -n -E 99 9 || status=$?
@@ -48,7 +48,7 @@ if [ "$kind" = work ] && [ -n "$model" ] && [ ! -f "$model" ]; then
   exit 3
 fi
 if [ "$kind" = work ] || [ -f "$out/model.ref" ]; then hold; fi
-"$(dirname "$0")/workflow_dates.sh" "$out"  # make looks at dates as it begins
+"${0%/*}/workflow_dates.sh" "$out"  # make looks at dates as it begins
 if [ -z "$(printf %s "$out" | tr -d '[:alnum:]._+/@,~\200-\377-')" ]; then
   export ST_WORKFLOW_LOCK=$here//$out
   exec "$@" "OUT=$out"

@@ -7,7 +7,8 @@ set -eu -o pipefail
 out=$1 model=$2
 [ -f "$model" ] || { echo "workflow: error: MODEL '$model' does not exist" >&2; exit 3; }
 path=$(realpath -- "$model")
-hash=$(sha256sum < "$model" | cut -d' ' -f1)
+hash=$(sha256sum < "$model")
+hash=${hash%% *}
 if [ -f "$out/model.ref" ]; then
   { read -r old_hash && IFS= read -r old_path; } < "$out/model.ref"
   if [ "$old_hash" = "$hash" ]; then exit 0; fi
@@ -16,4 +17,4 @@ if [ -f "$out/model.ref" ]; then
     exit 2
   fi
 fi
-printf '%s\n%s\n' "$hash" "$path" | "$(dirname "$0")/replace_if_changed.sh" "$out/model.ref"
+printf '%s\n%s\n' "$hash" "$path" | "${0%/*}/replace_if_changed.sh" "$out/model.ref"

@@ -8,16 +8,32 @@
 set -eu -o pipefail
 action=$1
 shift
-record_of() { printf '%s/.st-written' "$(dirname -- "$1")"; }
+# Of a file: $name, and $record of its folder.
+locate() {
+  name=${1##*/} record=.st-written
+  case $1 in */*) record=${1%/*}/.st-written ;; esac
+}
+
+# Whether the record has a file of this name and size.
+has_size() {
+  local bytes recorded
+  [ -f "$record" ] || return 1
+  while read -r _ bytes recorded; do
+    if [ "$bytes" = "$1" ] && [ "$recorded" = "$name" ]; then return 0; fi
+  done < "$record"
+  return 1
+}
 
 require() {
-  local file foreign=()
+  local file i foreign=() present=() sizes=()
   for file in "$@"; do
-    [ -s "$file" ] || continue
-    line="^[0-9]+ $(stat -L -c %s -- "$file") "
-    if ! grep -sE "$line" -- "$(record_of "$file")" | cut -d' ' -f3- | grep -qxF -- "$(basename -- "$file")"; then
-      foreign+=("$file")
-    fi
+    if [ -s "$file" ]; then present+=("$file"); fi
+  done
+  [ ${#present[@]} -gt 0 ] || return 0
+  mapfile -t sizes < <(stat -L -c %s -- "${present[@]}")
+  for i in "${!present[@]}"; do
+    locate "${present[i]}"
+    has_size "${sizes[i]-}" || foreign+=("${present[i]}")
   done
   [ ${#foreign[@]} -eq 0 ] || {
     echo "workflow: error: would be replaced, but make did not write it, or it was changed since: ${foreign[*]};" \
@@ -27,13 +43,13 @@ require() {
 }
 
 # The line of a file in its record.
-line_of() { printf '%s %s\n' "$(cksum < "$1")" "$(basename -- "$1")"; }
+line_of() { printf '%s %s\n' "$(cksum < "$1")" "${1##*/}"; }
 
 note() {
-  local file record rest
+  local file rest
   for file in "$@"; do
-    record=$(record_of "$file")
-    rest=$(awk -v name="$(basename -- "$file")" '{ l = $0; sub(/^[0-9]+ [0-9]+ /, "", l) } l != name' "$record" \
+    locate "$file"
+    rest=$(awk -v name="$name" '{ l = $0; sub(/^[0-9]+ [0-9]+ /, "", l) } l != name' "$record" \
       2> /dev/null || true)
     { [ -z "$rest" ] || printf '%s\n' "$rest"; line_of "$file"; } > "$record.tmp.$$"
     mv "$record.tmp.$$" "$record"
@@ -44,7 +60,7 @@ note() {
 is_own() {
   case $1 in
     *.hdf) grep -aqF content_hash -- "$1" ;;
-    *) grep -sqxF -- "$(line_of "$1")" "$(record_of "$1")" ;;
+    *) locate "$1"; grep -sqxF -- "$(line_of "$1")" "$record" ;;
   esac
 }
 

@@ -6,7 +6,7 @@
 set -eu -o pipefail
 export LC_ALL=C  # printf and awk read 0.5 in every locale
 action=$1 results=$2
-own=$(dirname "$0")/workflow_own.sh
+own=${0%/*}/workflow_own.sh
 
 check() {
   local out=$1 bin=$2 status=0 said=$results/check.tmp.$$
@@ -21,7 +21,7 @@ check() {
   { echo $status; cat "$said"; } > "$results/check.txt"
   rm -f "$said"
   "$own" note "$results/check.txt"
-  touch "$results/log/fresh"
+  : > "$results/log/fresh"
 }
 
 times() {

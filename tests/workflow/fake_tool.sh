@@ -3,14 +3,17 @@
 # atomically. FAKE_FAIL="<tool> <exit code>" makes one tool fail (5 keeps its artifact, and --allow-incomplete makes it
 # 0); FAKE_KILL=<tool> makes it hang over a half-written temporary.
 set -eu
-tool=$(basename "$0")
+tool=${0##*/}
 inputs=() output='' allowed='' preset=''
 while [ $# -gt 0 ]; do
   case $1 in
     --print-options) echo "# options of $tool"; exit 0 ;;
     --print-inputs)  # the quoted names in lines such as sources = ["a.toml", "b.bac"], also in the table of the tool
       keys='sizes|groups|sources|background|blank|sample|edges|made-for'
-      grep -E "^($keys) =" "${inputs[0]}" | grep -o '"[^"]*"' | tr -d '"' || true
+      while IFS= read -r line; do
+        [[ $line =~ ^($keys)\ = ]] || continue
+        while [[ $line =~ \"([^\"]*)\"(.*) ]]; do echo "${BASH_REMATCH[1]}"; line=${BASH_REMATCH[2]}; done
+      done < "${inputs[0]}"
       exit 0 ;;
     -o | --merged) output=$2; shift 2 ;;
     --np) echo "$tool $2" >> "${FAKE_LOG:?}.np"; shift 2 ;;
@@ -27,7 +30,7 @@ if [ -z "$output" ]; then
   [ "$tool" != st-check ] || exit "${FAKE_CHECK:-0}"
   exit 0
 fi
-temporary=$(dirname "$output")/.$(basename "$output").tmp.$$.0
+temporary=${output%/*}/.${output##*/}.tmp.$$.0
 { echo "$tool${preset:+ $preset}"; cat "${inputs[@]}"; echo content_hash; } > "$temporary"
 if [ "${FAKE_KILL:-}" = "$tool" ]; then
   echo $$ > "$FAKE_LOG.pid"
@@ -37,7 +40,7 @@ fi
 mv "$temporary" "$output"
 case $output in
   *.hdf) ;;
-  *) (cd "$(dirname "$output")" && cksum "$(basename "$output")" >> .st-written) ;;
+  *) (cd "${output%/*}" && cksum "${output##*/}" >> .st-written) ;;
 esac
 [ "${FAKE_FAIL:-}" != "$tool 5" ] || [ -n "$allowed" ] || exit 5
 echo "$output: made"
