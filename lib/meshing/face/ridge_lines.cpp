@@ -27,6 +27,8 @@ constexpr int kHalvings = 10;              // between probes
 constexpr double kLonger = 1.1;            // there over the least one: less is no ridge
 constexpr double kTurned = 0.7;            // cosine between steps: a line that turns more ends
 constexpr double kClear = 1.5;             // lengths across, to other nodes and edges that must stay
+constexpr double kClearBeside = 8;         // likewise, to such edges along the line: their rows cover it
+constexpr double kBesideCosine = 0.8;      // between such an edge and the line
 constexpr std::size_t kLeastNodes = 4;
 
 class RidgeLayer {
@@ -183,9 +185,15 @@ class RidgeLayer {
     const double clear = kClear * p.request;
     return std::any_of(m_.ring().begin(), m_.ring().end(), [&](const Triangulation::RingEdge& e) {
       const Vec3 a = m_.nodes[e.a].x, b = m_.nodes[e.b].x;
-      return (e.a != last && distance(p.x, a) < clear) ||
-             (e.constrained && e.a != last && e.b != last && segment_distance(p.x, a, b) < clear);
+      if (e.a != last && distance(p.x, a) < clear) return true;
+      if (!e.constrained || e.a == last || e.b == last) return false;
+      const double free = is_beside(p, b - a) ? kClearBeside * p.request : clear;
+      return segment_distance(p.x, a, b) < free;
     });
+  }
+
+  static bool is_beside(const MeshNode& p, Vec3 edge) {
+    return std::abs(dot(p.squeeze, edge)) > kBesideCosine * norm(p.squeeze) * norm(edge);
   }
 
   FaceWork& w_;

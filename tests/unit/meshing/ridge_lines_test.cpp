@@ -108,6 +108,16 @@ TEST(RidgeLines, are_none_along_a_loop) {
   EXPECT_TRUE(lay_ridges(face.work).empty());
 }
 
+TEST(RidgeLines, are_none_beside_a_loop_that_has_rows) {
+  const WallField field(0.1, 0.2, 1);
+  std::vector<Vec2> loop;  // as loop_about_ridge(), cut off a few rows below the ridge
+  for (const Vec2 p : loop_about_ridge())
+    if (p.y > -0.4) loop.push_back(p);
+  for (int i = 1; i < 30; ++i) loop.push_back({static_cast<double>(i), -0.4});
+  RowCase face({loop}, field);
+  EXPECT_TRUE(lay_ridges(face.work).empty());
+}
+
 TEST(RidgeLines, have_rows_on_both_sides) {
   const WallField field(0.1, 0.2, 1);
   RowCase face({loop_about_ridge()}, field);
