@@ -79,8 +79,8 @@ ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const
   return result;
 }
 
-Model with_vertices_of(const SurfaceMesh& mesh, Model&& model) {
-  ModelTables tables = model.tables();
+Model with_vertices_of(const SurfaceMesh& mesh, Model&& model, const Composites& composites) {
+  ModelTables tables = model.cad().tables();
   bool is_same = true;
   for (std::size_t n = 0;
        n < mesh.node_xyz.size() && mesh.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kVertex); ++n) {
@@ -89,7 +89,9 @@ Model with_vertices_of(const SurfaceMesh& mesh, Model&& model) {
     x = mesh.node_xyz[n];
   }
   if (is_same) return std::move(model);
-  return model.facets().empty() ? Model(std::move(tables), model.brep()) : Model(std::move(tables), model.facets());
+  if (!model.facets().empty()) return {std::move(tables), model.facets()};
+  if (!composites.empty()) return {std::move(tables), model.cad().brep(), composites};
+  return {std::move(tables), model.brep()};
 }
 
 std::string association_text(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& r) {

@@ -32,8 +32,9 @@ struct ForeignMesh {
 /// Throws Error(kInput), Error(kMismatch) naming the file, Error(kUsage).
 ForeignMesh read_foreign_mesh(const std::string& path, const Model& model, const ForeignMeshOptions& options);
 
-/// The model with its vertices where the mesh has its nodes on them, so that these stay to the bit.
-Model with_vertices_of(const SurfaceMesh& mesh, Model&& model);
+/// The model with its vertices where the mesh has its nodes on them, so that these stay to the bit. `composites`: those
+/// of the model.
+Model with_vertices_of(const SurfaceMesh& mesh, Model&& model, const Composites& composites);
 
 /// "wing.stl: 12 triangles on 6 faces ...", and its JSON object.
 std::string association_text(const std::string& path, const SurfaceMesh& mesh, const AssociationReport& report);

@@ -160,12 +160,6 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
     throw Error(ExitCode::kUsage,
                 fmt::format("--moved: {} is not a mesh artifact: only these know the geometry that moved", o.mesh));
   GeometryArtifact geometry = read_geometry(o.geometry);
-  if (!geometry.composites.empty())
-    throw Error(
-        ExitCode::kInput,
-        fmt::format("{}: has joined faces, and {} is no mesh artifact: import the CAD with --composite none for "
-                    "meshes of other programs",
-                    o.geometry, o.mesh));
   if (!o.tolerance.empty())
     require_unit(parse_length(o.tolerance, "--tolerance"), geometry.header.unit_in_m, "--tolerance");
   MappedSizing sizing = map_sizing(o.sizing);
@@ -175,14 +169,16 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
     made_for.emplace(map_sizing(o.made_for));
     require_same_geometry(o.geometry, geometry.header, o.made_for, made_for->header);
   }
+  Composites composites = geometry.composites;
   Model model = stored_model(geometry, o.geometry);
   ForeignMesh foreign =
       read_foreign_mesh(o.mesh, model, {o.tolerance, sizing.field.get(), made_for ? made_for->field.get() : nullptr});
   MeshArtifact old = std::move(foreign.artifact);
   orient_outward(old.mesh);  // as st-merge does
-  Model on_nodes = with_vertices_of(old.mesh, std::move(model));
+  Model on_nodes = with_vertices_of(old.mesh, std::move(model), composites);
   RemeshInput in{std::move(old), std::move(geometry.header), std::move(on_nodes), std::move(sizing)};
   in.foreign = std::move(foreign);
+  in.composites = std::move(composites);
   return in;
 }
 

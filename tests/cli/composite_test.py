@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import INPUT, MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
+from chain import MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
 
 MODEL = MODELS / "wing_of_8.brep"
 AREAS = """
@@ -81,12 +81,24 @@ class Composite(ToolTest):
     def test_nothing_is_joined_by_a_check(self):
         self.expect_error(USAGE, "st-import", MODEL, "--check", "--composite", "smooth", says="--check writes nothing")
 
-    def test_meshes_of_other_programs_are_refused(self):
-        folder = self.chain()
-        must("st-export", folder / "mesh.hdf", "-o", folder / "m.stl")
-        self.expect_error(INPUT, "st-remesh", folder / "m.stl", folder / "geometry.hdf", folder / "sizing.hdf", "-o",
-                          folder / "n.hdf", says=["has joined faces", "--composite none"])
-        for mesh in ("mesh.hdf", "m.stl"):
+    def test_meshes_of_other_programs_lie_on_unions(self):
+        folder, python = self.chain(), "/usr/bin/python3"
+        must("st-export", folder / "mesh.hdf", "-o", folder / "joined.vtu")
+        make_chain(MODEL, folder / "apart", import_options=["--composite", "none"])
+        must("st-export", folder / "apart" / "mesh.hdf", "-o", folder / "apart.vtu")
+        must("st-export", folder / "apart" / "mesh.hdf", "-o", folder / "apart.stl")
+        for mesh in ("joined.vtu", "apart.vtu", "apart.stl"):
+            run = must("st-remesh", folder / mesh, folder / "geometry.hdf", folder / "sizing.hdf", "--merged",
+                       folder / "n.hdf", "--json")
+            if mesh == "joined.vtu":
+                self.assertEqual(run.json()["triangles_redone"], 0)
+            self.assertLess(run.json()["triangles_redone"], 0.05 * run.json()["triangles"], mesh)
+            self.assertEqual(Run("st-check", folder / "n.hdf", "--geometry", folder / "geometry.hdf").code, OK, mesh)
+            said = subprocess.run([python, "-c", AREAS, folder / "n.hdf", folder / "geometry.hdf"], capture_output=True,
+                                  text=True)
+            if "No module named" not in said.stderr:
+                self.assertEqual((said.returncode, said.stdout), (0, ""), said.stderr)
+        for mesh in ("mesh.hdf", "joined.vtu"):
             self.assertEqual(Run("st-check", folder / mesh, "--geometry", folder / "geometry.hdf").code, OK, mesh)
 
     def test_numbers_are_those_of_the_cad(self):
