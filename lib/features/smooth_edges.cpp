@@ -10,18 +10,13 @@ namespace {
 constexpr int kPlaces = 9;
 constexpr double kSmooth = radians(3);  // between the normals on both sides
 
-struct EdgeUse {
-  FaceId face;
-  CoedgeId coedge;
-};
-
 /// One side of an edge.
 class EdgeSide {
  public:
-  EdgeSide(const Model& model, const EdgeUse& use)
-      : surface_(model.surface(use.face)),
-        pcurve_(model.pcurve(use.face, use.coedge)),
-        is_reversed_(model.tables().face_is_reversed[use.face] != 0) {}
+  EdgeSide(const Model& model, FaceId face, CoedgeId coedge)
+      : surface_(model.surface(face)),
+        pcurve_(model.pcurve(face, coedge)),
+        is_reversed_(model.tables().face_is_reversed[face] != 0) {}
 
   Vec3 outer_normal(double t) const {
     const Vec3 n = surface_normal(*surface_, pcurve_->point(t));
@@ -46,15 +41,32 @@ bool are_smooth(const EdgeSide& a, const EdgeSide& b, double t0, double t1) {
 
 }  // namespace
 
-std::vector<std::uint8_t> find_smooth_edges(const Model& model) {
+SmoothEdges::SmoothEdges(const Model& model)
+    : model_(model),
+      uses_(static_cast<std::size_t>(model.tables().n_edges())),
+      answer_(uses_.size(), Answer::kNotAsked) {
   const ModelTables& t = model.tables();
-  std::vector<std::vector<EdgeUse>> uses(static_cast<std::size_t>(t.n_edges()));
   for (FaceId f = 0; f < t.n_faces(); ++f)
-    for (const CoedgeId c : t.coedges(f)) uses[t.coedge_edge[c]].push_back({f, c});
-  std::vector<std::uint8_t> is_smooth(uses.size(), 0);
-  for (std::size_t e = 0; e < uses.size(); ++e)
-    if (uses[e].size() == 2 && !t.edge_is_degenerate[e])
-      is_smooth[e] = are_smooth({model, uses[e][0]}, {model, uses[e][1]}, t.edge_range[2 * e], t.edge_range[2 * e + 1]);
+    for (const CoedgeId c : t.coedges(f)) uses_[t.coedge_edge[c]].push_back({f, c});
+}
+
+bool SmoothEdges::operator()(EdgeId edge) {
+  const auto e = static_cast<std::size_t>(edge);
+  if (answer_[e] == Answer::kNotAsked) {
+    const ModelTables& t = model_.tables();
+    const auto side = [&](const Use& use) { return EdgeSide(model_, use.face, use.coedge); };
+    const bool is_smooth =
+        uses_[e].size() == 2 && !t.edge_is_degenerate[e] &&
+        are_smooth(side(uses_[e][0]), side(uses_[e][1]), t.edge_range[2 * e], t.edge_range[2 * e + 1]);
+    answer_[e] = is_smooth ? Answer::kSmooth : Answer::kSharp;
+  }
+  return answer_[e] == Answer::kSmooth;
+}
+
+std::vector<std::uint8_t> find_smooth_edges(const Model& model) {
+  SmoothEdges edges(model);
+  std::vector<std::uint8_t> is_smooth(static_cast<std::size_t>(model.tables().n_edges()));
+  for (EdgeId e = 0; e < model.tables().n_edges(); ++e) is_smooth[static_cast<std::size_t>(e)] = edges(e);
   return is_smooth;
 }
 

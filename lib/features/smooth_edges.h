@@ -9,9 +9,30 @@
 
 namespace st {
 
-/// [n_edges] 1: two coedges use the edge, of two faces or along a seam, and at nine places on it the normals on both
-/// sides differ by 3 degrees at most. Degenerate edges are not smooth. Local. Cost: up to 18
-/// evaluations per edge.
+/// Tells of one edge after the other. Local.
+class SmoothEdges {
+ public:
+  /// `model` outlives it.
+  explicit SmoothEdges(const Model& model);
+
+  /// Whether two coedges use the edge, of two faces or along a seam, and at nine places on it the normals on both
+  /// sides differ by 3 degrees at most. Degenerate edges are not smooth. Cost: up to 18 evaluations, at the first
+  /// call for each edge.
+  bool operator()(EdgeId e);
+
+ private:
+  struct Use {
+    FaceId face;
+    CoedgeId coedge;
+  };
+  enum class Answer : std::uint8_t { kNotAsked, kSmooth, kSharp };
+
+  const Model& model_;
+  std::vector<std::vector<Use>> uses_;  // [n_edges]
+  std::vector<Answer> answer_;          // [n_edges]
+};
+
+/// [n_edges] 1: the edge is smooth.
 std::vector<std::uint8_t> find_smooth_edges(const Model& model);
 
 /// Whether two uses of an edge by `faces` have normals within `most` of each other half way along it, radians. Local.

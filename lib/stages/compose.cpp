@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -52,36 +53,37 @@ bool are_alike(const ModelTables& t, FaceId a, FaceId b) {
                              [&](const GroupTable& table) { return table.face_group[a] == table.face_group[b]; });
 }
 
-/// Marks smooth edges between two faces that are alike.
-std::vector<std::uint8_t> edges_inside(const Model& cad) {
-  const ModelTables& t = cad.tables();
-  std::vector<std::uint8_t> is_inside = find_smooth_edges(cad);
+/// Marks edges between two faces that are alike, smooth or not.
+std::vector<std::uint8_t> edges_inside(const ModelTables& t) {
+  std::vector<std::uint8_t> is_inside(static_cast<std::size_t>(t.n_edges()), 0);
   const std::vector<std::uint8_t> is_kept = kept_edges(t);
   std::vector<std::int32_t> offsets;
   std::vector<FaceId> faces;
   t.edge_faces(offsets, faces);
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (is_inside[e] &&
-        (is_kept[e] || offsets[e + 1] - offsets[e] != 2 || !are_alike(t, faces[offsets[e]], faces[offsets[e] + 1])))
-      is_inside[e] = 0;
+    is_inside[e] = !is_kept[e] && !t.edge_is_degenerate[e] && offsets[e + 1] - offsets[e] == 2 &&
+                   are_alike(t, faces[offsets[e]], faces[offsets[e] + 1]);
   return is_inside;
 }
 
-/// Finds edges that force bad triangles.
+/// Finds smooth edges that force bad triangles. Whether an edge is smooth is asked last, where all else says so.
 class HarmFinder {
  public:
-  HarmFinder(const Model& cad, const std::vector<std::uint8_t>& may_join)
+  HarmFinder(const Model& cad, const std::vector<std::uint8_t>& is_inside, SmoothEdges& is_smooth)
       : cad_(cad),
         t_(cad.tables()),
-        may_join_(may_join),
+        is_inside_(is_inside),
+        is_smooth_(is_smooth),
+        longest_(kDefaultLmax * t_.reference_diagonal()),
         harm_(static_cast<std::size_t>(t_.n_edges()), 0),
         length_(static_cast<std::size_t>(t_.n_edges()), 0) {
     for (FaceId f = 0; f < t_.n_faces(); ++f)
       for (const CoedgeId c : t_.coedges(f)) uses_.emplace_back(t_.coedge_edge[c], std::pair(f, c));
     std::ranges::sort(uses_);
     for (FaceId f = 0; f < t_.n_faces(); ++f)
-      if (std::ranges::any_of(t_.edges_of(f), [&](EdgeId e) { return may_join_[e] != 0; })) judge(f);
+      if (std::ranges::any_of(t_.edges_of(f), [&](EdgeId e) { return is_inside_[e] != 0; })) judge(f);
   }
+  /// [n_edges] above 0 where an edge may be joined and does harm.
   std::vector<double> take() { return std::move(harm_); }
 
  private:
@@ -96,8 +98,11 @@ class HarmFinder {
     }
   }
 
-  void add(EdgeId e, double harm) {
-    if (may_join_[e]) harm_[e] += harm;
+  bool may_join(EdgeId e) { return is_inside_[e] && is_smooth_(e); }
+
+  /// Whether this is too short beside the edge, which may go.
+  bool is_short(double length, EdgeId e) {
+    return is_inside_[e] && length < kShort * longest_ && may_join(e) && length < kShort * length_at(e);
   }
 
   /// Away from the vertex between two coedges.
@@ -110,24 +115,23 @@ class HarmFinder {
 
   void judge_corner(CoedgeId c, CoedgeId next) {
     const EdgeId a = t_.coedge_edge[c], b = t_.coedge_edge[next];
-    if (a == b || (!may_join_[a] && !may_join_[b]) || t_.edge_is_degenerate[a] || t_.edge_is_degenerate[b]) return;
-    if (angle_between(direction(c, true), direction(next, false)) < kSharpCorner) add(a, 1), add(b, 1);
-    // what is short beside an edge that may go
+    if (a == b || (!is_inside_[a] && !is_inside_[b]) || t_.edge_is_degenerate[a] || t_.edge_is_degenerate[b]) return;
+    if (angle_between(direction(c, true), direction(next, false)) < kSharpCorner)
+      for (const EdgeId e : {a, b}) harm_[e] += may_join(e) ? 1 : 0;
     for (const auto& [own, other] : {std::pair{a, b}, std::pair{b, a}})
-      if (t_.edge_length[other] < kShort * length_at(own)) add(own, 1);
+      harm_[own] += is_short(t_.edge_length[other], own) ? 1 : 0;
   }
 
   /// Beyond an edge across a narrow face it is as narrow.
   void judge_width(FaceId f, CoedgeId c) {
     const EdgeId e = t_.coedge_edge[c];
-    if (may_join_[e] && t_.edge_length[e] > kAcross * t_.face_width[f] && t_.face_width[f] < kShort * length_at(e))
-      add(e, 2);
+    if (t_.edge_length[e] > kAcross * t_.face_width[f] && is_short(t_.face_width[f], e)) harm_[e] += 2;
   }
 
   /// What st-raster would ask for at an edge by default, about.
   double length_at(EdgeId e) {
     if (length_[e] > 0) return length_[e];
-    double length = kDefaultLmax * t_.reference_diagonal();
+    double length = longest_;
     constexpr int kPlaces = 3;
     const auto [first, last] = std::equal_range(uses_.begin(), uses_.end(), std::pair(e, std::pair(0, 0)),
                                                 [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -149,11 +153,28 @@ class HarmFinder {
 
   const Model& cad_;
   const ModelTables& t_;
-  const std::vector<std::uint8_t>& may_join_;
+  const std::vector<std::uint8_t>& is_inside_;
+  SmoothEdges& is_smooth_;
+  double longest_;  // length that st-raster asks for where nothing is curved
   std::vector<double> harm_;
   std::vector<double> length_;                                        // of each edge, 0: not yet known
   std::vector<std::pair<EdgeId, std::pair<FaceId, CoedgeId>>> uses_;  // ascending
 };
+
+/// Keeps smooth edges between faces that some edge is to go from: others are in no union.
+void keep_smooth(const ModelTables& t, JoinRequest& request, SmoothEdges& is_smooth) {
+  std::vector<std::int32_t> offsets;
+  std::vector<FaceId> faces;
+  t.edge_faces(offsets, faces);
+  const auto sides = [&](EdgeId e) { return std::span(faces).subspan(static_cast<std::size_t>(offsets[e]), 2); };
+  std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t.n_faces()), 0);
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (request.may_join[e] && request.urgency[e] > 0)
+      for (const FaceId f : sides(e)) is_wanted[f] = 1;
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    request.may_join[e] = request.may_join[e] &&
+                          std::ranges::all_of(sides(e), [&](FaceId f) { return is_wanted[f] != 0; }) && is_smooth(e);
+}
 
 /// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each refused union is
 /// logged.
@@ -185,11 +206,11 @@ bool asks_for_composites(const std::string& word, const std::string& path) {
 JoinRequest join_request(const Model& cad, bool is_harm_only) {
   const ModelTables& t = cad.tables();
   JoinRequest request;
-  request.may_join = edges_inside(cad);
-  request.urgency = is_harm_only ? HarmFinder(cad, request.may_join).take() : t.edge_length;
-  bool is_asked = false;
-  for (EdgeId e = 0; e < t.n_edges(); ++e) is_asked |= request.may_join[e] && request.urgency[e] > 0;
-  if (!is_asked) return request;
+  SmoothEdges is_smooth(cad);
+  request.may_join = edges_inside(t);
+  request.urgency = is_harm_only ? HarmFinder(cad, request.may_join, is_smooth).take() : t.edge_length;
+  keep_smooth(t, request, is_smooth);
+  if (std::ranges::count(request.may_join, 1) == 0) return request;
   for (const WingEdge& w : wing_edges_to_see(cad)) request.may_join[w.edge] = 0;
   const std::vector<std::uint8_t> is_ridge = find_ridge_edges(cad, request.may_join);
   for (EdgeId e = 0; e < t.n_edges(); ++e)
