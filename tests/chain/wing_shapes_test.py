@@ -96,13 +96,35 @@ SPANS = {
     "far_wing": [3002],
     "strip_wing": [4.02],
     "wing_with_rods": [3.96],
+    "grid_fin": [8],  # eight webs of 1
+    "morphing_wing": [4.03],
+    "flat_back_blade": [9.05],
+    "foil_with_bulb": [1.41, 1.13, 1.13],  # strut, foils
+    "winged_keel": [1.32, 0.65, 0.65],
+    "catamaran": [1.04, 1.04],
+    "helical_turbine": [2.15, 2.15, 2.15],
+    "splitter_impeller": 12 * [0.25],
+    "cell_wing": [4.45],
+    "chamfer_winglet": [3.89],  # 3 along the wing, 0.22 and 0.67
+    "channel_wing": [4.48],  # two straight pieces of 1.3, half a circle of radius 0.6
+    "chined_body": [1.4, 1.4],
+    "board_with_fins": [1, 1, 1],
+    "torpedo": [3.14, 0.37, 0.37, 0.37, 0.37],  # ring, fins
+    "cusped_wing": [4],
+    "egg_beater": [2.7, 2.7],
+    "wide_runner": 4 * [0.62],
+    "race_wing": [2, 2],
+    "all_moving_tail": [3.42, 3.42, 1.45, 1.45],
+    "biplane": [6, 6, 1.15, 1.15],
 }
 # Noses before slots and flaps, where the trailing edge is another part's or none.
 NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing": 0.36, "gapped_aileron": 1.3,
                "fixed_slat": 2.4, "two_elements": 0, "kinked_wing": 0}
 PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib",
          "seal", "oval_bar", "saw", "door_stop", "snap_hook", "plow", "hole_plate", "cam", "lever", "dovetail",
-         "funnel", "shim", "pulley", "fan_disc", "leaf_spring", "drill", "bezel", "axe")
+         "funnel", "shim", "pulley", "fan_disc", "leaf_spring", "drill", "bezel", "axe", "turbine_disc", "louvre_grille",
+         "cooling_fins", "knife", "wing_nut", "propeller_nut", "shovel", "comb", "lip_profile", "circular_saw",
+         "door_handle", "scissors")
 
 
 class WingShapes(ToolTest):

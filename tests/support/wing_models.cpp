@@ -30,6 +30,7 @@
 
 #include "geometry/brep/compound.h"
 #include "rare_wings.h"
+#include "unusual_wings.h"
 #include "wing_sections.h"
 
 namespace {
@@ -920,7 +921,8 @@ const Makers& wings() {
 
 Makers models() {
   Makers all = wings();
-  for (const Makers* more : {&round_models(), &rough_models(), &cut_models(), &rare_models(), &parts()})
+  for (const Makers* more :
+       {&round_models(), &rough_models(), &cut_models(), &rare_models(), &unusual_models(), &parts()})
     all.insert(more->begin(), more->end());
   return all;
 }
