@@ -115,8 +115,10 @@ std::string number(double x) {
     throw Error(ExitCode::kInput, subject + ": not done within " + number(limits.wall_seconds) + " s");
   if (WIFSIGNALED(status))
     throw Error(ExitCode::kInput, subject + ": OpenCASCADE crashed on this file (" + strsignal(WTERMSIG(status)) +
-                                      "); it is damaged: export the model again");
-  throw Error(ExitCode::kInput, subject + ": OpenCASCADE gave up on this file; it is damaged: export the model again");
+                                      "); it is damaged: export the model again, or in another format");
+  throw Error(
+      ExitCode::kInput,
+      subject + ": OpenCASCADE gave up on this file; it is damaged: export the model again, or in another format");
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ void MeshRounds::run() {
     std::uint64_t n = crossings.size();
     share(executor_, n);
     const bool is_promising = RefinementPolicy::is_promising(n, is_measured(crossings));
-    if (is_last || n == 0 || !policy_.refines_crossings(n_crossing_rounds++, is_promising)) return;
+    if (is_last || n == 0 || !policy_.refines_crossings(n_crossing_rounds++, is_promising) || is_stuck()) return;
     if (!refine(crossings, policy_.crossing_floor)) return;
   }
 }
@@ -72,6 +72,25 @@ bool MeshRounds::runs_away() {
                 std::to_string(n_first_) +
                 "; folds and crossings stay: the surfaces are damaged, or walls too close together");
   return is_over != 0;
+}
+
+/// Collective. Whether as many triangles cross as some rounds ago, as where surfaces cross in the CAD.
+bool MeshRounds::is_stuck() {
+  const std::int64_t n_pairs = result_.n_crossing_pairs;
+  if (n_fewest_pairs_ == 0 || RefinementPolicy::is_clearly_fewer(n_pairs, n_fewest_pairs_)) {
+    n_fewest_pairs_ = n_pairs;
+    n_stuck_ = 0;
+  } else {
+    ++n_stuck_;
+  }
+  char is = RefinementPolicy::is_stuck(n_stuck_, n_pairs);
+  share(executor_, is);
+  if (is && executor_.is_root())
+    log_warning(fmt::format(
+        "refining where triangles cross was ended: {} pairs of triangles cross, and {} rounds of smaller ones left not "
+        "clearly fewer; surfaces cross each other there, so repair them in the CAD system",
+        n_pairs, n_stuck_));
+  return is != 0;
 }
 
 /// Collective. Where facets cross in the joined mesh; on rank 0.

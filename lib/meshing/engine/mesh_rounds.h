@@ -52,11 +52,14 @@ class MeshRounds {
   Places affordable(const Places& places);
   bool is_measured(const Places& places) const;
   bool runs_away();
+  bool is_stuck();
 
   RefinementPolicy policy_;
-  std::uint64_t n_first_ = 0;    // triangles of the first round
-  bool has_said_walls_ = false;  // too many triangles
-  double n_for_walls_ = 0;       // triangles that were to part walls
+  std::uint64_t n_first_ = 0;        // triangles of the first round
+  bool has_said_walls_ = false;      // too many triangles
+  double n_for_walls_ = 0;           // triangles that were to part walls
+  std::int64_t n_fewest_pairs_ = 0;  // of crossing triangles after a round; 0: none yet
+  int n_stuck_ = 0;                  // rounds since then
 };
 
 }  // namespace st

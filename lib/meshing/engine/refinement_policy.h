@@ -51,7 +51,8 @@ struct RefinementPolicy {
   static constexpr int kFewPairs = 50;               ///< with more pairs, faces that cross each other stay as they are
 
   // times
-  static constexpr int kMostWithout = 2;    ///< meshings of a face in a row that leave not clearly fewer
+  static constexpr int kMostWithout = 2;  ///< meshings of a face in a row that leave not clearly fewer
+  static constexpr int kMostStuck = 3;    ///< rounds in a row that leave not clearly fewer pairs, where there are many
   static constexpr int kMostTakenBack = 4;  ///< that refinements at bad places are taken back: bad places move
   static constexpr int kMostLoosened = 4;   ///< that lengths are doubled: most are no finer than kLoopFloor
   static constexpr int kMostEased = 10;     ///< that lengths along become shorter: to 0.6 each time, 100 to 1 in nine
@@ -70,6 +71,8 @@ struct RefinementPolicy {
   bool refines_crossings(int n_rounds, bool is_promising) const {
     return n_rounds < (is_promising ? max_promising_rounds : max_crossing_rounds);
   }
+  /// Whether smaller triangles cross no less: rounds since there were clearly more pairs, and those there are.
+  static bool is_stuck(int n_without, std::int64_t n_pairs) { return n_without >= kMostStuck && n_pairs >= kManyBad; }
   static int most_uneased(std::size_t n_obtuse) { return n_obtuse > 0 ? kMostUneased : kMostUneasedSteps; }
   /// Whether lengths along become shorter once more, after `n_rounds`, `n_without` success lately. `n_worst`: angles
   /// above 150 degrees and places that are not held. `n_again`: triangles meshed for that so far.

@@ -120,6 +120,23 @@ TEST(MeshRounds, go_on_where_few_triangles_cross) {
   EXPECT_EQ(result.n_rounds, 1 + kLimits.max_promising_rounds);
 }
 
+TEST(MeshRounds, end_where_rounds_leave_as_many_pairs) {
+  const auto rounds_with = [](auto n_pairs) {
+    MeshResult result;
+    Scripted rounds(kLimits, result, kNothing, [&](int call) {
+      result.n_crossing_pairs = n_pairs(call);
+      return places(call, 100);
+    });
+    rounds.run();
+    return result.n_rounds;
+  };
+  const int most = 1 + kLimits.max_promising_rounds;
+  EXPECT_EQ(rounds_with([](int) { return 1000; }), 4) << "three rounds without success";
+  EXPECT_EQ(rounds_with([](int) { return 99; }), most) << "few pairs";
+  EXPECT_EQ(rounds_with([](int call) { return call == 2 ? 800 : 1000; }), most) << "fewer in between";
+  EXPECT_EQ(rounds_with([](int call) { return call < 2 ? 1000 + 500 * call : 1000; }), 4) << "more do not count";
+}
+
 TEST(MeshRounds, count_refinements_of_regions_apart_from_those_of_crossings) {
   MeshResult result;
   Scripted rounds(

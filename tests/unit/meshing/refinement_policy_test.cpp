@@ -43,6 +43,12 @@ TEST(RefinementPolicy, goes_on_where_few_triangles_cross) {
           {"measured", [] { return Policy::is_promising(9000, true); }, true}});
 }
 
+TEST(RefinementPolicy, ends_where_as_many_triangles_cross_after_some_rounds) {
+  expect({{"three rounds, 100 pairs", [] { return Policy::is_stuck(3, 100); }, true},
+          {"two rounds", [] { return Policy::is_stuck(2, 9000); }, false},
+          {"99 pairs", [] { return Policy::is_stuck(9, 99); }, false}});
+}
+
 TEST(RefinementPolicy, shortens_lengths_along_for_longer_where_triangles_are_obtuse) {
   EXPECT_EQ(Policy::most_uneased(1), 5);
   EXPECT_EQ(Policy::most_uneased(0), 2);
