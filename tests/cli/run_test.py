@@ -46,6 +46,17 @@ class RunTest(ToolTest):
         self.assertEqual(folders_of_runs() - self.before, set())
 
 
+class Start(unittest.TestCase):
+    def test_only_tools_with_ranks_load_mpi(self):
+        loaded = {}
+        for tool in sorted(BIN.glob("st-*")):
+            listed = subprocess.run([tool], env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"}, capture_output=True,
+                                    text=True, check=True).stdout
+            self.assertIn("libc.so", listed)
+            loaded[tool.name] = "libmpi" in listed
+        self.assertEqual([name for name, has_mpi in loaded.items() if has_mpi], ["st-mesh", "st-raster", "st-remesh"])
+
+
 class Meshes(RunTest):
     def test_the_mesh_is_that_of_the_single_tools(self):
         must("st-run", self.model, cwd=self.folder)
