@@ -33,6 +33,11 @@ setTimeout(() => {
     for (const box of seen) box.click();
     said.hidden = coloured();
     for (const box of seen) box.click();
+    $("none").click();
+    said.none = coloured();
+    $("all").click();
+    said.all = [...document.querySelectorAll("#groups input")].every(box => box.checked) && coloured() > 0;
+    for (const box of document.querySelectorAll("#groups input")) if (!seen.includes(box)) box.click();
     slow.drawing = 1000; isMoving = true;
     said.while_moving = coloured();
     isMoving = false;
@@ -118,6 +123,7 @@ setTimeout(() => {
       said.picked = $("picked_edges").textContent;
       said.rule = $("rule").textContent;
       said.on_edge = cadEdges.some(e => said.picked.startsWith("edge " + e.number));
+      if (navigator.clipboard) navigator.clipboard.writeText = async text => { said.clipboard = text; };
       $("copy").click();
       said.copied = getSelection().toString();
       $("unpick").click();
@@ -125,10 +131,26 @@ setTimeout(() => {
       $("lined").checked = false;
     }
     said.wings = $("wings").textContent;
+    const near = (place, half) => camera.half < half &&
+      Math.hypot(...place.map((x, k) => x - camera.focus[k])) < camera.half + 0.001 * meta.diagonal;  // four digits
+    if (target) {
+      const under = faceAt(...target).place, half = camera.half;
+      canvas.dispatchEvent(new MouseEvent("dblclick", { clientX: target[0], clientY: target[1], bubbles: true }));
+      said.flown_to_double_click = near(under, half);
+      $("fit").click();
+    }
+    const station = document.querySelector("#wings td button"), least = camera.half;
+    if (station) {
+      const focus = camera.focus.join();
+      station.click();
+      said.flown_to_station = camera.half < least && camera.focus.join() !== focus && !$("mark").hidden;
+      $("fit").click();
+    }
     const button = document.querySelector("#findings button");
     if (button) button.click();
     setTimeout(() => {
-      said.flown = !button || camera.half !== half;
+      const place = button && button.title.split(", ").map((x, k) => x.replaceAll(",", "") - meta.centre[k]);
+      said.flown = !button || near(place, least);
       said.near = coloured();
       document.title = JSON.stringify(said);
     }, 1500);
@@ -142,7 +164,7 @@ def script(page, name):
 
 
 HEADLESS = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-            "--force-prefers-reduced-motion", "--virtual-time-budget=8000"]
+            "--force-prefers-reduced-motion", "--enable-logging=stderr", "--virtual-time-budget=8000"]
 
 
 class Browser(ToolTest):
@@ -159,8 +181,12 @@ class Browser(ToolTest):
                               capture_output=True, text=True, timeout=120)
         title = re.search("<title>(.*?)</title>", done.stdout, re.S)
         self.assertTrue(title and title.group(1).startswith("{"), done.stdout[-500:] + done.stderr[-500:])
+        console = [line for line in done.stderr.splitlines() if "CONSOLE" in line and "GPU stall" not in line]
+        self.assertEqual(console, [])
         return json.loads(title.group(1).replace("&quot;", '"').replace("&amp;", "&"))
 
+    def expect_groups_to_be_switched(self, said):
+        self.assertEqual((said["hidden"], said["none"], said["all"]), (0, 0, True), said)
 
     def expect_one_printed_page(self, file):
         browser = shutil.which("chromium")
@@ -212,7 +238,8 @@ class Report(Browser):
         self.assertNotIn("error", said)
         self.assertIn("passes all checks", said["verdict"])
         self.assertGreater(said["shown"], 0.05, said)
-        self.assertEqual(said["hidden"], 0, said)
+        self.expect_groups_to_be_switched(said)
+        self.assertTrue(said["flown_to_double_click"], said)
         self.assertAlmostEqual(said["while_moving"], said["shown"], delta=0.1 * said["shown"])
         self.assertIn("Quality", said["legend"])
         self.assertTrue(said["turned"] and said["flown"], said)
@@ -225,6 +252,7 @@ class Report(Browser):
         self.assertTrue(said["on_edge"] and said["unpicked"], said)
         self.assertRegex(said["rule"], r"^\[\[size\]\]\nedges = \d+\ntrailing_edge = true$")
         self.assertEqual(said["copied"].split(), said["rule"].split())
+        self.assertEqual(said.get("clipboard", said["rule"]), said["rule"])
         self.assertEqual(said["picked_faces"], "", "a click on an edge takes no face behind it")
         self.assertEqual(said["wings"], "")
         self.expect_faces_to_be_picked(said)
@@ -431,9 +459,9 @@ class Aircraft(Browser):
         self.assertNotIn("error", said)
         self.assertEqual(said["verdict"], "This mesh passes all checks.")
         self.assertGreater(said["shown"], 0.05, said)
-        self.assertEqual(said["hidden"], 0, said)
+        self.expect_groups_to_be_switched(said)
         self.assertAlmostEqual(said["while_moving"], said["shown"], delta=0.1 * said["shown"])
-        self.assertTrue(said["turned"] and said["flown"], said)
+        self.assertTrue(said["turned"] and said["flown"] and said["flown_to_station"], said)
         self.assertGreater(said["near"], 0.05, said)
         self.assertGreater(said["cells"], 1000, said)
         self.assertIn("Lifting surfaces", said["wings"])
