@@ -29,6 +29,7 @@ struct SamplingLimits {
   double max_aspect = 1;  ///< largest length along a direction in which the shape allows it, over the length across
   std::optional<double> max_along = std::nullopt;  ///< largest length along it, model unit; nullopt: max_length
   bool stretches_curve = false;                    ///< lengths along a curve are stretched, too
+  bool has_own_min = false;                        ///< a rule gave min_length: nothing else moves it
   std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
 

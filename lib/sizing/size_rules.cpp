@@ -205,7 +205,7 @@ SamplingLimits changed_limits(const SizeRule& rule, SamplingLimits limits, const
   const auto resolved = [&](const LengthSpec& spec, const char* key) {
     return resolve_length(spec, reference, text_of(rule.where, ": ", key));
   };
-  if (rule.lmin) limits.min_length = resolved(*rule.lmin, "lmin");
+  if (rule.lmin) limits.min_length = resolved(*rule.lmin, "lmin"), limits.has_own_min = true;
   const double before = limits.max_along.value_or(limits.max_length);
   if (rule.lmax) limits.max_length = resolved(*rule.lmax, "lmax"), limits.max_along.reset();
   if (rule.max_aspect) {

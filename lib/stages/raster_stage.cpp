@@ -262,8 +262,7 @@ void set_floors(const ModelTables& t, const std::vector<LiftingSurface>& wings, 
                 ModelLimits& limits) {
   const std::vector<double> floors = curvature_floors(t, wings, sizes, limits.chords);
   for (std::size_t f = 0; f < floors.size(); ++f)
-    if (std::optional<SamplingLimits>& own = limits.face[f];
-        own && std::isfinite(floors[f]) && own->min_length == limits.far.min_length) {
+    if (std::optional<SamplingLimits>& own = limits.face[f]; own && std::isfinite(floors[f]) && !own->has_own_min) {
       own->gap_floor = std::max(2 * floors[f], limits.min_length);
       own->min_length = std::clamp(floors[f], own->min_length, own->max_length);
     }
@@ -427,7 +426,7 @@ class RasterTasks {
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
     for (GapPatch& patch : patches) {
       patch.solid = model_.tables().face_solid[f];
-      patch.keeps_floor = limits->gap_floor == 0 && limits->min_length != limits_.far.min_length;  // a rule's lmin
+      patch.keeps_floor = limits->has_own_min;
       if (is_reversed != limits_.is_material_ahead) patch.flip();
     }
     if (strip && !limits_.edge_is_ruled[strip->edges[0]] && !limits_.edge_is_ruled[strip->edges[1]] &&
