@@ -147,14 +147,22 @@ class BackgroundSource final : public SizeSource {
     });
     return best;
   }
+  std::array<double, 3> border_lengths(std::size_t triangle) const {
+    return values_at(border_[triangle], [](const LocalSize& s) { return s.length; });
+  }
   double border_length(std::size_t triangle, Vec3 x) const {
-    const std::array<double, 3> lengths = values_at(border_[triangle], [](const LocalSize& s) { return s.length; });
-    return least_over_triangle(x, corners_of(triangle), lengths, slope());
+    return least_over_triangle(x, corners_of(triangle), border_lengths(triangle), slope());
+  }
+  /// Whether lengths that grow from a triangle can be below `best` at x.
+  bool may_be_below(double best, Vec3 x, std::size_t triangle, const std::array<double, 3>& lengths) const {
+    constexpr double kRounding = 1e-12;  // of a length: a bound is as exact as that
+    return bound_over_triangle(x, corners_of(triangle), lengths, slope()) < (1 + kRounding) * best;
   }
   /// Of the growth from the border, or best; `winner`: the triangle that asks for less than best, else unchanged.
   double least_outside(Vec3 x, double best, std::size_t& winner) const {
     border_tree_.visit_from(x, slope(), best, [&](std::int32_t b) {
       const auto triangle = static_cast<std::size_t>(b);
+      if (!may_be_below(best, x, triangle, border_lengths(triangle))) return;
       const double length = border_length(triangle, x);
       if (!(length < best)) return;
       best = length;
@@ -198,10 +206,12 @@ class BackgroundSource final : public SizeSource {
     double best = kInfinity;
     border_tree_.visit_from(x, slope(), best, [&](std::int32_t b) {
       const auto& triangle = border_[static_cast<std::size_t>(b)];
+      if (!may_be_below(best, x, static_cast<std::size_t>(b), border_lengths(static_cast<std::size_t>(b)))) return;
       const bool is_beside = have_common_node(triangle, nodes);
       const std::array<double, 3> lengths = values_at(triangle, [&](const LocalSize& s) {
         return is_beside ? std::max(s.length, mean.kept * s.along) : s.in(mean.direction);
       });
+      if (!may_be_below(best, x, static_cast<std::size_t>(b), lengths)) return;
       best = std::min(best, least_over_triangle(x, corners_of(static_cast<std::size_t>(b)), lengths, slope()));
     });
     return best;

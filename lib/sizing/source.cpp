@@ -160,6 +160,16 @@ double least_over_triangle(Vec3 x, const std::array<Vec3, 3>& p, const std::arra
                    least_over_segment(x, p[2], p[0], length[2], length[0], slope)});
 }
 
+double bound_over_triangle(Vec3 x, const std::array<Vec3, 3>& p, const std::array<double, 3>& length, double slope) {
+  const Vec3 to_centre = (p[0] + p[1] + p[2]) / 3 - x;
+  const double distance2 = norm2(to_centre);
+  if (!(distance2 > 0)) return std::min({length[0], length[1], length[2]});
+  // no distance is below its part along the way to the centre, and what is linear is least at a corner
+  const Vec3 growth = (slope / std::sqrt(distance2)) * to_centre;
+  return std::min(
+      {length[0] + dot(growth, p[0] - x), length[1] + dot(growth, p[1] - x), length[2] + dot(growth, p[2] - x)});
+}
+
 int n_spacings(SourceKind kind) {
   const SourceType* type = find_source_type(kind);
   ST_ASSERT(type);

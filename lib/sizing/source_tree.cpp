@@ -85,13 +85,15 @@ LocalSize SourceTree::local_below(Vec3 x, const LocalSize& upper) const {
   const double length = size_below(x, upper.length, &winner);
   if (max_aspect_ <= 1 && upper.along <= upper.length) return {length, length, {}};
   int hint = 0;
-  LocalSize least = winner == kNone ? upper : entries_[winner].source->local(x, hint);
+  const LocalSize first = winner == kNone ? upper : entries_[winner].source->local(x, hint);
+  LocalSize least = first;
   if (!(least.along > least.length)) return {length, length, {}};
   if (winner != kNone) least.along = std::min(least.along, upper.in(least.direction));
   tree_.visit_near(
       x, [&](std::int32_t node, double d2) { return reaches(node, d2, least.along); },
       [&](std::int32_t i) {
-        least.along = std::min(least.along, entries_[i].source->local(x, hint).in(least.direction));
+        const LocalSize other = i == winner ? first : entries_[i].source->local(x, hint);
+        least.along = std::min(least.along, other.in(least.direction));
       });
   least.length = length;
   least.along = std::max(least.along, length);

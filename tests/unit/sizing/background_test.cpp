@@ -115,5 +115,37 @@ TEST(BackgroundMesh, says_below_a_bound_what_it_says_without) {
   }
 }
 
+TEST(BackgroundMesh, of_a_surface_asks_for_the_least_over_all_its_triangles) {
+  constexpr int kSide = 20;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.02, 0.06), stretch(1, 4);
+  BackgroundMesh mesh;
+  for (int j = 0; j <= kSide; ++j)
+    for (int i = 0; i <= kSide; ++i) {
+      mesh.node_xyz.push_back(Vec3{static_cast<double>(i), static_cast<double>(j), 0} / kSide);
+      const double h = uniform(random);
+      mesh.node_size.push_back({h, stretch(random) * h, normalized(Vec3{1, 2, 0})});
+    }
+  test::add_square_cells(kSide, 0, mesh);
+  const auto field = make_background(mesh, kBackgroundSlope);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 x = random_background_point(random, -0.5, 1.5);
+    double least = HUGE_VAL, least_along = HUGE_VAL;
+    int hint = 0;
+    const LocalSize got = field->local(x, hint);
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const auto over = [&](const auto& length) {
+        return least_over_triangle(x, {mesh.node_xyz[a], mesh.node_xyz[b], mesh.node_xyz[c]},
+                                   {length(mesh.node_size[a]), length(mesh.node_size[b]), length(mesh.node_size[c])},
+                                   kBackgroundSlope);
+      };
+      least = std::min(least, over([](const LocalSize& s) { return s.length; }));
+      least_along = std::min(least_along, over([](const LocalSize& s) { return s.along; }));
+    }
+    ASSERT_NEAR(got.length, least, 1e-12);
+    ASSERT_NEAR(got.along, std::max(least, least_along), 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace st

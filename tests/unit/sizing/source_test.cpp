@@ -195,5 +195,21 @@ TEST(Source, has_a_core_in_which_its_length_is_constant) {
   }
 }
 
+TEST(Source, has_a_bound_over_a_triangle_that_is_never_above_and_near_far_away) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(-1, 1), length(0.1, 0.3);
+  const auto point = [&](double scale) { return scale * Vec3{place(random), place(random), place(random)}; };
+  for (int i = 0; i < 20000; ++i) {
+    const Vec3 x = point(1), centre = x + point(1);
+    const double size = 0.05 * distance(x, centre);
+    const std::array<Vec3, 3> p{centre + point(size), centre + point(size), i % 4 ? centre + point(size) : x};
+    const std::array<double, 3> lengths{length(random), length(random), length(random)};
+    const double exact = least_over_triangle(x, p, lengths, kSourceSlope),
+                 bound = bound_over_triangle(x, p, lengths, kSourceSlope);
+    ASSERT_LE(bound, exact * (1 + 1e-9));
+    if (i % 4) ASSERT_GT(bound, exact - 0.01 * kSourceSlope * distance(x, centre));
+  }
+}
+
 }  // namespace
 }  // namespace st
