@@ -31,23 +31,31 @@ COLUMNS = ("cycle", "triangles", "tetrahedra", "error", "drag", "seconds", "seco
 
 
 class Steps:
-    """Runs commands and adds up their time; output goes to FOLDER/steps.log."""
+    """Runs commands and adds up their time; output goes to FOLDER/steps.log, the time of each to FOLDER/steps.csv."""
 
     def __init__(self, folder, tools):
         self.folder, self.tools = folder, tools
         self.seconds = self.seconds_st = 0.0
+        (folder / "steps.csv").write_text("step,seconds\n", encoding="utf-8")
 
     def run(self, command):
         begin = time.monotonic()
         with open(self.folder / "steps.log", "a", encoding="utf-8") as log:
             print("$", *command, file=log, flush=True)
             done = subprocess.run([str(c) for c in command], stdout=log, stderr=subprocess.STDOUT, check=False)
-        self.seconds += time.monotonic() - begin
+        self.add(Path(command[0]).name, begin)
         if done.returncode != 0:
             print(*(self.folder / "steps.log").read_text(errors="replace").split("\n")[-8:], sep="\n", file=sys.stderr)
             print(f"adapt: error: '{command[0]}' ended with exit code {done.returncode}, see "
                   f"{self.folder / 'steps.log'}", file=sys.stderr)
             sys.exit(5)
+
+    def add(self, step, begin):
+        """The time since `begin` counts for this step."""
+        seconds = time.monotonic() - begin
+        self.seconds += seconds
+        with open(self.folder / "steps.csv", "a", encoding="utf-8") as log:
+            print(f"{step},{seconds:.3f}", file=log)
 
     def st(self, tool, *arguments):
         before = self.seconds
@@ -104,8 +112,10 @@ def flow(steps, name, options):
     steps.run([HERE.parent / "openfoam/volume.sh", surface, case])
     set_stream(case, options.stream)
     steps.run([HERE.parent / "openfoam/flow.sh", case])
+    begin = time.monotonic()
     walls = Walls(case)
     walls.write(f / f"flow{name}.vtu")
+    steps.add("wall_pressure", begin)
     return walls, number_of_cells(case)
 
 
@@ -154,10 +164,13 @@ def compare(steps, cycle, first, last, options):
              "--scale", 0.5 * scale, "-o", f / "sizing_reference.hdf")
     mesh_by(steps, f / "sizing_reference.hdf", "_reference")
     reference, reference_cells = flow(steps, "_reference", options)
-    own, other = last.distance(reference), even.distance(reference)
-    print(f"distance {own:.4g} with {len(last.triangle)} triangles; evenly scaled by {scale:.3f}: {other:.4g} with "
-          f"{len(even.triangle)} triangles, {cells} tetrahedra; ratio {own / other:.3f}; reference: "
-          f"{len(reference.triangle)} triangles, {reference_cells} tetrahedra", flush=True)
+    own, other = last.distances(reference), even.distances(reference)
+    print(f"evenly scaled by {scale:.3f}: triangles {len(even.triangle)}  tetrahedra {cells}; reference: triangles "
+          f"{len(reference.triangle)}  tetrahedra {reference_cells}")
+    for kind, a, b in zip(("mean", "root mean square"), own, other):
+        print(f"distance, {kind}: {a:.4g}, evenly scaled {b:.4g}, ratio {a / b:.3f}", flush=True)
+    for name, walls in (("even", even), ("reference", reference), ("adapted", last)):
+        walls.write(f / f"{name}.vtu")
 
 
 def parse():

@@ -1,4 +1,4 @@
-"""The pressure coefficient on the walls of an OpenFOAM case: values, error estimate, drag, distance from a finer one.
+"""The pressure coefficient in an OpenFOAM case: values at the walls, error estimate, drag, distance from a finer one.
 
 Arrays: xyz [nodes, 3] in the model unit; triangle [triangles, 3] node numbers; cp [triangles] or [nodes], no unit.
 """
@@ -8,13 +8,39 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "openfoam"))
 import draw_pressure  # noqa: E402
 from render_common import numpy, vtk, vtk_to_numpy  # noqa: E402
+from recovery import Cells, gradients  # noqa: E402
 from vtk.util import numpy_support  # noqa: E402
 
 
-class Walls:
-    """Triangles of the walls of a case of potential flow, with the pressure coefficient of the cells at them.
+def volume(case):
+    """Cells, and the potential in each."""
+    reader = vtk.vtkOpenFOAMReader()
+    reader.SetFileName(draw_pressure.control_of(str(case)))
+    reader.UpdateInformation()
+    reader.DisableAllPatchArrays()
+    reader.SetPatchArrayStatus("internalMesh", 1)
+    reader.CreateCellToPointOff()
+    reader.DecomposePolyhedraOff()
+    reader.Update()
+    grid = reader.GetOutput().NewIterator().GetCurrentDataObject()
+    cells = Cells(vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
+                  vtk_to_numpy(grid.GetCells().GetConnectivityArray()), vtk_to_numpy(grid.GetCells().GetOffsetsArray()))
+    return cells, vtk_to_numpy(grid.GetCellData().GetArray("Phi")).astype(float)
 
-    A corner's value is the mean of the triangles there by area; between corners it is linear.
+
+def same_places(points, among):
+    """The row of `among` that each of `points` is, bit for bit: both as VTK read them, in single precision."""
+    _, number = numpy.unique(numpy.concatenate([among, points]).astype(numpy.float32), axis=0, return_inverse=True)
+    row = numpy.full(number.max() + 1, -1)
+    row[number[:len(among)]] = numpy.arange(len(among))
+    return row[number[len(among):]]
+
+
+class Walls:
+    """Triangles of the walls of a case of potential flow, with the pressure coefficient.
+
+    cp [triangles] is that of the cells at them. cp_at_node is that of a quadric fitted to the potential of the cells
+    around each corner, of second order. Between corners it is linear.
     """
 
     def __init__(self, case):
@@ -31,11 +57,8 @@ class Walls:
         self.normal = 0.5 * numpy.cross(b - a, c - a)  # [triangles, 3], as long as the area; into the wall
         self.area = numpy.linalg.norm(self.normal, axis=1)
         self.centre = (a + b + c) / 3
-        weight, total = numpy.zeros(len(self.xyz)), numpy.zeros(len(self.xyz))
-        for k in range(3):
-            numpy.add.at(weight, self.triangle[:, k], self.area)
-            numpy.add.at(total, self.triangle[:, k], self.area * self.cp)
-        self.cp_at_node = total / weight
+        cells, potential = volume(case)
+        self.cp_at_node = 1 - (gradients(cells, potential, same_places(self.xyz, cells.points))**2).sum(axis=1)
         self.cp_at_centre = self.cp_at_node[self.triangle].mean(axis=1)
 
     def error(self):
@@ -70,9 +93,11 @@ class Walls:
         """How far this pressure is from a finer solution's at the centres of its triangles: [triangles of finer]."""
         return numpy.abs(self.at(finer.centre) - finer.cp_at_centre)
 
-    def distance(self, finer):
-        """apart() as a mean by area."""
-        return float((finer.area * self.apart(finer)).sum() / finer.area.sum())
+    def distances(self, finer):
+        """apart() as a mean by area, and as the root of that of its square."""
+        apart = self.apart(finer)
+        return (float((finer.area * apart).sum() / finer.area.sum()),
+                float((finer.area * apart**2).sum() / finer.area.sum())**0.5)
 
     def write(self, path):
         """The walls with `cp` at their nodes as VTU, for st-metric."""

@@ -24,12 +24,17 @@ def patch_types(case):
         return dict(re.findall(r"^ {4}(\S+)\s*\{\s*type\s+(\w+);", file.read(), re.M))
 
 
+def control_of(case):
+    """An empty file in the case: VTK takes the name of one."""
+    control = os.path.join(case, "case.foam")
+    open(control, "a").close()
+    return control
+
+
 def patches(case, wanted):
     """The wanted patches as one surface with the velocity U of their cells."""
-    control = os.path.join(case, "case.foam")  # VTK takes the name of a file beside the case
-    open(control, "a").close()
     reader = vtk.vtkOpenFOAMReader()
-    reader.SetFileName(control)
+    reader.SetFileName(control_of(case))
     reader.UpdateInformation()
     reader.DisableAllPatchArrays()
     for name in wanted:

@@ -1,13 +1,64 @@
-"""Meshes that follow a field: st-metric, st-prolong --background --only, st-mesh, and again."""
+"""Meshes that follow a field: st-metric, st-prolong --background --only, st-mesh, and again. The loop of adapt.py."""
+import csv
+import os
+import re
+import shutil
 import sys
+import types
 import unittest
 from pathlib import Path
+from unittest import mock
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 sys.path.insert(0, str(ROOT / "tests/support"))
 from adapt_table import FIELDS, Loop, errors_by_level, gain_of, on_shape, order_of  # noqa: E402
-from chain import BIN, MODELS, ToolTest  # noqa: E402
+from chain import BIN, MODELS, ToolTest, must  # noqa: E402
+
+try:
+    os.environ.setdefault("DISPLAY", "none")  # nothing is drawn
+    sys.path.insert(0, str(ROOT / "examples/adapt"))
+    import numpy
+    import adapt
+    import wall_pressure
+    from render_common import read, vtk, vtk_to_numpy
+    from vtk.util import numpy_support
+    WHY_NOT = ""
+except ImportError as e:
+    WHY_NOT = f"{e}: the loop of examples/adapt is not tested; install python3-vtk9 and run with /usr/bin/python3"
+    print(f"SKIPPED: {WHY_NOT}", flush=True)
+NEEDED = ("tetgen", "potentialFoam", "gmshToFoam")
+NO_FLOW = WHY_NOT or ", ".join(f"no {tool}" for tool in NEEDED if not shutil.which(tool))
+if NO_FLOW and not WHY_NOT:
+    print(f"SKIPPED: {NO_FLOW}: the loop of examples/adapt is tested without its flow; run its setup.sh", flush=True)
+
+SHOCK = 2.0  # the plane x at which the pressure of the test jumps, on a sphere of radius 10
+
+
+def flow_with_a_shock(steps, name, _options):
+    """In place of adapt.flow(): a pressure that jumps at a plane, at the nodes of mesh NAME."""
+    surface = steps.folder / f"surface{name}.vtu"
+    must("st-export", steps.folder / f"mesh{name}.hdf", "-o", surface)
+    grid = read(str(surface))
+    x = vtk_to_numpy(grid.GetPoints().GetData())[:, 0]
+    cp = numpy_support.numpy_to_vtk(numpy.tanh((x - SHOCK) / 0.5), deep=1)
+    cp.SetName("cp")
+    grid.GetPointData().AddArray(cp)
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(steps.folder / f"flow{name}.vtu"))
+    writer.SetInputData(grid)
+    writer.Write()
+    return types.SimpleNamespace(triangle=range(grid.GetNumberOfCells()), error=lambda: 0, drag=lambda _stream: 0), 0
+
+
+def edges_at(path, plane):
+    """Median length of the sides of triangles that the plane x cuts."""
+    grid = read(str(path))
+    xyz = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    triangles = xyz[vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 3)]
+    x = triangles[:, :, 0] - plane
+    cut = triangles[(x.min(axis=1) < 0) & (x.max(axis=1) > 0)]
+    return float(numpy.median(numpy.linalg.norm(cut - numpy.roll(cut, 1, axis=1), axis=2)))
 
 
 class Adapt(ToolTest):
@@ -19,6 +70,38 @@ class Adapt(ToolTest):
                 rows = errors_by_level(loop, on_shape(field, shape), 2)
                 self.assertGreater(order_of(rows), 1.8, f"{shape} {name}: {rows}")
                 self.assertGreater(gain_of(rows[-1]), 4, f"{shape} {name}: {rows}")
+
+    def loop(self, model, *options):
+        """Runs adapt.py in this process: its folder, and the rows of its table."""
+        folder = self.folder / "loop"
+        with mock.patch.object(sys, "argv", ["adapt.py", str(model), str(folder), "--bin", str(BIN), *options]):
+            adapt.main()
+        with open(folder / "cycles.csv", encoding="utf-8", newline="") as file:
+            return folder, list(csv.DictReader(file))
+
+    @unittest.skipIf(WHY_NOT, WHY_NOT)
+    def test_the_loop_remeshes_where_the_pressure_jumps(self):
+        with mock.patch.object(adapt, "flow", flow_with_a_shock):
+            folder, rows = self.loop(MODELS / "sphere.brep", "--cycles", "3", "--nodes", "2000")
+        self.assertEqual(len(rows), 3)
+        first, last = (edges_at(folder / f"surface{c}.vtu", SHOCK) for c in (1, 3))
+        self.assertLess(last, first / 4, "the sizes of the pressure are not those of the mesh")
+        self.assertLess(last, edges_at(folder / "surface3.vtu", -6) / 2, "lengths are small where nothing asks for it")
+        log = (folder / "steps.log").read_text(encoding="utf-8")
+        self.assertEqual(len(re.findall(r"^\$ \S*st-mesh ", log, re.M)), 1, "only the first mesh is made anew")
+        remeshed = re.findall(r"(\d+) of (\d+) triangles remeshed", log)
+        self.assertEqual(len(remeshed), 2)
+        self.assertTrue(all(0 < int(n) for n, _ in remeshed), remeshed)
+
+    @unittest.skipIf(NO_FLOW, NO_FLOW)
+    def test_the_loop_with_its_flow_finds_the_pressure_of_a_sphere(self):
+        folder, rows = self.loop(MODELS / "sphere.brep", "--farfield", "box:5", "--cycles", "2", "--nodes", "1500",
+                                 "--raster", "--alpha 30 --lmax 20% --edge-size none")
+        self.assertEqual(len(rows), 2)
+        walls = wall_pressure.Walls(folder / "case2")
+        cosine = walls.xyz[:, 0] / numpy.linalg.norm(walls.xyz, axis=1)
+        error = numpy.abs(walls.cp_at_node - (1 - 2.25 * (1 - cosine**2)))
+        self.assertLess(float(error.mean()), 0.05)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,17 @@
+#!/bin/bash
+# From a clean machine to an adapted mesh: packages, the tools where there are none, four cycles.
+# usage: loop.sh MODEL FOLDER [options of adapt.py]
+set -eu -o pipefail
+[ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
+here=$(dirname "$(realpath "$0")")
+root=$(realpath "$here/../..")
+"$here/setup.sh"
+bin=()
+if ! command -v st-import > /dev/null; then
+  [ -f "$root/CMakeLists.txt" ] || { echo "loop: error: no st-import: install the package st" >&2; exit 3; }
+  "$root/scripts/setup.sh" build
+  cmake -S "$root" --preset release > /dev/null
+  cmake --build "$root/build/release" > /dev/null
+  bin=(--bin "$root/build/release/bin")
+fi
+"$here/adapt.py" "$@" "${bin[@]}"
