@@ -187,7 +187,7 @@ def parse():
     parser.add_argument("--raster", default="--alpha 40 --lmax 8% --edge-size none",
                         help="options of st-raster: lengths of the first mesh, and the largest of all")
     parser.add_argument("--bounds", default="--lmin 0.02%", help="further options of st-raster for the later meshes")
-    parser.add_argument("--max-aspect", default="3", help="longest over shortest length of the later meshes")
+    parser.add_argument("--max-aspect", default="2", help="longest over shortest length of the later meshes")
     parser.add_argument("--nodes", type=int, default=8000, help="on the walls that the last sizes ask for")
     options = parser.parse_args()
     if options.folder.exists():
