@@ -17,7 +17,7 @@ constexpr int kBeside = 3;                 // nodes of a loop on each side, amon
 constexpr double kStraight = radians(30);  // a loop that turns by less goes on
 constexpr double kAspect = 1.5;            // length along over across: less begins no line
 constexpr double kHasDirection = 1.1;      // likewise: less tells no direction
-constexpr int kSearched = 40;              // steps from a loop without that
+constexpr int kSearched = 40;              // steps without that, from a loop on or between two parts of a line
 constexpr int kMostSteps = 20000;          // of a line
 constexpr double kWindow = 3;              // lengths across to each side, in which the least one is looked for
 constexpr double kWindowOfStep = 0.05;     // likewise, of a step: the direction may be off by three degrees
@@ -78,21 +78,21 @@ class RidgeLayer {
     return true;
   }
 
-  /// Places one length along apart, from a loop on, while edges may be longer along the way.
+  static bool is_long(const MeshNode& n) { return aspect_of(n) >= kAspect; }
+
+  /// Places one length along apart, from a loop on, also where edges may not be longer along the way for a while.
   std::vector<MeshNode> trace(std::int32_t seed, Vec3 inward) {
     std::vector<MeshNode> line;
     MeshNode at = m_.nodes[seed];
     Vec3 ahead = inward;
     triangle_ = kNone;
-    for (int n = 0; n < kMostSteps && (n < kSearched || !line.empty()); ++n) {
+    for (int n = 0, n_without = 0; n < kMostSteps && n_without < kSearched; ++n) {
       const std::optional<MeshNode> next = step_from(at, ahead);
       if (!next || !goes_to(next->p, seed)) break;
       ahead = normalized(next->x - at.x);
       at = *next;
-      if (aspect_of(at) >= kAspect)
-        line.push_back(at);
-      else if (!line.empty())
-        break;
+      n_without = is_long(at) ? 0 : n_without + 1;
+      line.push_back(at);
     }
     return line;
   }
@@ -153,13 +153,13 @@ class RidgeLayer {
     return false;
   }
 
-  /// In pieces, where it comes near to others.
+  /// In pieces, where it comes near to others or has no long edges.
   std::vector<std::vector<std::int32_t>> insert(const std::vector<MeshNode>& places, std::int32_t seed) {
     std::vector<std::vector<std::int32_t>> lines(1);
     triangle_ = kNone;
     for (const MeshNode& place : places) {
       const std::int32_t last = lines.back().empty() ? kNone : lines.back().back();
-      const std::int32_t n = insert(place, last, seed);
+      const std::int32_t n = is_long(place) ? insert(place, last, seed) : kNone;
       const bool is_joined = n != kNone && last != kNone && m_.force_side(last, n);
       if (!is_joined && !lines.back().empty()) lines.emplace_back();
       if (n != kNone) lines.back().push_back(n);

@@ -90,6 +90,25 @@ TEST(RidgeLines, lie_in_the_middle_of_equal_lengths) {
   for (const std::int32_t n : lines[0]) EXPECT_NEAR(face.work.mesh.nodes[n].x.y, 0, 0.02);
 }
 
+/// At two places of the ridge edges may not be longer along it.
+class SpottedRidgeField : public WallField {
+ public:
+  SpottedRidgeField() : WallField(0.1, 0.2, 1) {}
+  LocalSize local(Vec3 x, int& hint) const override {
+    const LocalSize own = WallField::local(x, hint);
+    const bool is_spot = std::min(std::abs(x.x - 10), std::abs(x.x - 20)) < 0.7;
+    return is_spot ? LocalSize{own.length, own.length, {}} : own;
+  }
+};
+
+TEST(RidgeLines, go_on_behind_places_without_stretch) {
+  const SpottedRidgeField field;
+  RowCase face({loop_about_ridge()}, field);
+  const auto lines = lay_ridges(face.work);
+  ASSERT_EQ(lines.size(), 3u);
+  for (const auto& line : lines) EXPECT_GE(line.size(), 7u);
+}
+
 TEST(RidgeLines, are_none_where_lengths_are_alike_in_all_directions) {
   const WallField field(0.1, 0.2, 0.12);
   RowCase face({loop_about_ridge()}, field);
