@@ -17,19 +17,22 @@ void StretchEasing::run() {
   share(executor_, n_bad_);
   n_first_ = n_triangles(all_faces());
   flaws_ = find_flaws(0);
-  if (flaws_are_none()) return;
-  best_ = {count_flaws(), faces_.state(), refinements_.all()};
+  const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
+  if (!is_on_root(!flaws_.stretched.empty()) && !has_obtuse) return;
+  best_ = {count_flaws(), has_obtuse, faces_.state(), refinements_.all()};
   run_rounds(&StretchFlaws::stretched, Shortens::kAlong);
   if (!is_best_) go_back();
+  if (!best_.has_obtuse) return;
   flaws_ = find_flaws(0);
   run_rounds(&StretchFlaws::obtuse, Shortens::kAll);
   if (!is_best_) go_back();
 }
 
-bool StretchEasing::flaws_are_none() const {
-  char are_none = flaws_.stretched.empty() && flaws_.obtuse.empty();
-  share(executor_, are_none);
-  return are_none != 0;
+/// Whether it is on rank 0, which knows.
+bool StretchEasing::is_on_root(bool is_here) const {
+  char is = is_here;
+  share(executor_, is);
+  return is != 0;
 }
 
 void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) {
@@ -99,7 +102,8 @@ bool StretchEasing::keep_if_better(Shortens shortens) {
   const Count n_flaws = count_flaws();
   is_best_ = n_flaws < best_.n_flaws &&
              (shortens == Shortens::kAlong || Policy::is_worth_easing(n_first_, n_triangles(all_faces())));
-  if (is_best_) best_ = {n_flaws, faces_.state(), refinements_.all()};
+  const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
+  if (is_best_) best_ = {n_flaws, has_obtuse, faces_.state(), refinements_.all()};
   std::vector<PlacedFace> others;
   for (FaceId f = 0; executor_.is_root() && f < tables_.n_faces(); ++f) others.push_back({f, best_.state.places[f]});
   faces_.keep_only(std::move(others));

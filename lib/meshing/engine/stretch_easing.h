@@ -45,6 +45,7 @@ class StretchEasing {
   using Count = std::tuple<std::int64_t, std::size_t, std::size_t, std::size_t, std::size_t>;
   struct Best {
     Count n_flaws;
+    bool has_obtuse;  // where lengths are alike
     MeshedFaces::State state;
     std::vector<Refinement> refinements;
   };
@@ -54,7 +55,7 @@ class StretchEasing {
   StretchFlaws find_flaws(int n_tries) const;
   void add_unheld(const Patches& patches, const WeldedPatches& welded, const SizeField& present,
                   StretchFlaws& flaws) const;
-  bool flaws_are_none() const;
+  bool is_on_root(bool is_here) const;
   Count count_flaws() const;
   std::size_t n_worst() const { return std::get<1>(best_.n_flaws) + std::get<2>(best_.n_flaws); }
   std::size_t n_obtuse() const { return std::get<3>(best_.n_flaws); }

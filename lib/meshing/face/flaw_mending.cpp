@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/predicates.h"
@@ -35,11 +36,16 @@ class FlawMending {
   explicit FlawMending(FaceWork& work) : w_(work), m_(work.mesh) {}
 
   void run() {
+    is_due_.assign(m_.triangles.size(), 1);
     bool changes = true;
     for (int sweep = 0; sweep < kMostSweeps && changes; ++sweep) {
       changes = false;
-      for (std::size_t i = 0; i < m_.triangles.size(); ++i)
-        if (const auto t = static_cast<std::int32_t>(i); is_flawed(t)) changes |= mend(t);
+      for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+        const auto t = static_cast<std::int32_t>(i);
+        if (!std::exchange(is_due_[i], 0) || !is_flawed(t)) continue;
+        is_due_[i] = 1;  // what others change may help
+        changes |= mend(t);
+      }
     }
   }
 
@@ -113,11 +119,24 @@ class FlawMending {
       consider_swap(t, k, best);
       consider_moves(m_.triangles[t].v[k], best);
     }
-    if (best.edge >= 0)
+    if (best.edge >= 0) {
+      const std::int32_t other = m_.triangles[t].n[best.edge];
       m_.swap(t, best.edge);
-    else if (best.node != kNone)
+      look_again_at(t);
+      look_again_at(other);
+    } else if (best.node != kNone) {
       m_.nodes[best.node] = best.moved;
+      m_.ring_of(best.node, around_, tris_);
+      for (const std::int32_t r : tris_) look_again_at(r);
+    }
     return best.edge >= 0 || best.node != kNone;
+  }
+
+  /// A triangle that changed, and those whose steps to it did.
+  void look_again_at(std::int32_t t) {
+    is_due_[t] = 1;
+    for (const std::int32_t other : m_.triangles[t].n)
+      if (other != kNone) is_due_[other] = 1;
   }
 
   void consider_swap(std::int32_t t, int k, Change& best) const {
@@ -172,6 +191,7 @@ class FlawMending {
   FaceWork& w_;
   Triangulation& m_;
   std::vector<std::int32_t> around_, tris_;
+  std::vector<char> is_due_;  // [triangles] may be flawed
 };
 
 }  // namespace
