@@ -23,12 +23,6 @@ inline bool is_any(Int4 v) {
 inline Float4 four(float v) { return v - Float4{}; }
 inline Float4 min_of(Float4 a, Float4 b) { return a < b ? a : b; }
 
-inline Float4 root_of(Float4 v) {
-  Float4 root{};
-  for (int i = 0; i < 4; ++i) root[i] = std::sqrt(v[i]);
-  return root;
-}
-
 // The probes of a cell, see cone_kernels.h.
 inline constexpr int kGroups = kProbes / 4;
 using Lengths = std::array<Float4, kGroups>;

@@ -19,6 +19,20 @@ struct ConeShares {
   float nearby, far;
 };
 
+/// How the lengths of a cone along the directions of a cell differ from its lengths.
+struct LongerWay {
+  float longer = 0;                   ///< by this, where `directions` is null
+  const float* directions = nullptr;  ///< [3][kProbes] unit vectors; else by what an ellipse has along them
+  const float* unit = nullptr;        ///< [3] along the ellipse
+  float squeeze = 0;                  ///< 1 - (length / length along)^2
+  float length = 0;                   ///< of the cone
+};
+
+/// Shares of the lengths along that are known.
+struct AlongShares {
+  float clearly, nearly;
+};
+
 /// Of a chain of samples.
 struct SampleLink {
   std::int32_t sample, next;  ///< kNone: the end
@@ -64,6 +78,12 @@ struct ConeKernels {
                 bool& is_near);
   /// Puts lengths where they are below `best`, and their sample where it wins. Returns the least of them.
   float (*take)(const float* lengths, std::int32_t sample, float* best, std::int32_t* winner);
+  /// Lowers `best` to lengths along where it is above. `lengths`: of a cone at the probes.
+  void (*lower_along)(const float* lengths, const LongerWay& way, float* best);
+  /// Lowers `best`, and puts the sample where it wins, if a cone's lengths along at the probes of a cell are clearly
+  /// below at any. Whether they are nearly below then, at any.
+  bool (*offer_along)(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample,
+                      const AlongShares& share, float* best, std::int32_t* winner);
   /// Whether a cone wins over known ones and over the largest length where the cell is close to it.
   bool (*wins_nearby)(const float* cell, const float* cone, float share, float largest, const KnownCones& known);
   /// Likewise at a set of places of a face.

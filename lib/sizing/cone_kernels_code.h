@@ -155,6 +155,40 @@ float take_lengths(const float* lengths, std::int32_t sample, float* best, std::
   return least_of(least(load(lengths), load(lengths + 8)));
 }
 
+void add_longer(const LongerWay& way, F8 (&at)[2]) {
+  for (int g = 0; g < 2; ++g) {
+    if (!way.directions) {
+      at[g] = at[g] + all(way.longer);
+      continue;
+    }
+    const float* d = way.directions + 8 * g;
+    const F8 part =
+        load(d) * all(way.unit[0]) + load(d + kProbes) * all(way.unit[1]) + load(d + 2 * kProbes) * all(way.unit[2]);
+    at[g] = at[g] + (all(way.length) / root(all(1) - way.squeeze * least(part * part, all(1))) - way.length);
+  }
+}
+
+void lower_along(const float* lengths, const LongerWay& way, float* best) {
+  F8 at[2] = {load(lengths), load(lengths + 8)};
+  add_longer(way, at);
+  for (int g = 0; g < 2; ++g) store(best + 8 * g, least(load(best + 8 * g), at[g]));
+}
+
+bool offer_along(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample,
+                 const AlongShares& share, float* best, std::int32_t* winner) {
+  F8 at[2], known[2] = {load(best), load(best + 8)};
+  CellView(cell).lengths(ConeView(cone), at);
+  add_longer(way, at);
+  const auto are_below = [&](float of) { return is_any((at[0] < of * known[0]) | (at[1] < of * known[1])); };
+  if (are_below(share.clearly))
+    for (int g = 0; g < 2; ++g) {
+      store(winner + 8 * g, where(at[g] < known[g], sample, load(winner + 8 * g)));
+      known[g] = least(at[g], known[g]);
+      store(best + 8 * g, known[g]);
+    }
+  return are_below(share.nearly);
+}
+
 /// Whether a cone of such lengths at the places, over `share`, wins at any of them where `wins` is true.
 bool wins_over(const EightPlaces& places, const F8& limit, I8 wins, const KnownCones& known) {
   if (!is_any(wins)) return false;
@@ -310,8 +344,8 @@ float least_length(const float* cones, const std::int32_t* own, std::int32_t n, 
   return result;
 }
 
-constexpr ConeKernels kKernels{is_near_cell, sides_ahead,  cone_lengths, offer_cone,  take_lengths,
-                               wins_nearby,  wins_on_face, settle_face,  least_length};
+constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone,  take_lengths, lower_along,
+                               offer_along,  wins_nearby, wins_on_face, settle_face, least_length};
 
 }  // namespace
 }  // namespace st

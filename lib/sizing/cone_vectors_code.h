@@ -70,6 +70,7 @@ struct I8 {
 inline F8 operator+(const F8& x, const F8& y) { return {x.a + y.a, x.b + y.b}; }
 inline F8 operator-(const F8& x, const F8& y) { return {x.a - y.a, x.b - y.b}; }
 inline F8 operator*(const F8& x, const F8& y) { return {x.a * y.a, x.b * y.b}; }
+inline F8 operator/(const F8& x, const F8& y) { return {x.a / y.a, x.b / y.b}; }
 inline F8 operator*(float s, const F8& x) { return {s * x.a, s * x.b}; }
 inline F8 operator+(float s, const F8& x) { return {s + x.a, s + x.b}; }
 inline F8 operator-(const F8& x, float s) { return {x.a - s, x.b - s}; }

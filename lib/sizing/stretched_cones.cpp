@@ -4,8 +4,10 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/limits.h"
+#include "base/threads.h"
 #include "sizing/cone_cell.h"
 
 namespace st {
@@ -36,6 +38,7 @@ class StretchSpread {
   }
 
  private:
+  static constexpr std::size_t kSitesPerPiece = 2'048;
   /// A site where some probe has a stretched length.
   struct Site {
     ConeCell cell;
@@ -45,8 +48,16 @@ class StretchSpread {
     std::array<Int4, kGroups> winner;  // the sample of `best`; kNone: a cone of the site
   };
   /// The directions of the cones that tell the lengths at the probes.
-  using Directions = std::array<std::array<Float4, 3>, kGroups>;
-  using SitesOf = std::vector<std::vector<std::int32_t>>;
+  using Directions = std::array<Lengths, 3>;
+  /// Of the sites of a piece of a loop.
+  struct Piece {
+    std::vector<std::int32_t> number;  // of the sites in `sites`
+    std::vector<Site> sites;
+    std::vector<Directions> turns;
+    std::vector<Lengths> lengths;                // of the cones of the site at hand
+    std::vector<std::int32_t> beside, n_beside;  // of all sites
+    std::vector<std::int32_t> winners, n_winners;
+  };
 
   /// In eight rounds each sample takes its turn, those of a round far from each other: so few sites are lowered again
   /// and again, as they are where sample after sample comes nearer.
@@ -62,100 +73,148 @@ class StretchSpread {
     return std::span(table_.of_site).subspan(table_.first[site], table_.first[site + 1] - table_.first[site]);
   }
 
-  void find_sites() {
-    slot_.assign(static_cast<std::size_t>(n_sites()), kNone);
-    for (std::int32_t site = 0; site < n_sites(); ++site) {
-      const auto own = cones_of(site);
-      if (std::none_of(own.begin(), own.end(), [&](std::int32_t c) { return table_.stretch[c].along > 0; })) continue;
-      slot_[site] = static_cast<std::int32_t>(sites_.size());
-      sites_.push_back(make_site(site));
-    }
-    starts_.resize(samples_.size());
-    for (std::int32_t site = 0; site < n_sites(); ++site)
-      for (const std::int32_t c : cones_of(site)) starts_[table_.sample[c]].push_back(site);
-    for_each_own_site(neighbours_, samples_, blanking_,
-                      [&](std::int32_t site, std::int32_t sample) { starts_[sample].push_back(site); });
+  /// The pieces of a loop over all sites, which `f(site, piece)` fills.
+  template <class F>
+  std::vector<Piece> over_sites(const F& f) const {
+    const auto n = static_cast<std::size_t>(n_sites());
+    std::vector<Piece> pieces((n + kSitesPerPiece - 1) / kSitesPerPiece);
+    parallel_for(n, kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t site = begin; site < end; ++site)
+        f(static_cast<std::int32_t>(site), pieces[begin / kSitesPerPiece]);
+    });
+    return pieces;
   }
 
-  Site make_site(std::int32_t site) {
+  void find_sites() {
+    slot_.assign(static_cast<std::size_t>(n_sites()), kNone);
+    std::vector<Piece> pieces = over_sites([&](std::int32_t site, Piece& own) {
+      const std::size_t n = own.beside.size();
+      visit_beside(site, [&](std::int32_t other) { own.beside.push_back(other); });
+      own.n_beside.push_back(static_cast<std::int32_t>(own.beside.size() - n));
+      const auto cones = cones_of(site);
+      if (std::any_of(cones.begin(), cones.end(), [&](std::int32_t c) { return table_.stretch[c].along > 0; })) {
+        own.number.push_back(site);
+        own.sites.push_back(make_site(site, own));
+      }
+    });
+    first_beside_.push_back(0);
+    for (Piece& own : pieces) {
+      for (std::size_t i = 0; i < own.sites.size(); ++i) {
+        if (own.sites[i].turns != kNone) own.sites[i].turns += static_cast<std::int32_t>(turns_.size());
+        slot_[own.number[i]] = static_cast<std::int32_t>(sites_.size() + i);
+      }
+      sites_.insert(sites_.end(), own.sites.begin(), own.sites.end());
+      turns_.insert(turns_.end(), own.turns.begin(), own.turns.end());
+      beside_.insert(beside_.end(), own.beside.begin(), own.beside.end());
+      require_countable(beside_.size(), "cells beside cells");
+      for (const std::int32_t n : own.n_beside) first_beside_.push_back(first_beside_.back() + n);
+      own = {};
+    }
+    find_starts();
+  }
+
+  void find_starts() {
+    std::vector<std::pair<std::int32_t, std::int32_t>> all;  // sample, site
+    for (std::int32_t site = 0; site < n_sites(); ++site)
+      for (const std::int32_t c : cones_of(site)) all.emplace_back(table_.sample[c], site);
+    for_each_own_site(neighbours_, samples_, blanking_,
+                      [&](std::int32_t site, std::int32_t sample) { all.emplace_back(sample, site); });
+    first_start_.assign(samples_.size() + 1, 0);
+    for (const auto& [sample, site] : all) ++first_start_[sample + 1];
+    std::partial_sum(first_start_.begin(), first_start_.end(), first_start_.begin());
+    starts_.resize(all.size());
+    std::vector<std::int32_t> next(first_start_.begin(), first_start_.end() - 1);
+    for (const auto& [sample, site] : all) starts_[next[sample]++] = site;
+  }
+
+  Site make_site(std::int32_t site, Piece& own) const {
     Site s;
     s.cell = ConeCell(octree_, leaf_of(site));
     s.winner.fill(Int4{} + kNone);
-    const std::array<Int4, kGroups> told_by = winners_at_probes(site, s.cell);
+    const auto cones = cones_of(site);
+    own.lengths.clear();
+    for (const std::int32_t c : cones) own.lengths.push_back(s.cell.lengths(kernels_, table_.cone[c]));
+    const std::array<Int4, kGroups> told_by = winners_at_probes(cones, own.lengths);
     Directions directions{};
+    bool is_turning = false;
     for (int g = 0; g < kGroups; ++g)
       for (int i = 0; i < 4; ++i) {
         const ConeStretch stretch = told_by[g][i] == kNone ? ConeStretch() : table_.stretch[told_by[g][i]];
         s.best[g][i] = stretch.along > 0 ? kInfinity : -kInfinity;
-        for (int k = 0; k < 3; ++k) directions[g][k][i] = stretch.direction[k];
-        if (stretch.along > 0) note_direction(stretch, s);
+        for (int k = 0; k < 3; ++k) directions[k][g][i] = stretch.direction[k];
+        if (stretch.along > 0) note_direction(stretch, s, is_turning);
       }
-    if (s.turns != kNone) turns_.push_back(directions);
-    for (const std::int32_t c : cones_of(site)) {
-      const Lengths along = lengths_along(s, table_.cone[c], table_.stretch[c]);
-      for (int g = 0; g < kGroups; ++g) s.best[g] = min_of(s.best[g], along[g]);
+    if (is_turning) {
+      s.turns = static_cast<std::int32_t>(own.turns.size());
+      own.turns.push_back(directions);
+    }
+    for (std::size_t k = 0; k < cones.size(); ++k) {
+      const std::int32_t c = cones[k];
+      kernels_.lower_along(numbers(own.lengths[k]), way_of(s, table_.cone[c], table_.stretch[c], own.turns),
+                           numbers(s.best));
     }
     return s;
   }
 
-  /// Which cones tell the lengths there; kNone: the largest length.
-  std::array<Int4, kGroups> winners_at_probes(std::int32_t site, const ConeCell& cell) const {
+  /// Which cones, of such lengths, tell the lengths there; kNone: the largest length.
+  static std::array<Int4, kGroups> winners_at_probes(std::span<const std::int32_t> cones,
+                                                     std::span<const Lengths> lengths) {
     Lengths least;
     least.fill(four(kInfinity));
     std::array<Int4, kGroups> winner;
     winner.fill(Int4{} + kNone);
-    for (const std::int32_t c : cones_of(site)) {
-      const Lengths lengths = cell.lengths(kernels_, table_.cone[c]);
+    for (std::size_t k = 0; k < cones.size(); ++k)
       for (int g = 0; g < kGroups; ++g) {
-        winner[g] = lengths[g] < least[g] ? Int4{} + c : winner[g];
-        least[g] = min_of(lengths[g], least[g]);
+        winner[g] = lengths[k][g] < least[g] ? Int4{} + cones[k] : winner[g];
+        least[g] = min_of(lengths[k][g], least[g]);
       }
-    }
     return winner;
   }
 
-  void note_direction(const ConeStretch& stretch, Site& s) const {
+  static void note_direction(const ConeStretch& stretch, Site& s, bool& is_turning) {
     const bool is_first = s.unit[0] == 0 && s.unit[1] == 0 && s.unit[2] == 0;
     for (int k = 0; k < 3; ++k) {
       if (is_first) s.unit[k] = stretch.direction[k];
-      if (s.unit[k] != stretch.direction[k]) s.turns = static_cast<std::int32_t>(turns_.size());
+      if (s.unit[k] != stretch.direction[k]) is_turning = true;
     }
   }
 
-  Lengths lengths_along(const Site& s, const Cone& cone, const ConeStretch& stretch) const {
-    Lengths lengths = s.cell.lengths(kernels_, cone);
-    if (!(stretch.along > cone.length)) return lengths;
+  /// How the lengths along of a cone differ from its lengths in a site. `turns`: those of the sites.
+  static LongerWay way_of(const Site& s, const Cone& cone, const ConeStretch& stretch,
+                          const std::vector<Directions>& turns) {
+    LongerWay way;
+    if (!(stretch.along > cone.length)) return way;
     if (s.turns == kNone) {
-      const float longer = stretch.length_in(s.unit, cone.length) - cone.length;
-      for (Float4& four_lengths : lengths) four_lengths += longer;
-      return lengths;
+      way.longer = stretch.length_in(s.unit, cone.length) - cone.length;
+      return way;
     }
-    const float ratio = cone.length / stretch.along, squeeze = 1 - ratio * ratio;
-    for (int g = 0; g < kGroups; ++g) {
-      const auto& d = turns_[s.turns][g];
-      const Float4 part = d[0] * stretch.direction[0] + d[1] * stretch.direction[1] + d[2] * stretch.direction[2];
-      lengths[g] += cone.length / root_of(1 - squeeze * min_of(part * part, four(1))) - cone.length;
-    }
-    return lengths;
+    const float ratio = cone.length / stretch.along;
+    way.directions = numbers(turns[s.turns][0]);
+    way.unit = stretch.direction;
+    way.squeeze = 1 - ratio * ratio;
+    way.length = cone.length;
+    return way;
   }
 
   /// Over sites where the sample tells the length along, or nearly.
   void spread(std::int32_t sample) {
     if (++n_spread_; seen_.empty()) seen_.assign(static_cast<std::size_t>(n_sites()), 0);
-    waiting_ = starts_[sample];
-    for (const std::int32_t site : waiting_) {
+    for (std::int32_t k = first_start_[sample]; k < first_start_[sample + 1]; ++k) {
+      const std::int32_t site = starts_[k];
       if (seen_[site] == n_spread_) continue;
       seen_[site] = n_spread_;
+      waiting_.push_back(site);
       if (slot_[site] != kNone) offer(sites_[slot_[site]], sample);
     }
     while (!waiting_.empty()) {
       const std::int32_t site = waiting_.back();
       waiting_.pop_back();
-      visit_beside(site, [&](std::int32_t other) {
-        if (seen_[other] == n_spread_) return;
+      for (std::int32_t k = first_beside_[site]; k < first_beside_[site + 1]; ++k) {
+        const std::int32_t other = beside_[k];
+        if (seen_[other] == n_spread_) continue;
         seen_[other] = n_spread_;
         if (slot_[other] != kNone && offer(sites_[slot_[other]], sample)) waiting_.push_back(other);
-      });
+      }
     }
   }
 
@@ -170,48 +229,53 @@ class StretchSpread {
   /// Whether it leads on.
   bool offer(Site& s, std::int32_t sample) const {
     constexpr float kNearly = 1.002F;  // of the length along: where directions turn, it may win further on
-    const Lengths along = lengths_along(s, cones_[sample], stretch_[sample]);
-    if (is_below(along, kClearly, s.best))
-      for (int g = 0; g < kGroups; ++g) {
-        s.winner[g] = along[g] < s.best[g] ? Int4{} + sample : s.winner[g];
-        s.best[g] = min_of(s.best[g], along[g]);
-      }
-    return is_below(along, kNearly, s.best);
+    const Cone& cone = cones_[sample];
+    return kernels_.offer_along(s.cell.numbers(), cone.numbers(), way_of(s, cone, stretch_[sample], turns_), sample,
+                                {kClearly, kNearly}, numbers(s.best), numbers(s.winner));
   }
 
   /// What wins and is no cone of the site already.
   void store() {
     std::vector<std::int32_t> number(samples_.size(), kNone);
     for (std::size_t c = 0; c < table_.sample.size(); ++c) number[table_.sample[c]] = static_cast<std::int32_t>(c);
+    std::vector<Piece> pieces = over_sites([&](std::int32_t site, Piece& own) {
+      const std::size_t n = own.winners.size();
+      if (slot_[site] != kNone) add_winners(site, number, own.winners);
+      own.n_winners.push_back(static_cast<std::int32_t>(own.winners.size() - n));
+    });
     table_.first_along.push_back(0);
-    for (std::int32_t site = 0; site < n_sites(); ++site) {
-      if (slot_[site] != kNone) store_winners(site, number);
+    for (const Piece& own : pieces) {
+      for (const std::int32_t sample : own.winners) store_winner(sample, number);
       require_countable(table_.along_of_site.size(), "lengths along in cells");
-      table_.first_along.push_back(static_cast<std::int32_t>(table_.along_of_site.size()));
+      for (const std::int32_t n : own.n_winners) table_.first_along.push_back(table_.first_along.back() + n);
     }
   }
 
-  void store_winners(std::int32_t site, std::vector<std::int32_t>& number) {
-    std::vector<std::int32_t> winners;
-    for (const Int4& four_winners : sites_[slot_[site]].winner)
-      for (int i = 0; i < 4; ++i)
-        if (four_winners[i] != kNone) winners.push_back(four_winners[i]);
-    std::sort(winners.begin(), winners.end(), [&](std::int32_t a, std::int32_t b) {
+  /// Adds the samples that win in a site and are no cone of it. `number` [n_samples]: which cones they are.
+  void add_winners(std::int32_t site, std::span<const std::int32_t> number, std::vector<std::int32_t>& winners) const {
+    const auto first = static_cast<std::ptrdiff_t>(winners.size());
+    const auto own = cones_of(site);
+    const std::int32_t* winner = numbers(sites_[slot_[site]].winner);
+    for (int i = 0; i < kProbes; ++i) {
+      const std::int32_t sample = winner[i];
+      if (sample == kNone || std::find(winners.begin() + first, winners.end(), sample) != winners.end()) continue;
+      if (number[sample] == kNone || std::find(own.begin(), own.end(), number[sample]) == own.end())
+        winners.push_back(sample);
+    }
+    std::sort(winners.begin() + first, winners.end(), [&](std::int32_t a, std::int32_t b) {
       return cones_[a].length != cones_[b].length ? cones_[a].length < cones_[b].length : a < b;
     });
-    winners.erase(std::unique(winners.begin(), winners.end()), winners.end());
-    const auto own = cones_of(site);
-    for (const std::int32_t sample : winners) {
-      if (number[sample] == kNone) {
-        number[sample] = static_cast<std::int32_t>(table_.cone.size());
-        table_.cone.push_back(cones_[sample]);
-        table_.cause.push_back(samples_[sample].cause);
-        table_.sample.push_back(sample);
-        table_.stretch.push_back(stretch_[sample]);
-      }
-      if (std::find(own.begin(), own.end(), number[sample]) == own.end())
-        table_.along_of_site.push_back(number[sample]);
+  }
+
+  void store_winner(std::int32_t sample, std::vector<std::int32_t>& number) {
+    if (number[sample] == kNone) {
+      number[sample] = static_cast<std::int32_t>(table_.cone.size());
+      table_.cone.push_back(cones_[sample]);
+      table_.cause.push_back(samples_[sample].cause);
+      table_.sample.push_back(sample);
+      table_.stretch.push_back(stretch_[sample]);
     }
+    table_.along_of_site.push_back(number[sample]);
   }
 
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -226,8 +290,9 @@ class StretchSpread {
   std::vector<std::int32_t> slot_;    // [n_sites] into sites_; kNone: nothing is stretched there
   std::vector<Site> sites_;
   std::vector<Directions> turns_;
-  SitesOf starts_;                  // [n_samples] sites where a sample tells a length or lies
-  std::vector<std::int32_t> seen_;  // [n_sites] by which spread last
+  std::vector<std::int32_t> first_beside_, beside_;  // [n_sites + 1], and to which sites lengths pass from each
+  std::vector<std::int32_t> first_start_, starts_;   // [n_samples + 1], and sites where a sample tells a length or lies
+  std::vector<std::int32_t> seen_;                   // [n_sites] by which spread last
   std::vector<std::int32_t> waiting_;
   std::int32_t n_spread_ = 0;
 };

@@ -70,6 +70,61 @@ TEST(ConeKernels, tell_the_lengths_of_a_cone_at_the_probes) {
   }
 }
 
+/// Unit vectors at the probes of a cell.
+std::array<Lengths, 3> random_directions(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::array<Lengths, 3> directions;
+  for (int i = 0; i < kProbes; ++i) {
+    const Vec3 d = normalized({unit(random), unit(random), unit(random)});
+    directions[0][i / 4][i % 4] = static_cast<float>(d.x);
+    directions[1][i / 4][i % 4] = static_cast<float>(d.y);
+    directions[2][i / 4][i % 4] = static_cast<float>(d.z);
+  }
+  return directions;
+}
+
+TEST(ConeKernels, tell_lengths_along_the_directions_of_a_cell) {
+  constexpr AlongShares kShares{0.99F, 1.002F};
+  const RandomCones all(3);
+  const std::array<Lengths, 3> directions = random_directions(4);
+  ConeStretch stretch;
+  stretch.direction[1] = 1;
+  for (const Cone& cone : all.cone) {
+    stretch.along = 7 * cone.length;
+    const float ratio = cone.length / stretch.along;
+    const LongerWay way{0, numbers(directions[0]), stretch.direction, 1 - ratio * ratio, cone.length};
+    const Lengths lengths = all.cell.lengths(cone_kernels(), cone);
+    Lengths best;
+    best.fill(four(10));
+    std::array<Int4, kGroups> winner;
+    winner.fill(Int4{} + kNone);
+    best[1][2] = 0.1F * cone.length;
+    EXPECT_TRUE(cone_kernels().offer_along(all.cell.numbers(), cone.numbers(), way, 7, kShares, numbers(best),
+                                           numbers(winner)));
+    for (int i = 0; i < kProbes; ++i) {
+      if (i == 6) continue;
+      const float d[3] = {directions[0][i / 4][i % 4], directions[1][i / 4][i % 4], directions[2][i / 4][i % 4]};
+      EXPECT_NEAR(best[i / 4][i % 4], lengths[i / 4][i % 4] + stretch.length_in(d, cone.length) - cone.length, 1e-6);
+      EXPECT_EQ(winner[i / 4][i % 4], 7);
+    }
+    EXPECT_EQ(best[1][2], 0.1F * cone.length) << "what is shorter stays";
+    EXPECT_EQ(winner[1][2], kNone);
+    Lengths lowered;
+    lowered.fill(four(10));
+    cone_kernels().lower_along(numbers(lengths), way, numbers(lowered));
+    lowered[1][2] = best[1][2];
+    EXPECT_EQ(std::memcmp(&lowered, &best, sizeof best), 0);
+    for (Float4& four_lengths : best) four_lengths *= 0.9985F;  // a sample that is nearly as short leads on
+    EXPECT_TRUE(cone_kernels().offer_along(all.cell.numbers(), cone.numbers(), way, 8, kShares, numbers(best),
+                                           numbers(winner)));
+    for (Float4& four_lengths : best) four_lengths *= 0.99F;
+    EXPECT_FALSE(cone_kernels().offer_along(all.cell.numbers(), cone.numbers(), way, 8, kShares, numbers(best),
+                                            numbers(winner)));
+    EXPECT_EQ(winner[0][0], 7);
+  }
+}
+
 TEST(ConeKernels, ask_every_cone_that_is_known) {
   RandomCones all(2);
   Cone& won = all.cone[0];
@@ -161,6 +216,30 @@ bool expect_same_on_face(const RandomCones& all, std::int32_t i, const std::vect
   }
   return wins[0];
 }
+
+/// Likewise the lengths along of a cell, in one direction and in several.
+void expect_same_along(const RandomCones& all, std::size_t i) {
+  const ConeKernels* const kernels[] = {&detail::cone_kernels_anywhere(), &detail::cone_kernels_avx2()};
+  const std::array<Lengths, 3> directions = random_directions(static_cast<unsigned>(i));
+  const Cone& cone = all.cone[i];
+  const float unit[3] = {0.6F, 0, 0.8F};
+  for (const LongerWay& way :
+       {LongerWay{0.3F, nullptr, nullptr, 0, 0}, LongerWay{0, numbers(directions[0]), unit, 0.97F, cone.length}}) {
+    Lengths best[2];
+    std::array<Int4, kGroups> winner[2];
+    bool is_nearly[2];
+    for (int k = 0; k < 2; ++k) {
+      winner[k].fill(Int4{} + kNone);
+      best[k].fill(four(0.4F));
+      is_nearly[k] = kernels[k]->offer_along(all.cell.numbers(), cone.numbers(), way, 3, {0.99F, 1.002F},
+                                             numbers(best[k]), numbers(winner[k]));
+      kernels[k]->lower_along(numbers(all.cell.lengths(*kernels[k], cone)), way, numbers(best[k]));
+    }
+    EXPECT_EQ(is_nearly[0], is_nearly[1]);
+    EXPECT_EQ(std::memcmp(&best[0], &best[1], sizeof(Lengths)), 0);
+    EXPECT_EQ(std::memcmp(&winner[0], &winner[1], sizeof winner[0]), 0);
+  }
+}
 #endif
 
 TEST(ConeKernels, give_the_same_bits_on_every_processor) {
@@ -197,6 +276,7 @@ TEST(ConeKernels, give_the_same_bits_on_every_processor) {
       EXPECT_EQ(std::memcmp(&lengths[0], &lengths[1], sizeof(Lengths)), 0);
       EXPECT_EQ(std::memcmp(&best[0], &best[1], sizeof(Lengths)), 0);
       EXPECT_EQ(std::memcmp(&winner[0], &winner[1], sizeof winner[0]), 0);
+      expect_same_along(all, i);
       const bool wins = anywhere.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.997F, 0.3F, all.known(own));
       EXPECT_EQ(wins, avx2.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.997F, 0.3F, all.known(own)));
       n_won += wins;
