@@ -7,7 +7,7 @@
 // SIZE: half width or radius over the body's diagonal. VARIANT: whole; half, above y = 0; halfquarter, and above
 // its middle; turned, a whole one; halfturned; two, bodies; inner, a box with air on both sides around the body;
 // innerhalf, likewise with faces of its own on both sides; solid, the body and the domain are solids over each other;
-// cut, the air in two blocks; slice, a tenth of the
+// wake, narrowwake, and another such box behind it; cut, the air in two blocks; slice, a tenth of the
 // span between two planes; disc, a loose sheet; sheets, loose faces; open, half without a symmetry plane.
 #include <BRepAlgoAPI_Common.hxx>
 #include <BRepAlgoAPI_Cut.hxx>
@@ -178,11 +178,27 @@ TopoDS_Shape half_in(const std::string& kind, const TopoDS_Shape& body, Place p,
   return compound_of(faces);
 }
 
+/// A box around the body and one behind it in its wake, of `share` of its width and height.
+TopoDS_Shape with_wake(const TopoDS_Shape& air, const Place& p, double share) {
+  const double m = 0.2 * p.diagonal, w = share * (p.y1 - p.y0 + 2 * m), h = share * (p.z1 - p.z0 + 2 * m);
+  TopTools_ListOfShape solids, boxes;
+  solids.Append(first(air, TopAbs_SOLID));
+  boxes.Append(box(p.x0 - m, p.y0 - m, p.z0 - m, p.x1 - p.x0 + 2 * m, p.y1 - p.y0 + 2 * m, p.z1 - p.z0 + 2 * m));
+  boxes.Append(box(p.x1 + m, p.middle.Y() - w / 2, p.middle.Z() - h / 2, p.diagonal, w, h));
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(solids);
+  splitter.SetTools(boxes);
+  splitter.Build();
+  return splitter.Shape();
+}
+
 TopoDS_Shape in_air(const std::string& kind, const TopoDS_Shape& body, const Place& p, const std::string& variant) {
   const TopoDS_Shape outer = domain(kind, p.middle, p.r), air = with_voids(outer, body);
   if (variant == "whole") return air;
   if (variant == "turned") return turned(air);
   if (variant == "sheets") return faces_of(air);
+  if (variant == "wake") return with_wake(air, p, 1);
+  if (variant == "narrowwake") return with_wake(air, p, 0.6);
   if (variant == "solid") return compound_of({outer, body});
   if (variant == "two")
     return with_voids(

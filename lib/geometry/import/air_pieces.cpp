@@ -327,6 +327,16 @@ double AirPieces::least_angle(EdgeId e) const {
   return least;
 }
 
+bool AirPieces::hangs_on(const AirPiece& piece, const AirPiece& other) const {
+  const auto count = [&](EdgeId e, const AirPiece& of) {
+    return std::ranges::count_if(faces_at(e), [&](FaceId f) { return std::ranges::binary_search(of.faces, f); });
+  };
+  return std::ranges::any_of(piece.faces, [&](FaceId f) {
+    return std::ranges::any_of(t_.edges_of(f),
+                               [&](EdgeId e) { return is_crowded(e) && count(e, piece) == 1 && count(e, other) == 2; });
+  });
+}
+
 std::vector<AirPiece> AirPieces::pieces_without(const std::vector<char>& is_left_out) const {
   DisjointSets sets(t_.n_faces());
   for (FaceId f = 0; f < t_.n_faces(); ++f)

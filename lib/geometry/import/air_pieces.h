@@ -64,6 +64,10 @@ class AirPieces {
     return std::span(edge_faces_).subspan(offsets_[first], offsets_[first + 1] - offsets_[first]);
   }
 
+  /// Whether a piece ends at a crowded edge where two of the other's faces go on: a partition in a box, or the sides of
+  /// a box that stands on another one.
+  bool hangs_on(const AirPiece& piece, const AirPiece& other) const;
+
   /// Between the faces at an edge, or the two sides of a seam, radians in [0, pi]; pi where that cannot be told.
   double least_angle(EdgeId e) const;
 

@@ -181,16 +181,20 @@ class AirFinder {
     });
   }
 
-  /// Boxes around the body with air on both sides; such a wall may be there twice, once for each side.
+  /// Boxes around the body with air on both sides, and what divides them or stands on them; such a wall may be there
+  /// twice, once for each side.
   void take_inner_boxes(std::vector<AirPiece>& pieces, Split& split) const {
     for (bool is_found = true; is_found && pieces.size() > 1;) {
       is_found = false;
       for (std::size_t i = 0; i < pieces.size() && !is_found; ++i) {
-        std::vector<AirPiece> same, others;
-        for (const AirPiece& p : pieces)
-          (encloses(p.box, pieces[i].box) && encloses(pieces[i].box, p.box) ? same : others).push_back(p);
+        std::vector<AirPiece> same, sheets, others;
+        for (const AirPiece& p : pieces) {
+          const bool is_same = encloses(p.box, pieces[i].box) && encloses(pieces[i].box, p.box);
+          (is_same ? same : pieces_.hangs_on(p, pieces[i]) ? sheets : others).push_back(p);
+        }
         if (!is_inner_box(same, others, split)) continue;
-        for (const AirPiece& p : same) split.interface.insert(split.interface.end(), p.faces.begin(), p.faces.end());
+        for (const auto* own : {&same, &sheets})
+          for (const AirPiece& p : *own) split.interface.insert(split.interface.end(), p.faces.begin(), p.faces.end());
         pieces = others;
         is_found = true;
       }
