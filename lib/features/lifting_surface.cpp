@@ -59,6 +59,8 @@ constexpr double kSquareCorner = 0.5;          // cosine: 60 to 120 degrees
 constexpr double kPlaneFace = 1e-3;            // radians: between normals of a plane face
 constexpr double kNoseStrip = 0.02;            // of the chord: width of the faces at such a corner, at least
 constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
+constexpr double kLeftAtTip = 1e-3;            // of the chord: from the last nose to a tip, as `rans` asks
+constexpr double kBeforeNose = 0.1;            // of the chord: from the nose to edges of ice before it at most
 constexpr double kLens = 0.75;                 // of the way where the nose is on the edge itself: does not count
 
 constexpr const char *kRimOfEnd = "they are rims of a tip or a root",
@@ -237,7 +239,7 @@ class SurfaceMeasurer {
       return find_part(measured_edges(chain, places, profiles), chain, why);
     }
     if (const double way = corner_way(places, profiles); way > kMostCorners * measured_way(places, profiles)) {
-      why = {"its profiles end in a corner between plane faces, not in a nose"};
+      why = {"its profiles end in a corner between straight sides, not in a nose"};
       return std::nullopt;
     }
     drop_oblique(axis, profiles);
@@ -275,6 +277,7 @@ class SurfaceMeasurer {
     for (std::size_t k = 0; k < surface.trailing.size(); ++k) {
       reach_ends(draft.axis[k], surface.faces, surface.trailing[k]);
       close_gaps({model_, cutter_, reach_, is_own}, draft.axis[k], surface.trailing[k]);
+      if (draft.axis[k]) close_crests(*draft.axis[k], surface.faces, surface.trailing[k]);
     }
     for (ChordEdge& edge : surface.trailing) hide_tip(model_, surface, edge);
     measure_chords(surface);
@@ -381,17 +384,29 @@ class SurfaceMeasurer {
     return way;
   }
 
-  /// Where a wedge was cut off across: a corner that is about square between plane faces, which are no strips of a
-  /// nose.
+  /// Where a wedge was cut off across: a corner that is about square between faces that the cut crosses straight, and
+  /// which are no strips of a nose.
   bool ends_in_corner(const Profile& profile) const {
     const std::vector<CutPlace>& beside = profile.beside_nose;
     const auto is_side = [&](const CutPlace& at) {
-      return model_.tables().face_width[at.face] >= kNoseStrip * profile.chord && is_plane(at.face);
+      return model_.tables().face_width[at.face] >= kNoseStrip * profile.chord &&
+             (is_plane(at.face) || is_along_axis(at, profile.nose));
     };
     return beside.size() == 2 &&
            std::abs(dot(normalized(beside[0].x - profile.nose), normalized(beside[1].x - profile.nose))) <
                kSquareCorner &&
            std::ranges::all_of(beside, is_side);
+  }
+
+  /// Along a cylinder or a cone, from the nose to a place on it.
+  bool is_along_axis(const CutPlace& at, Vec3 nose) const {
+    const SurfaceType type = model_.tables().face_type[at.face];
+    if (type != SurfaceType::kCylinder && type != SurfaceType::kCone) return false;
+    const auto surface = model_.surface(at.face);
+    const auto normal_at = [&](Vec3 x) {
+      return surface_normal(*surface, closest_point(*surface, x, grid_[at.face]).uv);
+    };
+    return angle_between(normal_at(nose), normal_at(at.x)) <= kPlaneFace;
   }
 
   /// Whatever kind of surface describes it.
@@ -613,17 +628,18 @@ class SurfaceMeasurer {
     if (!chords.empty()) surface.set_chords(chords);
   }
 
-  /// Adds stations where measured ones end: halves the way to the next one, or to the end of the edge. So noses run as
-  /// far as there are profiles, and not on into a fuselage.
+  /// Adds stations where measured ones end: halves the way to the next one, or to the end of the edge, there until it
+  /// is no longer than a length at the nose. So noses run as far as there are profiles, and not on into a fuselage.
   void reach_ends(const Vec3* axis, std::span<const FaceId> own_faces, ChordEdge& edge) const {
-    constexpr int kHalvings = 4;
+    constexpr int kHalvings = 4, kMostHalvings = 12;
     const auto curve = model_.curve(edge.edge);
     const ArcTable arc(*curve);
     std::vector<ChordStation> added;
     const auto reach = [&](const ChordStation& from, double to) {
       const bool is_end = to == 0 || to == 1;
       double known = from.share, chord = from.chord;
-      for (int i = 0; i < kHalvings; ++i) {
+      const auto is_wide = [&] { return is_end && std::abs(to - known) * arc.length() > kLeftAtTip * chord; };
+      for (int i = 0; i < kHalvings || (i < kMostHalvings && is_wide()); ++i) {
         const double share = 0.5 * (known + to);
         const CurvePoint p = curve->evaluate(arc.parameter_at(share));
         const EdgePlace place{0, share, 0, p.x, normalized(p.d1)};
@@ -647,6 +663,26 @@ class SurfaceMeasurer {
     edge.stations.insert(edge.stations.end(), added.begin(), added.end());
     std::sort(edge.stations.begin(), edge.stations.end(),
               [](const ChordStation& a, const ChordStation& b) { return a.share < b.share; });
+  }
+
+  /// Cut square to the edge, between stations with noses, where it runs across the axis, as at the crest of a loop.
+  void close_crests(Vec3 axis, std::span<const FaceId> own_faces, ChordEdge& edge) const {
+    const auto begin = std::ranges::find_if(edge.stations, &ChordStation::is_measured);
+    const auto end =
+        std::find_if(edge.stations.rbegin(), edge.stations.rend(), [](const auto& s) { return s.is_measured; }).base();
+    if (std::all_of(begin, end, [](const ChordStation& s) { return s.is_measured || s.is_hidden; })) return;
+    const auto curve = model_.curve(edge.edge);
+    const ArcTable arc(*curve);
+    double chord = begin->chord;
+    for (auto s = begin; s != end; ++s) {
+      if (s->is_measured) chord = s->chord;
+      if (s->is_measured || s->is_hidden) continue;
+      const Vec3 tangent = normalized(curve->evaluate(arc.parameter_at(s->share)).d1);
+      if (std::abs(dot(tangent, axis)) >= kAlongAxis) continue;
+      const std::optional<Profile> own = profile_at({0, s->share, 0, s->trailing, tangent}, nullptr);
+      if (own && !is_outlier(own->chord, chord) && std::ranges::binary_search(own_faces, own->nose_face))
+        measure(*own, *s);
+    }
   }
 
   /// Noses run along the trailing edge: they do not where a body of revolution ends in its apex.
@@ -1231,7 +1267,7 @@ class SurfaceFinder {
       const ProfileCutter& cutter = cutter_for(own);
       std::optional<LiftingSurface> surface = find_thin_surface(model_, {roles_.own.axis, cutter, reach()}, own);
       if (!surface) return;
-      surfaces_.push_back(std::move(*surface));
+      if (!add_at_nose(own, *surface)) surfaces_.push_back(std::move(*surface));
       own.clear();
     };
     take(declared);
@@ -1240,15 +1276,39 @@ class SurfaceFinder {
     rest.edges.insert(rest.edges.end(), declared.begin(), declared.end());
   }
 
+  /// Gives edges that nobody declared, before the nose of a surface and thin from there to its tail, to that one:
+  /// those of ice. False: they are before none.
+  bool add_at_nose(const std::vector<WingEdge>& edges, const LiftingSurface& thin) {
+    const auto is_nose_of = [&](const LiftingSurface& wing) {
+      const auto is_before = [&](const ChordStation& s) {
+        const ChordStation* own = wing.nearest_station(s.trailing);
+        return own && distance(s.trailing, own->nose) < kBeforeNose * own->chord &&
+               distance(s.trailing, own->trailing) > (1 - kNearNose) * own->chord &&
+               s.chord > (1 - kNearNose) * own->chord;
+      };
+      return std::ranges::all_of(thin.trailing,
+                                 [&](const ChordEdge& edge) { return std::ranges::all_of(edge.stations, is_before); });
+    };
+    const auto wing = std::ranges::find_if(surfaces_, is_nose_of);
+    if (thin.is_declared || wing == surfaces_.end()) return false;
+    for (const WingEdge& w : edges) {
+      wing->leading.push_back(w.edge);
+      add_lengths_at_nose(w, *wing);
+    }
+    sort_once(wing->leading);
+    return true;
+  }
+
+  void add_lengths_at_nose(const WingEdge& w, LiftingSurface& wing) const {
+    wing.declared_leading.push_back(
+        chords_along(model_, w, [&](const EdgePlace& place) { return wing.nearest_chord(place.x).chord; }));
+  }
+
   void add_declared_leading(const WingEdge& w) {
     const std::vector<WingEdge> own = {w};
     const auto has_edge = [&](const LiftingSurface& s) { return std::ranges::count(s.leading, w.edge) > 0; };
     const auto known = std::ranges::find_if(surfaces_, has_edge);
-    if (known != surfaces_.end()) {
-      known->declared_leading.push_back(
-          chords_along(model_, w, [&](const EdgePlace& place) { return known->nearest_chord(place.x).chord; }));
-      return;
-    }
+    if (known != surfaces_.end()) return add_lengths_at_nose(w, *known);
     const ProfileCutter& cutter = cutter_for(own);
     if (std::optional<LiftingSurface> surface = find_thin_surface(model_, {roles_.own.axis, cutter, reach()}, own))
       surfaces_.push_back(std::move(*surface));

@@ -116,6 +116,8 @@ SPANS = {
     "race_wing": [2, 2],
     "all_moving_tail": [3.42, 3.42, 1.45, 1.45],
     "biplane": [6, 6, 1.15, 1.15],
+    "iced_wing": [4],  # horns of ice are at its nose
+    "loop_propeller": [1.95, 1.95],
 }
 # Noses before slots and flaps, where the trailing edge is another part's or none.
 NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing": 0.36, "gapped_aileron": 1.3,
@@ -124,7 +126,7 @@ PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", 
          "seal", "oval_bar", "saw", "door_stop", "snap_hook", "plow", "hole_plate", "cam", "lever", "dovetail",
          "funnel", "shim", "pulley", "fan_disc", "leaf_spring", "drill", "bezel", "axe", "turbine_disc", "louvre_grille",
          "cooling_fins", "knife", "wing_nut", "propeller_nut", "shovel", "comb", "lip_profile", "circular_saw",
-         "door_handle", "scissors")
+         "door_handle", "scissors", "disc_spring")
 
 
 class WingShapes(ToolTest):
@@ -155,6 +157,13 @@ class WingShapes(ToolTest):
             # at both ends they begin at stations, which are 0.17 apart
             self.assertAlmostEqual(sum(wing["noses_alone"] for wing in wings), length, delta=0.34 if length else 0,
                                    msg=name)
+
+    def test_noses_reach_the_tips_to_a_length_at_the_nose(self):
+        for name in ("fixed_slat", "braced_wing"):
+            (self.folder / "geometry.hdf").unlink(missing_ok=True)
+            for wing in self.raster(name, "rans").json()["lifting_surfaces"][:1]:
+                at = [abs(station["nose"][1]) for station in wing["stations"]]
+                self.assertGreater(max(at), 4 - 1e-3 * wing["chord"][1], name)
 
     def test_eight_lengths_are_across_a_slot_of_a_quarter_per_cent_of_the_model(self):
         self.raster("gapped_aileron", "rans")
