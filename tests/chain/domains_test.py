@@ -70,7 +70,8 @@ class Domains(ToolTest):
     def test_turned_cut_or_with_boxes_sheets_and_several_bodies_inside_are_recognised(self):
         body = MODELS / "wing_with_flap.step"
         for variant, suffix, farfield, interface in (
-                ("turned", "igs", 6, 0), ("two", "step", 6, 0), ("inner", "brep", 6, 6), ("inner", "step", 6, 12), ("wake", "brep", 6, 11), ("narrowwake", "brep", 6, 12),
+                ("turned", "igs", 6, 0), ("two", "step", 6, 0), ("inner", "brep", 6, 6), ("inner", "step", 6, 12),
+                ("wake", "brep", 6, 11), ("narrowwake", "brep", 6, 12),
                 ("solid", "step", 6, 0), ("cut", "brep", 10, 1), ("cut", "step", 10, 2), ("disc", "igs", 6, 0),
                 ("sheets", "igs", 6, 0)):
             with self.subTest(variant=variant, suffix=suffix):

@@ -124,9 +124,9 @@ NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing"
                "fixed_slat": 2.4, "two_elements": 0, "kinked_wing": 0}
 PARTS = ("bracket", "plate", "chisel", "louvre", "heat_sink", "thread", "gear", "spoon", "lens", "cover", "rib",
          "seal", "oval_bar", "saw", "door_stop", "snap_hook", "plow", "hole_plate", "cam", "lever", "dovetail",
-         "funnel", "shim", "pulley", "fan_disc", "leaf_spring", "drill", "bezel", "axe", "turbine_disc", "louvre_grille",
-         "cooling_fins", "knife", "wing_nut", "propeller_nut", "shovel", "comb", "lip_profile", "circular_saw",
-         "door_handle", "scissors", "disc_spring")
+         "funnel", "shim", "pulley", "fan_disc", "leaf_spring", "drill", "bezel", "axe", "turbine_disc",
+         "louvre_grille", "cooling_fins", "knife", "wing_nut", "propeller_nut", "shovel", "comb", "lip_profile",
+         "circular_saw", "door_handle", "scissors", "disc_spring")
 
 
 class WingShapes(ToolTest):
