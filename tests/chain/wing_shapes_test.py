@@ -161,9 +161,9 @@ class WingShapes(ToolTest):
     def test_noses_reach_the_tips_to_a_length_at_the_nose(self):
         for name in ("fixed_slat", "braced_wing"):
             (self.folder / "geometry.hdf").unlink(missing_ok=True)
-            for wing in self.raster(name, "rans").json()["lifting_surfaces"][:1]:
-                at = [abs(station["nose"][1]) for station in wing["stations"]]
-                self.assertGreater(max(at), 4 - 1e-3 * wing["chord"][1], name)
+            wing = max(self.raster(name, "rans").json()["lifting_surfaces"], key=lambda wing: wing["span"])
+            at = max(abs(station["nose"][1]) for station in wing["stations"])  # of 4
+            self.assertGreater(at, 4 - 1e-3 * wing["chord"][1], name)
 
     def test_eight_lengths_are_across_a_slot_of_a_quarter_per_cent_of_the_model(self):
         self.raster("gapped_aileron", "rans")
