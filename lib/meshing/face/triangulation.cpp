@@ -228,15 +228,18 @@ bool Triangulation::insert_boundary_node(std::int32_t node, std::int32_t& hint) 
 
 std::int32_t Triangulation::find_edge(std::int32_t a, std::int32_t b, int& k) const {
   const std::int32_t first = node_triangle_[a];
+  const auto has_it = [&](std::int32_t t) {
+    k = index_of(t, a);
+    return triangles[t].v[kNext[k]] == b;
+  };
   std::int32_t t = first;
   do {  // counter-clockwise about a
-    const int i = index_of(t, a);
-    if (triangles[t].v[kNext[i]] == b) {
-      k = i;
-      return t;
-    }
-    t = triangles[t].n[kPrev[i]];
+    if (has_it(t)) return t;
+    t = triangles[t].n[kPrev[k]];
   } while (t != first && t != kNone);
+  if (t == first) return kNone;
+  for (t = first; t != kNone; t = triangles[t].n[k])  // a corner of the box: those clockwise from the first, too
+    if (has_it(t)) return t;
   return kNone;
 }
 

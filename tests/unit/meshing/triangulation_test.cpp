@@ -166,6 +166,25 @@ TEST(Triangulation, forces_the_segments_of_a_comb) {
   EXPECT_NEAR(inside_area(m), std::abs(polygon), 1e-10);
 }
 
+TEST(Triangulation, forces_a_long_segment_above_nodes_close_to_it) {  // seen from a corner of the box across it
+  for (const int n : {3, 5, 9})
+    for (const double height : {1e-9, 1e-3, 1.0}) {
+      const double length = 6;
+      std::vector<Vec2> points{{length, 0}, {0, 0}};
+      double expected = 0;
+      for (int i = 0; i <= n; ++i) {
+        const double depth = height * (i == 0 || i == n ? 1 : 2 + 0.8 * std::cos(2.0 * i));
+        points.push_back({length * i / n, -depth});
+        if (i > 0) expected -= 0.5 * length / n * (points[i + 1].y + points[i + 2].y);
+      }
+      Triangulation m = with_nodes(points);
+      const std::vector<LoopConflict> conflicts = m.build(ring(0, n + 3));
+      ASSERT_TRUE(conflicts.empty()) << n << " " << height;
+      expect_valid(m);
+      EXPECT_NEAR(inside_area(m), expected, 1e-9 * expected);
+    }
+}
+
 TEST(Triangulation, forces_random_star_polygons) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     std::mt19937 random(seed);
