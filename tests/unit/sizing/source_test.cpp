@@ -207,7 +207,9 @@ TEST(Source, has_a_bound_over_a_triangle_that_is_never_above_and_near_far_away) 
     const double exact = least_over_triangle(x, p, lengths, kSourceSlope),
                  bound = bound_over_triangle(x, p, lengths, kSourceSlope);
     ASSERT_LE(bound, exact * (1 + 1e-9));
-    if (i % 4) ASSERT_GT(bound, exact - 0.01 * kSourceSlope * distance(x, centre));
+    if (i % 4) {
+      ASSERT_GT(bound, exact - 0.01 * kSourceSlope * distance(x, centre));
+    }
   }
 }
 
