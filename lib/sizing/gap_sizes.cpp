@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kTouching = 1e-3;  // of the smallest length: nearer surfaces touch
 constexpr double kSagging = 2;      // times that of both patches: nearer patches of two solids touch
+constexpr double kBeyond = 0.13;    // of the patch's width beyond a crossing: clear of cells that a border cuts
 constexpr double kFill = 0.9;       // largest side of a tile over the edge of its raster box
 constexpr double kLarge = 2.5;      // times this patch: its corners may miss this one
 constexpr int kMaxDepth = 8;        // of tiles in tiles
@@ -73,7 +74,8 @@ class GapTiler {
           norm2(to) - along * along > f.radius * f.radius)
         continue;
       const std::optional<double> d = f.patch->facing_distance(x, n);
-      if (d && !is_contact(*f.patch, *d) && std::abs(*d) < cells_to(patch_, *d) * sight.length)
+      if (d && !is_contact(*f.patch, *d) && std::abs(*d) < cells_to(patch_, *d) * sight.length &&
+          !(*d > 0 && is_past_crossing(*f.patch, s, t, *d)))
         sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n};
     }
     return sight;
@@ -85,6 +87,26 @@ class GapTiler {
     if (std::abs(d) <= kTouching * patch_.min_length) return true;
     if (patch_.solid < 0 || other.solid < 0 || other.solid == patch_.solid) return false;
     return d < kSagging * (patch_.sagging() + other.sagging());
+  }
+
+  /// Beyond a sharp edge the patches of its sides cross, and seem to face each other: where the gap closes, this patch
+  /// goes on with the other face behind it. In a gap that ends in an edge there is none of this patch beyond.
+  bool is_past_crossing(const GapPatch& other, double s, double t, double d) const {
+    const Vec3 n = patch_.normal_at(s, t), to = patch_.point(s, t) + d * n - other.x;
+    const Vec3 opposite = other.normal_at(dot(to, other.axis_s), dot(to, other.axis_t));
+    const double along_s = -dot(opposite, patch_.axis_s), along_t = -dot(opposite, patch_.axis_t);
+    const double slope = std::hypot(along_s, along_t);
+    if (!(slope > 0)) return false;
+    const double width =
+        (std::abs(along_s) * (patch_.s_hi - patch_.s_lo) + std::abs(along_t) * (patch_.t_hi - patch_.t_lo)) / slope;
+    const double step = (d * std::abs(dot(opposite, n)) / slope + kBeyond * width) / slope;
+    const double s1 = s + step * along_s, t1 = t + step * along_t;
+    if (!(s1 >= patch_.s_lo && s1 <= patch_.s_hi && t1 >= patch_.t_lo && t1 <= patch_.t_hi)) return false;
+    if (!patch_.is_inside(s1, s1, t1, t1)) return false;
+    const Vec3 x1 = patch_.point(s1, t1), n1 = patch_.normal_at(s1, t1);
+    return std::any_of(facing_.begin(), facing_.end(), [&](const Facing& f) {
+      return f.patch->cause == other.cause && f.patch->facing_distance(x1, n1).value_or(0) < 0;
+    });
   }
 
   double length_at(double s, double t) const {

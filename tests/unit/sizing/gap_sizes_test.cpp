@@ -76,6 +76,32 @@ TEST(GapSizes, tell_gaps_in_the_flow_from_walls) {
     }
 }
 
+TEST(GapSizes, see_no_gap_beyond_a_sharp_edge_but_the_end_of_a_slot) {
+  // Two triangles that meet at x + y = 10 at 10 degrees; patches of both go on beyond it.
+  const double rise = std::tan(radians(10)) / std::sqrt(2.0);
+  const Vec3 up = normalized(Vec3{rise, rise, 1}), along = normalized(Vec3{1, 0, -rise}), across = cross(up, along);
+  const Vec3 corner{0, 0, 10 * rise};
+  const auto uv = [&](double x, double y) {
+    const Vec3 d = Vec3{x, y, rise * (10 - x - y)} - corner;
+    return Vec2{dot(d, along), dot(d, across)};
+  };
+  const Vec2 a = uv(0, 0), b = uv(10, 0), c = uv(0, 10);
+  const PlaneSurface leaning({corner, along, across, up}, -1, 11, -1, 11);
+  const LoopPolygons below({{{0, 0}, {10, 0}}, {{10, 0}, {0, 10}}, {{0, 10}, {0, 0}}}), above({{a, b}, {b, c}, {c, a}});
+  for (const bool is_slot : {true, false}) {  // two sides of a slot, or of a wing
+    SamplingLimits own = limits(1, 0.001);
+    own.wall_cells.reset();
+    std::vector<GapPatch> patches;
+    add_patches(plate(0), is_slot ? Normals::kAlong : Normals::kAgainst, own, patches, 0, below);
+    add_patches(leaning, is_slot ? Normals::kAgainst : Normals::kAlong, own, patches, 1, above);
+    const std::vector<RasterBox> boxes = gaps(patches);
+    EXPECT_EQ(boxes.empty(), !is_slot) << boxes.size();
+    if (!is_slot) continue;
+    EXPECT_LT(length_at(boxes, {4.7, 4.7, 0}, 0), 0.03);
+    EXPECT_LT(length_at(boxes, {4.95, 4.95, 0}, 0), 0.01);
+  }
+}
+
 TEST(GapSizes, see_no_wall_between_two_solids_and_no_gap_where_a_shaft_fills_its_bore) {
   const auto cylinder = [](double radius, double turned) {
     return AxialSurface(SurfaceType::kCylinder, kGapFrame, radius, 0, turned, turned + 2 * kPi, 0, 1);
