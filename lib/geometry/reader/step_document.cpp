@@ -7,6 +7,7 @@
 #include <StepRepr_RepresentationItem.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <filesystem>
 #include <set>
 #include <string>
 #include <vector>
@@ -56,7 +57,8 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   reader.SetNameMode(true);
   reader.SetColorMode(true);
   reader.SetLayerMode(true);
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
+  // Parts in files of their own are looked for beside it, of a relative path in the wrong folder.
+  if (reader.ReadFile(std::filesystem::absolute(path).c_str()) != IFSelect_RetDone)
     throw Error(ExitCode::kInput, path + ": the STEP file cannot be parsed; export the model again");
   file.format = "STEP";
   read_step_units(reader.Reader().WS()->Model(), file);
