@@ -2,6 +2,7 @@
 left half-written."""
 import json
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -78,7 +79,7 @@ class KilledRank(ToolTest):
     def expect_named(self, rank, number, text, *arguments):
         code, _, err = self.kill(rank, number, *arguments)
         self.assertEqual(code, 128 + number, err)
-        lines = err.strip().split("\n")
+        lines = [line for line in err.strip().split("\n") if not re.search(r" \d+ %(, \d+ s left)?$", line)]  # progress
         self.assertEqual(len(lines), 1, err)
         self.assertTrue(lines[0].startswith(f"st-raster: error: rank {rank} on {socket.gethostname().split('.')[0]}"),
                         err)
