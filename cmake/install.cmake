@@ -19,7 +19,7 @@ install(FILES ${CMAKE_BINARY_DIR}/installed_links/examples DESTINATION share/doc
 install(DIRECTORY python/st DESTINATION lib/python3/dist-packages COMPONENT runtime FILES_MATCHING PATTERN "*.py")
 install(FILES Makefile.workflow DESTINATION share/st COMPONENT runtime)
 file(GLOB workflow_scripts scripts/workflow_*.sh scripts/run_stage.sh scripts/replace_if_changed.sh
-     scripts/nearest_word.sh scripts/make_example.sh)
+     scripts/nearest_word.sh scripts/make_example.sh scripts/setup.sh)
 install(PROGRAMS ${workflow_scripts} DESTINATION share/st/scripts COMPONENT runtime)
 install(TARGETS make_aircraft make_model RUNTIME DESTINATION bin COMPONENT runtime)
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # Installs the Debian packages that are missing; does nothing, and needs neither root nor network, when none is.
-# usage: scripts/setup.sh [build|check|site] [--list]   build: to build and run; check: also to run all tests;
-#                                                     site: the pages as a site only
+# usage: scripts/setup.sh [build|check|site|adapt] [--list]   build: to build and run; check: also to run all tests;
+#                                                           site: the pages as a site only; adapt: examples/adapt only
 set -eu -o pipefail
 
 build_packages=(
@@ -24,14 +24,15 @@ check_packages=(
   chromium  # the page of st-report in a browser: tests/cli/report_test.py
 )
 site_packages=(mkdocs python3)
+adapt_packages=(tetgen gmsh openfoam python3 python3-numpy python3-vtk9 xvfb xauth)
 
 role=build list=
 for argument in "$@"; do
   case $argument in
-    build | check | site) role=$argument ;;
+    build | check | site | adapt) role=$argument ;;
     --list) list=1 ;;
     *)
-      echo "setup: error: unknown argument '$argument'; usage: scripts/setup.sh [build|check|site] [--list]" >&2
+      echo "setup: error: unknown argument '$argument'; usage: scripts/setup.sh [build|check|site|adapt] [--list]" >&2
       exit 2
       ;;
   esac
@@ -40,6 +41,7 @@ case $role in
   build) wanted=("${build_packages[@]}") ;;
   check) wanted=("${build_packages[@]}" "${check_packages[@]}" "${site_packages[@]}") ;;
   site) wanted=("${site_packages[@]}") ;;
+  adapt) wanted=("${adapt_packages[@]}") ;;
 esac
 if [ -n "$list" ]; then
   printf '%s\n' "${wanted[@]}"

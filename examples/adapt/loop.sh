@@ -5,13 +5,12 @@ set -eu -o pipefail
 [ $# -ge 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 here=$(dirname "$(realpath "$0")")
 root=$(realpath "$here/../..")
-"$here/setup.sh"
+"$root/scripts/setup.sh" adapt
 bin=()
 if ! command -v st-import > /dev/null; then
   [ -f "$root/CMakeLists.txt" ] || { echo "loop: error: no st-import: install the package st" >&2; exit 3; }
   "$root/scripts/setup.sh" build
-  cmake -S "$root" --preset release > /dev/null
-  cmake --build "$root/build/release" > /dev/null
+  "$root/scripts/build.sh" "$root/build/release" -DCMAKE_BUILD_TYPE=Release -DST_TESTS=OFF
   bin=(--bin "$root/build/release/bin")
 fi
 "$here/adapt.py" "$@" "${bin[@]}"

@@ -30,7 +30,8 @@ except ImportError as e:
 NEEDED = ("tetgen", "potentialFoam", "gmshToFoam")
 NO_FLOW = WHY_NOT or ", ".join(f"no {tool}" for tool in NEEDED if not shutil.which(tool))
 if NO_FLOW and not WHY_NOT:
-    print(f"SKIPPED: {NO_FLOW}: the loop of examples/adapt is tested without its flow; run its setup.sh", flush=True)
+    print(f"SKIPPED: {NO_FLOW}: the loop of examples/adapt is tested without its flow; run scripts/setup.sh adapt",
+          flush=True)
 
 SHOCK = 2.0  # the plane x at which the pressure of the test jumps, on a sphere of radius 10
 

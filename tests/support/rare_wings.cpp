@@ -99,10 +99,7 @@ Frame spiral(double turn, double z) {
     const double r = 0.4 + 0.6 * x, angle = turn * x;
     return gp_Pnt(r * std::cos(angle), r * std::sin(angle), z);
   };
-  return [=](double x, double h) {
-    const gp_Vec along(middle(x - 1e-4), middle(x + 1e-4));
-    return middle(x).Translated(0.6 * h * gp_Vec(0, 0, 1).Crossed(along.Normalized()));
-  };
+  return along_line(middle, 0.6);
 }
 
 /// Six blades between two discs.

@@ -135,10 +135,7 @@ Frame curved(double r0, double turn, double z) {
     const double r = r0 + (1 - r0) * x, angle = turn * (r - 0.4) / 0.6;
     return gp_Pnt(r * std::cos(angle), r * std::sin(angle), z);
   };
-  return [=](double x, double h) {
-    const gp_Vec along(middle(x - 1e-4), middle(x + 1e-4));
-    return middle(x).Translated(0.5 * h * gp_Vec(0, 0, 1).Crossed(along.Normalized()));
-  };
+  return along_line(middle, 0.5);
 }
 
 /// Six blades, and six shorter ones between them.

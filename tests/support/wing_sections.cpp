@@ -87,6 +87,13 @@ Frame straight(gp_Pnt nose, double chord, double angle_deg, double twist_deg) {
   return [=](double x, double h) { return middle.Translated(chord * ((x - 0.5) * along + h * up)); };
 }
 
+Frame along_line(const std::function<gp_Pnt(double)>& middle, double scale) {
+  return [=](double x, double h) {
+    const gp_Vec along(middle(x - 1e-4), middle(x + 1e-4));
+    return middle(x).Translated(scale * h * gp_Vec(0, 0, 1).Crossed(along.Normalized()));
+  };
+}
+
 TopoDS_Shape loft(const std::vector<Section>& sections, bool is_ruled) {
   BRepOffsetAPI_ThruSections thru(true, is_ruled, 1e-6);
   thru.CheckCompatibility(false);

@@ -40,6 +40,8 @@ struct Section {
 /// Chord along x and z across, or turned by `angle` about the x axis: 90 degrees for what stands upright; `twist` about
 /// the middle of the chord.
 Frame straight(gp_Pnt nose, double chord, double angle_deg = 0, double twist_deg = 0);
+/// Chord along a line in a plane across z, of which `middle` gives the place at a share; `scale`: of lengths across.
+Frame along_line(const std::function<gp_Pnt(double)>& middle, double scale);
 
 /// The outline's point at a share of the chord; `side`: 1 upper, -1 lower.
 gp_Pnt at(const Section& section, double x, double side);
