@@ -10,6 +10,7 @@ namespace {
 constexpr double kTouching = 1e-3;  // of the smallest length: nearer surfaces touch
 constexpr double kSagging = 2;      // times that of both patches: nearer patches of two solids touch
 constexpr double kBeyond = 0.13;    // of the patch's width beyond a crossing: clear of cells that a border cuts
+constexpr double kSidestep = 0.2;   // of the patch's width, along a crossing: more than such a cell
 constexpr double kFill = 0.9;       // largest side of a tile over the edge of its raster box
 constexpr double kLarge = 2.5;      // times this patch: its corners may miss this one
 constexpr int kMaxDepth = 8;        // of tiles in tiles
@@ -100,13 +101,36 @@ class GapTiler {
     const double width =
         (std::abs(along_s) * (patch_.s_hi - patch_.s_lo) + std::abs(along_t) * (patch_.t_hi - patch_.t_lo)) / slope;
     const double step = (d * std::abs(dot(opposite, n)) / slope + kBeyond * width) / slope;
-    const double s1 = s + step * along_s, t1 = t + step * along_t;
-    if (!(s1 >= patch_.s_lo && s1 <= patch_.s_hi && t1 >= patch_.t_lo && t1 <= patch_.t_hi)) return false;
-    if (!patch_.is_inside(s1, s1, t1, t1)) return false;
-    const Vec3 x1 = patch_.point(s1, t1), n1 = patch_.normal_at(s1, t1);
-    return std::any_of(facing_.begin(), facing_.end(), [&](const Facing& f) {
-      return f.patch->cause == other.cause && f.patch->facing_distance(x1, n1).value_or(0) < 0;
+    // Near the end of a side its cells may miss the place: those beside it tell as well.
+    const std::array asides = {0.0, kSidestep * width / slope, -kSidestep * width / slope};
+    return std::any_of(asides.begin(), asides.end(), [&](double aside) {
+      double s1 = s + step * along_s - aside * along_t;
+      double t1 = t + step * along_t + aside * along_s;
+      slide_inside(along_s, along_t, s1, t1);
+      return lies_before(other, s1, t1);
     });
+  }
+
+  /// Is the place inside the loops, with the other patch's face behind it?
+  bool lies_before(const GapPatch& other, double s, double t) const {
+    if (!(s >= patch_.s_lo && s <= patch_.s_hi && t >= patch_.t_lo && t <= patch_.t_hi)) return false;
+    if (!patch_.is_inside(s, s, t, t)) return false;
+    const Vec3 x = patch_.point(s, t), n = patch_.normal_at(s, t);
+    return std::any_of(facing_.begin(), facing_.end(), [&](const Facing& f) {
+      return f.patch->cause == other.cause && f.patch->facing_distance(x, n).value_or(0) < 0;
+    });
+  }
+
+  /// Shifts (s, t) across the direction (along_s, along_t), so along the crossing, as far as the patch's side that is
+  /// nearly parallel to the direction makes it.
+  void slide_inside(double along_s, double along_t, double& s, double& t) const {
+    if (std::abs(along_s) >= std::abs(along_t)) {
+      const double inside = std::clamp(t, patch_.t_lo, patch_.t_hi);
+      s -= (inside - t) * along_t / along_s, t = inside;
+    } else {
+      const double inside = std::clamp(s, patch_.s_lo, patch_.s_hi);
+      t -= (inside - s) * along_s / along_t, s = inside;
+    }
   }
 
   double length_at(double s, double t) const {
