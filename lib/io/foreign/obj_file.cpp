@@ -94,8 +94,10 @@ class ObjReader {
 
 }  // namespace
 
+/// Most lines begin with its words: some programs add lines of their own.
 bool is_obj(std::string_view head) {
   bool has_point = false;
+  int n_known = 0, n_others = 0;
   while (!head.empty()) {
     const std::size_t end = head.find('\n');
     if (end == std::string_view::npos && has_point) break;  // the last line may be cut
@@ -103,10 +105,10 @@ bool is_obj(std::string_view head) {
     head.remove_prefix(end == std::string_view::npos ? head.size() : end + 1);
     if (line.empty() || line.front() == '#') continue;
     const std::string word = line.substr(0, line.find_first_of(" \t"));
-    if (std::find(std::begin(kWords), std::end(kWords), word) == std::end(kWords)) return false;
+    ++(std::find(std::begin(kWords), std::end(kWords), word) == std::end(kWords) ? n_others : n_known);
     has_point = has_point || word == "v";
   }
-  return has_point;
+  return has_point && n_known > n_others;
 }
 
 TriangulationFile parse_obj(const std::string& path, const std::string& bytes) { return ObjReader(path, bytes).read(); }

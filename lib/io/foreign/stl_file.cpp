@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -47,6 +48,11 @@ StlContent binary_content(const std::string& bytes) {
   return content;
 }
 
+/// Whether a word is this one, in small or capital letters.
+bool is_word(std::string_view word, std::string_view wanted) {
+  return std::ranges::equal(word, wanted, {}, [](char c) { return static_cast<char>(std::tolower(c)); });
+}
+
 StlContent text_content(const std::string& path, const std::string& bytes) {
   StlContent content;
   const char *at = bytes.data(), *end = at + bytes.size();
@@ -66,23 +72,23 @@ StlContent text_content(const std::string& path, const std::string& bytes) {
       fail(path, std::string("no coordinate: ").append(text));
     return value;
   };
-  /// The rest of the line without blanks around it.
+  /// The rest of the line without blanks around it; some lines end with a carriage return alone.
   const auto name = [&]() -> std::string {
-    const char* line_end = std::find(at, end, '\n');
+    const char* line_end = std::find_if(at, end, [](char c) { return c == '\n' || c == '\r'; });
     std::string_view text(std::exchange(at, line_end), line_end);
     while (!text.empty() && static_cast<unsigned char>(text.front()) <= ' ') text.remove_prefix(1);
     while (!text.empty() && static_cast<unsigned char>(text.back()) <= ' ') text.remove_suffix(1);
     return std::string(text);
   };
-  if (word() != "solid") fail(path, "neither binary nor ASCII");
+  if (!is_word(word(), "solid")) fail(path, "neither binary nor ASCII");
   content.solid_name.push_back(name());
   for (std::string_view w = word(); !w.empty(); w = word()) {
-    if (w == "vertex") {
+    if (is_word(w, "vertex")) {
       const double x = number(), y = number(), z = number();
       content.corners.push_back({x, y, z});
-    } else if (w == "endsolid") {
+    } else if (is_word(w, "endsolid")) {
       name();
-    } else if (w == "solid") {
+    } else if (is_word(w, "solid")) {
       content.solid_end.push_back(content.corners.size());
       content.solid_name.push_back(name());
     }

@@ -46,20 +46,27 @@ std::uint64_t whole_stl_size(std::string_view head) {
   return kStlHeader + kStlRecord * static_cast<std::uint64_t>(n);
 }
 
-Format format_of(std::string_view head, std::uint64_t file_size) {
+bool is_named_stl(const std::string& path) {
+  const std::string suffix = std::filesystem::path(path).extension();
+  return suffix == ".stl" || suffix == ".STL";
+}
+
+Format format_of(const std::string& path, std::string_view head, std::uint64_t file_size) {
   if (head.starts_with(kHdf5Signature)) return Format::kHdf5;
   if (file_size > 0 && file_size == whole_stl_size(head)) return Format::kStl;
+  const bool has_bytes = head.find('\0') != std::string_view::npos;
   const std::size_t start = head.find_first_not_of(" \t\r\n");
   if (start == std::string_view::npos) return Format::kNone;
   head.remove_prefix(start);
   if (head.starts_with("$MeshFormat")) return Format::kMsh;
   if (head.starts_with("<?xml") || head.starts_with("<VTKFile"))
     return head.find("VTKFile") != std::string_view::npos ? Format::kVtu : Format::kNone;
-  if (head.starts_with("solid")) return Format::kStl;
+  if (head.starts_with("solid") || head.starts_with("SOLID")) return Format::kStl;
   if (is_ply(head)) return Format::kPly;
   if (is_obj(head)) return Format::kObj;
   const std::size_t end = head.find('\n');
-  return end != std::string_view::npos && is_fro_header(head.substr(0, end)) ? Format::kFro : Format::kNone;
+  if (end != std::string_view::npos && is_fro_header(head.substr(0, end))) return Format::kFro;
+  return has_bytes && is_named_stl(path) ? Format::kStl : Format::kNone;  // a damaged one
 }
 
 std::string head_of(const std::string& path) {
@@ -78,6 +85,14 @@ std::string read_bytes(const std::string& path) {
   return bytes;
 }
 
+/// A binary STL file that does not fit its number of triangles is not read: none tells which of both is right.
+void fail_if_unlike_its_count(const std::string& path, std::string_view head, std::uint64_t file_size) {
+  const std::uint64_t whole = whole_stl_size(head);
+  if (is_named_stl(path) && whole < file_size && head.find('\0') != std::string_view::npos)
+    fail(path, "damaged: a binary STL file of this many triangles has " + std::to_string(whole) + " bytes, this one " +
+                   std::to_string(file_size) + "; write it again");
+}
+
 /// A binary STL file that is too short for its triangles has no form at all.
 void fail_if_cut_stl(const std::string& path, std::string_view head, std::uint64_t file_size) {
   const std::uint64_t whole = whole_stl_size(head);
@@ -89,7 +104,7 @@ void fail_if_cut_stl(const std::string& path, std::string_view head, std::uint64
 
 void require_whole_text_stl(const std::string& path) {
   const std::string bytes = read_bytes(path);
-  if (bytes.rfind("endsolid") == std::string::npos)
+  if (bytes.rfind("endsolid") == std::string::npos && bytes.rfind("ENDSOLID") == std::string::npos)
     fail(path, "cut off: the ASCII STL file has no endsolid; write it again");
 }
 
@@ -156,7 +171,7 @@ std::string triangulation_format(const std::string& path) {
   std::error_code unreadable;
   const std::uint64_t size =
       std::filesystem::is_regular_file(path, unreadable) ? std::filesystem::file_size(path, unreadable) : 0;
-  switch (format_of(head_of(path), size)) {
+  switch (format_of(path, head_of(path), size)) {
     case Format::kStl:
       return "an STL mesh";
     case Format::kMsh:
@@ -190,7 +205,7 @@ SurfaceMesh read_triangulation(const std::string& path) {
   const std::uint64_t size = std::filesystem::file_size(path, code);
   const std::string head = head_of(path);
   if (head.empty()) fail(path, "empty, or it cannot be read; check its permissions and write it again");
-  switch (format_of(head, size)) {
+  switch (format_of(path, head, size)) {
     case Format::kHdf5:
       return is_foreign_vtkhdf(path) ? make_mesh(path, read_vtkhdf(path)) : read_mesh(path).mesh;
     case Format::kMsh:
@@ -204,6 +219,10 @@ SurfaceMesh read_triangulation(const std::string& path) {
     case Format::kPly:
       return make_mesh(path, parse_ply(path, read_bytes(path)));
     case Format::kStl: {
+      if (size != whole_stl_size(head)) {
+        fail_if_cut_stl(path, head, size);
+        fail_if_unlike_its_count(path, head, size);
+      }
       SurfaceMesh mesh = read_stl(path);
       if (size != whole_stl_size(head)) require_whole_text_stl(path);
       return mesh;

@@ -42,6 +42,7 @@ TEST(ObjFile, IsKnownByContentAndNamesItsFaces) {
   const SurfaceMesh mesh = read_triangulation(path);
   EXPECT_EQ(mesh.labels.face_name, (std::vector<std::string>{"skin", "cap"}));
   EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_TRUE(is_obj("648 216\n" + kObjCorners + "vc 1 0 0\n")) << "lines of their own";
   EXPECT_FALSE(is_obj("v 0 0 0\nsolid s\n"));
   EXPECT_FALSE(is_obj("# remarks alone\n"));
   EXPECT_FALSE(is_obj("ISO-10303-21;\nHEADER;\n"));

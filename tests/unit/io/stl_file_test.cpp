@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -91,6 +92,15 @@ TEST(StlFile, reads_text_with_signs_exponents_and_any_line_ends) {
       "endloop\r\nendfacet\r\nendsolid a\r\n");
   ASSERT_EQ(m.n_triangles(), 1);
   EXPECT_EQ(m.node_xyz[0], (Vec3{15, -2, 0.5}));
+}
+
+TEST(StlFile, reads_text_in_capital_letters_and_with_carriage_returns_alone) {
+  std::string text =
+      "SOLID A B\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1E0 0\nENDLOOP\nENDFACET\n"
+      "ENDSOLID A B\n";
+  EXPECT_EQ(read(text).n_triangles(), 1);
+  std::ranges::replace(text, '\n', '\r');
+  EXPECT_EQ(read(text).n_triangles(), 1);
 }
 
 TEST(StlFile, says_what_is_wrong) {
