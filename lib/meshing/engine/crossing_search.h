@@ -1,6 +1,7 @@
 // Triangles of patches that cross each other, as places where the sizes must become smaller.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -48,6 +49,10 @@ class CrossingSearch {
                                                 const std::vector<FacePlace>& places);
   /// How many the last run found.
   int n_pairs() const { return static_cast<int>(pairs_.size()); }
+  /// But those where it is known what parts them.
+  int n_unmeasured_pairs() const {
+    return static_cast<int>(std::ranges::count_if(pairs_, [](const FacetPair& p) { return !(p.factor > 0); }));
+  }
   /// [n_faces] those of two triangles of the face.
   std::vector<std::int64_t> n_pairs_within() const;
   /// Faces with triangles of the last run, ascending; those of which two triangles cross each other, or all.

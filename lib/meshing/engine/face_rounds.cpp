@@ -358,6 +358,7 @@ std::vector<RefinementPoint> FaceRounds::find_crossings() {
   return_freed_memory();
   faces_.search_crossings();
   result_.n_crossing_pairs = faces_.crossings().n_pairs();
+  n_unmeasured_pairs_ = faces_.crossings().n_unmeasured_pairs();
   if (is_restored_) return {};
   give_up(true);
   return paired_.with_images(faces_.crossings_to_refine());

@@ -247,6 +247,7 @@ std::vector<RefinementPoint> HoleRounds::find_crossings() {
   const SurfaceMesh& m = result_.mesh;
   const std::vector<TrianglePair> pairs = find_new_crossings(m, bodies_of(model_.tables()));
   result_.n_crossing_pairs = static_cast<int>(pairs.size());
+  n_unmeasured_pairs_ = result_.n_crossing_pairs;
   crossing_.clear();
   for (const TrianglePair& pair : pairs)
     for (const TriangleId t : {pair.a, pair.b}) {

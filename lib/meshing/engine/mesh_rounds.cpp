@@ -74,9 +74,10 @@ bool MeshRounds::runs_away() {
   return is_over != 0;
 }
 
-/// Collective. Whether as many triangles cross as some rounds ago, as where surfaces cross in the CAD.
+/// Collective. Whether as many triangles cross as some rounds ago, as where surfaces cross in the CAD. Those of walls
+/// that are measured do not count: near each other they cross in ever more pairs until triangles are small enough.
 bool MeshRounds::is_stuck() {
-  const std::int64_t n_pairs = result_.n_crossing_pairs;
+  const std::int64_t n_pairs = n_unmeasured_pairs_;
   if (n_fewest_pairs_ == 0 || RefinementPolicy::is_clearly_fewer(n_pairs, n_fewest_pairs_)) {
     n_fewest_pairs_ = n_pairs;
     n_stuck_ = 0;

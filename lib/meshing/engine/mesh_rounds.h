@@ -30,8 +30,9 @@ class MeshRounds {
   const SizeField& field_;
   const Executor& executor_;
   MeshResult& result_;
-  Refinements refinements_;     // the same on every rank
-  std::uint64_t n_meshed_ = 0;  // triangles on rank 0, those that were meshed again included
+  Refinements refinements_;              // the same on every rank
+  std::uint64_t n_meshed_ = 0;           // triangles on rank 0, those that were meshed again included
+  std::int64_t n_unmeasured_pairs_ = 0;  // that cross, on rank 0, but those where it is known what parts them
 
  private:
   using Places = std::vector<RefinementPoint>;

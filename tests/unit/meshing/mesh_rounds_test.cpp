@@ -24,6 +24,7 @@ class Scripted : public MeshRounds {
   std::string steps;
   std::vector<std::size_t> first_refinements;
   std::uint64_t n_first = 0, n_later = 0;  // triangles of the first round, and of each later one
+  std::function<int(int call)> n_unmeasured_pairs = [](int) { return 0; };
   double shortest() const {
     double length = 1;
     for (const Refinement& r : refinements_.all()) length = std::min(length, r.length);
@@ -40,6 +41,7 @@ class Scripted : public MeshRounds {
   void join() override { steps += 'j'; }
   Places find_crossings() override {
     steps += 'c';
+    n_unmeasured_pairs_ = n_unmeasured_pairs(n_crossings_);
     return crossings_(n_crossings_++);
   }
   void choose_again(std::size_t first_refinement) override {
@@ -123,16 +125,16 @@ TEST(MeshRounds, go_on_where_few_triangles_cross) {
 TEST(MeshRounds, end_where_rounds_leave_as_many_pairs) {
   const auto rounds_with = [](auto n_pairs) {
     MeshResult result;
-    Scripted rounds(kLimits, result, kNothing, [&](int call) {
-      result.n_crossing_pairs = n_pairs(call);
-      return places(call, 100);
-    });
+    Scripted rounds(kLimits, result, kNothing, [](int call) { return places(call, 100); });
+    rounds.n_unmeasured_pairs = n_pairs;
+    result.n_crossing_pairs = 5000;
     rounds.run();
     return result.n_rounds;
   };
   const int most = 1 + kLimits.max_promising_rounds;
   EXPECT_EQ(rounds_with([](int) { return 1000; }), 4) << "three rounds without success";
   EXPECT_EQ(rounds_with([](int) { return 99; }), most) << "few pairs";
+  EXPECT_EQ(rounds_with([](int) { return 0; }), most) << "it is known what parts all of them";
   EXPECT_EQ(rounds_with([](int call) { return call == 2 ? 800 : 1000; }), most) << "fewer in between";
   EXPECT_EQ(rounds_with([](int call) { return call < 2 ? 1000 + 500 * call : 1000; }), 4) << "more do not count";
 }
