@@ -68,8 +68,8 @@ struct ChartSurface::Data {
   }
 
   std::int32_t seed(Vec2 p) const {
-    const auto cell = [&](double at, double lo, double size) {
-      return static_cast<std::int32_t>(std::clamp((at - lo) / size * n_cells, 0.0, n_cells - 1.0));
+    const auto cell = [&](double at, double lo, double size) {  // also where `at` is no number, or there is no size
+      return static_cast<std::int32_t>(std::min(std::max(0.0, (at - lo) / size * n_cells), n_cells - 1.0));
     };
     const Vec2 size = bounds.size();
     return seeds[cell(p.y, bounds.lo.y, size.y) * n_cells + cell(p.x, bounds.lo.x, size.x)];

@@ -13,7 +13,10 @@ std::size_t segment_of(const std::vector<double>& t, double at) {
   return static_cast<std::size_t>(std::upper_bound(t.begin() + 1, t.end() - 1, at) - t.begin()) - 1;
 }
 
-double share_of(const std::vector<double>& t, std::size_t i, double at) { return (at - t[i]) / (t[i + 1] - t[i]); }
+/// A segment may be so short beside the whole that it has no parameters.
+double share_of(const std::vector<double>& t, std::size_t i, double at) {
+  return t[i + 1] > t[i] ? (at - t[i]) / (t[i + 1] - t[i]) : 0;
+}
 
 }  // namespace
 
@@ -30,7 +33,7 @@ PolylineCurve::PolylineCurve(std::vector<Vec3> points)
   const std::size_t n = points_.size();
   const auto direction = [&](std::size_t i) { return normalized(points_[i + 1] - points_[i]); };
   for (std::size_t i = 1; i + 1 < n; ++i)
-    bend_[i] = (direction(i) - direction(i - 1)) / (0.5 * (t_[i + 1] - t_[i - 1]));
+    if (t_[i + 1] > t_[i - 1]) bend_[i] = (direction(i) - direction(i - 1)) / (0.5 * (t_[i + 1] - t_[i - 1]));
   if (n == 2) return;
   bend_.front() = bend_[1];
   bend_.back() = bend_[n - 2];
@@ -52,7 +55,7 @@ CurvePoint PolylineCurve::evaluate(double t) const {
 std::optional<double> PolylineCurve::foot_near(Vec3 p, double guess) const {
   const auto foot = [&](std::size_t i) {
     const Vec3 d = points_[i + 1] - points_[i];
-    const double s = std::clamp(dot(p - points_[i], d) / norm2(d), 0.0, 1.0);
+    const double s = norm2(d) > 0 ? std::clamp(dot(p - points_[i], d) / norm2(d), 0.0, 1.0) : 0;
     return std::pair(distance(points_[i] + s * d, p), t_[i] + s * (t_[i + 1] - t_[i]));
   };
   std::size_t at = segment_of(t_, guess);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "geometry/shape/projection.h"
@@ -34,6 +35,12 @@ TEST_F(ChartOfSphere, is_on_its_facets) {
     EXPECT_EQ(surface_.locate(uv).triangle, static_cast<std::int32_t>(t));
     EXPECT_LE(distance(surface_.point(uv), x), 1e-13);
   }
+}
+
+TEST_F(ChartOfSphere, has_a_triangle_for_what_is_no_place) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const Vec2 p : {Vec2{none, none}, Vec2{none, 0}, Vec2{1e300, -1e300}})
+    EXPECT_LT(static_cast<std::size_t>(surface_.locate(p).triangle), chart_.corners.size());
 }
 
 TEST_F(ChartOfSphere, has_the_derivatives_of_differences) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -37,6 +39,24 @@ TEST(PolylineCurve, has_feet_near_a_guess) {
     EXPECT_NEAR(*foot, s * curve.t_max(), 1e-12);
     EXPECT_NEAR(*project_near(curve, {x.x, x.y, 0.3}, curve.t_max()), s * curve.t_max(), 1e-12);
   }
+}
+
+TEST(PolylineCurve, has_places_where_a_segment_is_lost_in_rounding) {
+  const Vec3 middle{1, 0, 0}, beside{1, 1e-20, 0}, last{2, 0, 0};
+  for (const auto& points : {std::vector{Vec3{}, middle, beside, last}, std::vector{middle, beside}}) {
+    const PolylineCurve curve(points);
+    for (const double t : polyline_parameters(points)) {
+      EXPECT_LE(distance(curve.point(t), points.front()), 2);
+      EXPECT_TRUE(std::isfinite(norm(curve.evaluate(t).d2)));
+      EXPECT_TRUE(std::isfinite(*project_near(curve, middle, t)));
+    }
+  }
+}
+
+TEST(PolylineCurve2d, has_places_where_a_segment_has_no_parameters) {
+  const PolylineCurve2d curve({0, 1, 1, 2}, {{0, 0}, {1, 0}, {1, 1}, {2, 1}});
+  for (const double t : {0.0, 1.0, 2.0}) EXPECT_TRUE(std::isfinite(norm(curve.point(t))));
+  EXPECT_TRUE(std::isfinite(norm(PolylineCurve2d({0, 0}, {{0, 0}, {1, 0}}).point(0))));
 }
 
 TEST(PolylineCurve2d, is_linear_between_its_points) {
