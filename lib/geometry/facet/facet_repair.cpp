@@ -9,6 +9,8 @@
 
 #include "base/boxes.h"
 #include "base/error.h"
+#include "geometry/facet/facet_flaps.h"
+#include "geometry/facet/short_sides.h"
 
 namespace st {
 namespace {
@@ -72,6 +74,7 @@ class FacetRepair {
   std::vector<ImportFinding> run() {
     drop_duplicates();
     if (join_free_nodes()) drop_duplicates();
+    join_short_sides();
     drop_unused_nodes();
     if (in_.corners.empty()) throw Error(ExitCode::kGeometry, "no facet has an area; export the model again");
     orient();
@@ -98,6 +101,7 @@ class FacetRepair {
                 [&](std::int32_t a, std::int32_t b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
     std::vector<std::uint8_t> is_kept(sorted.size(), 0);
     std::size_t n_duplicates = 0;
+    std::vector<TwinFacets> pairs;
     Vec3 place;
     for (std::size_t i = 0, j; i < order.size(); i = j) {
       const Corners& c = sorted[order[i]];
@@ -107,6 +111,11 @@ class FacetRepair {
       const bool is_left = (j - i) % 2 == 1 || flatness(c) > kNoNormal;  // two without area on one another are nothing
       is_kept[order[i]] = is_left;
       n_duplicates += j - i - is_left;
+      if (j - i == 2 && is_left) pairs.push_back({order[i], order[i + 1]});
+    }
+    for (const auto& [a, b] : find_flaps(in_.corners, pairs)) {
+      is_kept[a] = is_kept[b] = 0;
+      ++n_duplicates;
     }
     if (n_duplicates > 0) add(FindingKind::kDuplicateFacets, place, 0, n_duplicates);
     std::size_t n = 0;
@@ -147,6 +156,15 @@ class FacetRepair {
     for (Corners& c : in_.corners)
       for (std::int32_t& n : c) n = one[n];
     return true;
+  }
+
+  /// As convex hulls have them: nodes that are one but for rounding, with needles between.
+  void join_short_sides() {
+    const std::size_t n = join_ends_of_short_sides(in_, kGap * box_.diagonal());
+    if (n == 0) return;
+    findings_.push_back({FindingKind::kOther, "", in_.x[in_.corners.empty() ? 0 : in_.corners[0][0]], 0, true,
+                         fmt::format("sides of facets that are points but for rounding, removed: {}", n)});
+    drop_duplicates();
   }
 
   void drop_unused_nodes() {

@@ -1,0 +1,135 @@
+#include "geometry/facet/short_sides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "base/sort_once.h"
+
+namespace st {
+namespace {
+
+using NodePair = std::pair<std::int32_t, std::int32_t>;
+
+constexpr int kMostPasses = 50;  // a side goes only where none beside it went in the same pass
+
+/// One pass over all short sides: those that are not beside one another.
+class ShortSides {
+ public:
+  ShortSides(FacetInput& input, double gap) : in_(input), gap_(gap) {}
+
+  std::size_t join() {
+    std::vector<NodePair> sides;
+    for (const Corners& c : in_.corners)
+      for (int k = 0; k < 3; ++k)
+        if (is_short(c[k], c[(k + 1) % 3])) sides.push_back(std::minmax(c[k], c[(k + 1) % 3]));
+    if (sides.empty()) return 0;
+    sort_once(sides);
+    find_facets_around_nodes();
+    is_touched_.assign(in_.x.size(), 0);
+    std::size_t n = 0;
+    for (const auto& [a, b] : sides) {
+      if (is_touched_[a] || is_touched_[b] || !stays_a_surface(a, b)) continue;
+      for (const std::int32_t node : {a, b})
+        for (const std::int32_t beside : neighbours_of(node)) is_touched_[beside] = 1;
+      for (const std::int32_t t : facets_of(b)) std::ranges::replace(in_.corners[t], b, a);
+      ++n;
+    }
+    drop_facets_without_three_nodes();
+    return n;
+  }
+
+ private:
+  bool is_short(std::int32_t a, std::int32_t b) const {
+    double largest = 0;
+    for (const Vec3 x : {in_.x[a], in_.x[b]})
+      largest = std::max({largest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+    return distance(in_.x[a], in_.x[b]) <= std::min(gap_, kSinglePrecision * largest);
+  }
+
+  void find_facets_around_nodes() {
+    around_offsets_.assign(in_.x.size() + 1, 0);
+    around_.resize(3 * in_.corners.size());
+    for (const Corners& c : in_.corners)
+      for (const std::int32_t n : c) ++around_offsets_[n + 1];
+    std::partial_sum(around_offsets_.begin(), around_offsets_.end(), around_offsets_.begin());
+    std::vector<std::int32_t> next(around_offsets_.begin(), around_offsets_.end() - 1);
+    for (std::size_t t = 0; t < in_.corners.size(); ++t)
+      for (const std::int32_t n : in_.corners[t]) around_[next[n]++] = static_cast<std::int32_t>(t);
+  }
+
+  std::span<const std::int32_t> facets_of(std::int32_t node) const {
+    return std::span(around_).subspan(around_offsets_[node], around_offsets_[node + 1] - around_offsets_[node]);
+  }
+
+  /// And itself, ascending.
+  std::vector<std::int32_t> neighbours_of(std::int32_t node) const {
+    std::vector<std::int32_t> nodes;
+    for (const std::int32_t t : facets_of(node))
+      nodes.insert(nodes.end(), in_.corners[t].begin(), in_.corners[t].end());
+    sort_once(nodes);
+    return nodes;
+  }
+
+  bool stays_a_surface(std::int32_t a, std::int32_t b) const {
+    std::vector<std::int32_t> opposite{a, b}, common;
+    for (const std::int32_t t : facets_of(a)) {
+      const Corners& c = in_.corners[t];
+      if (std::ranges::count(c, b) > 0) opposite.insert(opposite.end(), c.begin(), c.end());
+    }
+    sort_once(opposite);
+    std::ranges::set_intersection(neighbours_of(a), neighbours_of(b), std::back_inserter(common));
+    return common == opposite && !lie_on_each_other(a, b);
+  }
+
+  /// Whether two facets would, as the last two of a tetrahedron.
+  bool lie_on_each_other(std::int32_t a, std::int32_t b) const {
+    const auto others = [&](std::int32_t node) {
+      std::vector<NodePair> sides;
+      for (const std::int32_t t : facets_of(node)) {
+        const Corners& c = in_.corners[t];
+        const auto k = std::ranges::find(c, node) - c.begin();
+        sides.push_back(std::minmax(c[(k + 1) % 3], c[(k + 2) % 3]));
+      }
+      sort_once(sides);
+      return sides;
+    };
+    std::vector<NodePair> common;
+    std::ranges::set_intersection(others(a), others(b), std::back_inserter(common));
+    return !common.empty();
+  }
+
+  void drop_facets_without_three_nodes() {
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < in_.corners.size(); ++t) {
+      const Corners& c = in_.corners[t];
+      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
+      in_.corners[n] = in_.corners[t];
+      in_.part[n++] = in_.part[t];
+    }
+    in_.corners.resize(n);
+    in_.part.resize(n);
+  }
+
+  FacetInput& in_;
+  double gap_;
+  std::vector<std::int32_t> around_offsets_, around_;  // facets of each node
+  std::vector<std::uint8_t> is_touched_;               // nodes beside a side that went
+};
+
+}  // namespace
+
+std::size_t join_ends_of_short_sides(FacetInput& input, double gap) {
+  std::size_t n = 0;
+  for (int pass = 0; pass < kMostPasses; ++pass) {
+    const std::size_t n_joined = ShortSides(input, gap).join();
+    if (n_joined == 0) break;
+    n += n_joined;
+  }
+  return n;
+}
+
+}  // namespace st
