@@ -72,11 +72,12 @@ Check check_complete(const MeshArtifact& artifact) {
 
 Check check_volume(const TopologyReport& topology, const MeshMeasure& measure, const std::string& unit) {
   Check c{"volume", "closed meshes of no or negative volume", {}, true, ""};
-  const bool has_volume = topology.is_closed() && topology.n_cad_boundary_edges == 0;
+  const bool has_volume =  // faces between solids are walls of both
+      topology.is_closed() && topology.n_cad_boundary_edges == 0 && topology.n_cad_nonmanifold_edges == 0;
   if (has_volume && !(measure.volume > 0)) c.defects.add({});
   c.note = has_volume
                ? fmt::format("{:.9g}{}{}", measure.volume, unit.empty() ? "" : " " + unit, unit.empty() ? "" : "^3")
-               : "open: none";
+               : "open, or faces between solids: none";
   return c;
 }
 
