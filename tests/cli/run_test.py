@@ -1,5 +1,6 @@
 """st-run: one command from CAD to a checked mesh: the bits of the single tools, errors, what is left behind."""
 import csv
+import fcntl
 import json
 import os
 import resource
@@ -29,8 +30,24 @@ def one_by_one():
     return folder
 
 
+def is_held(folder):
+    """By a run that works on: each locks its folder."""
+    try:
+        handle = os.open(folder, os.O_RDONLY)
+    except FileNotFoundError:
+        return True  # it has just ended
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return False
+    except BlockingIOError:
+        return True
+    finally:
+        os.close(handle)
+
+
 def folders_of_runs():
-    return set(MEMORY.glob(".st-run.*"))
+    """Those that nobody holds."""
+    return {folder for folder in MEMORY.glob(".st-run.*") if not is_held(folder)}
 
 
 class RunTest(ToolTest):
