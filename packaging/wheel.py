@@ -39,7 +39,7 @@ def write(archive, name, data, executable, records):
     info = zipfile.ZipInfo(name, TIME)
     info.compress_type = zipfile.ZIP_DEFLATED
     info.external_attr = (stat.S_IFREG | (0o755 if executable else 0o644)) << 16
-    archive.writestr(info, data)
+    archive.writestr(info, data, compresslevel=9)  # an info of its own has none
     records.append(f"{name},sha256={digest(data)},{len(data)}")
 
 
