@@ -189,6 +189,17 @@ class LiftingSurfaces(ToolTest):
         self.assertIn("the lmin of a rule is larger than what --edge-size 0.3%chord asks for: 0.1 instead of 0.05",
                       runs[1].err)
 
+    def test_a_largest_length_of_a_rule_leaves_those_across_gaps(self):
+        g, rule = self.folder / "g.hdf", self.folder / "rule.toml"
+        must("st-import", MODELS / "wing_with_flap.step", "-o", g)
+        gaps = {}
+        for limits in ("lmax = 0.5", "lmin = 0.5\nlmax = 0.5"):  # below the default lmin of the model, 0.8
+            rule.write_text(f'[[size]]\nfaces = "1-12"\n{limits}\n')
+            gaps[limits] = must("st-raster", g, "-o", self.folder / "r.hdf", "--lmax", "40%", "--gap-cells", 8,
+                                "--sizes", rule, "--json").json()["gap_samples"]
+        self.assertGreater(gaps.pop("lmax = 0.5"), 100)
+        self.assertEqual(list(gaps.values()), [0], "an lmin of a rule stays")
+
     def test_strips_below_a_smallest_length_are_counted(self):
         g = self.folder / "g.hdf"
         must("st-import", MODELS / "thin_plate.brep", "-o", g)
