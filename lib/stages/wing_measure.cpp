@@ -88,22 +88,14 @@ class WingMesh {
   }
   bool is_stretched_at(Vec3 place) const { return is_flat(nearest(place)); }
 
-  /// Lengths along the profile at a station: of each triangle that its plane cuts, the part of its own extent that the
-  /// cut is long. Mean of both sides.
+  /// Lengths along the profile at a station, mean of both sides; of half a fin those of its only one.
   double chord_cells(const WingRecord::Station& s, Vec3 normal) const {
-    double cells = 0;
-    cut(skin_, s, normal, [&](double own, double, double) { cells += own; });
-    return 0.5 * cells;
+    constexpr double kOneSide = 1.5;  // of the chord: longer profiles have two sides
+    const auto [cells, length] = cells_along(skin_, s, normal);
+    return length < kOneSide * s.chord ? cells : 0.5 * cells;
   }
-  /// Does the same across the base, and tells how wide it is.
-  std::pair<double, double> base_cells(const WingRecord::Station& s, Vec3 normal) const {
-    double cells = 0, width = 0;
-    cut(base_, s, normal, [&](double own, double extent, double) {
-      cells += own;
-      width += own * extent;
-    });
-    return {cells, width};
-  }
+  /// Across the base, and how wide it is.
+  auto base_cells(const WingRecord::Station& s, Vec3 normal) const { return cells_along(base_, s, normal); }
 
   /// From `at_nose` to the mean extent 2 per cent of the chord away; 0: nothing is cut there.
   double growth(const WingRecord::Station& s, Vec3 normal, double at_nose) const {
@@ -252,6 +244,14 @@ class WingMesh {
       const auto [own, extent] = crossed(t, end[1] - end[0]);
       visit(own / extent, extent, norm(middle));
     }
+  }
+
+  /// Lengths along what the profile's plane cuts, and how long that is.
+  std::pair<double, double> cells_along(const std::vector<Ball>& triangles, const WingRecord::Station& s,
+                                        Vec3 normal) const {
+    double cells = 0, length = 0;
+    cut(triangles, s, normal, [&](double own, double extent, double) { cells += own, length += own * extent; });
+    return {cells, length};
   }
 
   const SurfaceMesh& mesh_;

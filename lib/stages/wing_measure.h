@@ -23,7 +23,7 @@ struct WingStationMeasure {
   Vec3 place = {};   ///< on the trailing edge
   double chord = 0, asked = 0;
   LengthsAt nose = {}, trailing = {};  ///< likewise, of triangles on the skin
-  double chord_cells = 0;              ///< lengths along the chord, mean of both sides
+  double chord_cells = 0;              ///< lengths along the chord, mean of the sides that are there
   double base_cells = 0;               ///< across the base; 0: sharp, or not asked for
   double asked_base_cells = 0;
   double growth = 0;   ///< of lengths, from one to the next, from the nose on over 2 per cent of the chord

@@ -43,6 +43,15 @@ TEST(WingMeasure, knows_lengths_across_and_along_the_span) {
   EXPECT_NEAR(all[0].worst->has / all[0].worst->asked, 1, 1e-9);
 }
 
+TEST(WingMeasure, of_half_a_fin_counts_the_lengths_of_its_only_side) {
+  SurfaceMesh half = plank();
+  half.triangles.resize(half.triangles.size() / 2);
+  half.triangle_face.resize(half.triangles.size());
+  const WingRecord wing = record(0.05);
+  for (const WingStationMeasure& s : measure_wings(half, {&wing, 1})[0].stations)
+    EXPECT_NEAR(s.chord_cells, kChordwise, 1e-6);
+}
+
 TEST(WingMeasure, of_stretched_rows_has_their_heights) {
   std::vector<double> x{0};
   for (double height = 0.001; x.back() + height < 0.5; height *= 1.2) x.push_back(x.back() + height);
