@@ -231,6 +231,20 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
   return text + verdict_line(path, mesh, f, seconds);
 }
 
+/// The face of the body that the mesh leaves most; a far field has no shape to keep, and counts where nothing else is.
+FaceId farthest_face(const SurfaceMesh& mesh, const Findings& f) {
+  const std::vector<DeviationStats>& faces = f.deviation->faces;
+  const auto is_outside = [&](std::size_t i) {
+    const auto g = static_cast<std::size_t>(f.face_group[i]);
+    return g < mesh.labels.group_name.size() && is_outer_role(role_of(mesh.labels, g));
+  };
+  FaceId farthest = kNone;
+  double most = 0;
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    if (faces[i].max_distance > most && !is_outside(i)) most = faces[i].max_distance, farthest = static_cast<FaceId>(i);
+  return farthest == kNone ? f.deviation->worst_distance : farthest;
+}
+
 std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
                              CheckText detail) {
   std::string text;
@@ -253,10 +267,12 @@ std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, c
   if (f.conformity)
     text += fmt::format("  {:<20} {:.1f} % of edges within {} to {} of the requested length\n", "sizes",
                         100 * f.conformity->free.share(), kConformityMin, kConformityMax);
-  if (f.deviation)
-    text +=
-        fmt::format("  {:<20} {} off the CAD at most{}\n", "deviation",
-                    length_text(f.deviation->model.max_distance, f.unit), in_face(mesh, f.deviation->worst_distance));
+  if (f.deviation) {
+    const FaceId farthest = farthest_face(mesh, f);
+    const double most = farthest == kNone ? 0 : f.deviation->faces[farthest].max_distance;
+    text += fmt::format("  {:<20} {} off the CAD at most{}\n", "deviation", length_text(most, f.unit),
+                        in_face(mesh, farthest));
+  }
   if (detail == CheckText::kWithWings) text += wing_lines(f.wings);
   if (!notes.empty())
     text += fmt::format("  {:<20} {}: see st-check -v, with --geometry and --sizing, or st-report\n", "notes",

@@ -98,6 +98,12 @@ class Check(ToolTest):
         self.assertNotRegex(text, r"\bfree(?! \()")
         self.assertTrue(any(re.match("  group .* off the surface, mm", line) for line in whole), whole)
 
+    def test_the_deviation_is_that_of_the_body(self):
+        words = ["st-run", MODELS / "sphere.brep", "--farfield", "sphere:3", "-o", self.folder / "mesh.hdf"]
+        said, brief = must(*words, "--json").json()["stages"]["st-check"], must(*words).out
+        farthest = float(re.search(r"(?m)^  deviation +(\S+) off the CAD at most in face 1$", brief).group(1))
+        self.assertLess(farthest, 0.5 * said["deviation"]["max"], "the far field's is larger")
+
     def test_groups_have_a_line_each(self):
         made = artifacts_of("assembly")
         groups = must("st-check", made / "mesh.hdf", "--json").json()["groups"]
