@@ -356,7 +356,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   for (std::size_t i = 0; i < shown; ++i) {
     const ImportFinding& f = r.findings[i];
     say_line(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}{}", f.is_repair ? "repaired: " : "",
-                         f.what(), f.entity.empty() ? "" : " " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size,
+                         f.what(), f.entity.empty() ? "" : ": " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size,
                          in_unit(r)));
   }
   if (n > shown) say_line(fmt::format("  ... and {} more: see --json", n - shown));

@@ -153,6 +153,14 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact, con
   return json;
 }
 
+/// Lengths with their unit.
+std::string property_text(const AttributeSummary& property, const std::string& unit) {
+  const double* value = std::get_if<double>(&property.value);
+  if (!value) return dump(to_json(property));
+  const bool is_length = property.name == "diagonal" || property.name.ends_with("_length");
+  return fmt::format("{:.6g}{}", *value, is_length && !unit.empty() ? " " + unit : "");
+}
+
 std::string info_lines(const std::string& path, const ArtifactDescription& artifact, const FaceOrigins& origins) {
   const ArtifactHeader& h = artifact.header;
   std::string text = fmt::format("{}: {} (schema version {}), written by {} {}\n", path, h.schema, h.schema_version,
@@ -163,7 +171,7 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
   for (const Count& c : counts_of(h.schema)) row(c.name, std::to_string(artifact.rows(c.dataset) - c.surplus));
   if (origins.n_joined_faces > 0)
     row("after joining", fmt::format("{} faces, {} edges", origins.n_joined_faces, origins.n_joined_edges));
-  for (const AttributeSummary& p : properties_of(artifact)) row(p.name, dump(to_json(p)));
+  for (const AttributeSummary& p : properties_of(artifact)) row(p.name, property_text(p, one_line(h.unit)));
   row("unit", h.unit.empty() ? "none" : h.unit_in_m ? fmt::format("{} ({:g} m)", h.unit, *h.unit_in_m) : h.unit);
   for (std::size_t i = 0; i < h.inputs.size(); ++i)
     row("from " + h.inputs[i].role,

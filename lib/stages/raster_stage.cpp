@@ -178,7 +178,8 @@ struct Wings {
 };
 
 /// Where --lmin undoes --edge-size.
-void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface>& surfaces, const WingSizes& sizes) {
+void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface>& surfaces, const WingSizes& sizes,
+                   const std::string& unit) {
   std::size_t n_raised = 0;
   std::optional<RaisedLength> most;
   for (const LiftingSurface& wing : surfaces) {
@@ -188,10 +189,10 @@ void warn_of_floor(const RasterStageOptions& o, const std::vector<LiftingSurface
     note_raised(*own, most);
   }
   if (most)
-    log_warning(
-        fmt::format("--lmin {} is larger than --edge-size {} on {} of {} lifting surfaces: {:.4g} instead of {:.4g} "
-                    "where it matters most; give a smaller --lmin, or leave it out",
-                    o.lmin, o.edge_size, n_raised, surfaces.size(), most->floor, most->asked));
+    log_warning(fmt::format(
+        "--lmin {} is larger than --edge-size {} on {} of {} lifting surfaces: {:.4g}{} instead of {:.4g}{} "
+        "where it matters most; give a smaller --lmin, or leave it out",
+        o.lmin, o.edge_size, n_raised, surfaces.size(), most->floor, unit, most->asked, unit));
 }
 
 /// The least lengths that rules give, and --lmin where it is given.
@@ -281,7 +282,8 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
   sizes.end_size = end_size(o);
   sizes.given = find_floors(rules, false, model.tables(), wings.edges, limits);
-  warn_of_floor(o, wings.aircraft.wings, sizes);
+  const std::string unit = model.tables().unit.empty() ? "" : " " + model.tables().unit;
+  warn_of_floor(o, wings.aircraft.wings, sizes, unit);
   std::optional<RaisedLength> most;
   for (const LiftingSurface& wing : wings.aircraft.wings) {
     const std::optional<RaisedLength> own = raster_wing(model, wing, sizes, strips, is_left_out, wings.boxes);
@@ -290,9 +292,9 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   }
   if (most)
     log_warning(
-        fmt::format("the lmin of a rule is larger than what --edge-size {} asks for: {:.4g} instead of {:.4g} "
+        fmt::format("the lmin of a rule is larger than what --edge-size {} asks for: {:.4g}{} instead of {:.4g}{} "
                     "where it matters most; give a smaller lmin there, or leave it out",
-                    o.edge_size, most->floor, most->asked));
+                    o.edge_size, most->floor, unit, most->asked, unit));
   for (const RasterBox& box : wings.boxes) limits.min_length = std::min<double>(limits.min_length, box.length);
   if (!sizes.least) set_floors(model.tables(), wings.aircraft.wings, sizes, limits);
 }

@@ -172,7 +172,7 @@ class LiftingSurfaces(ToolTest):
     def test_a_smallest_length_that_coarsens_their_edges_is_said(self):
         g = self.folder / "g.hdf"
         must("st-import", MODELS / "wing_with_flap.step", "-o", g)
-        warning = "--lmin 0.1 is larger than --edge-size 0.3%chord on 1 of 2 lifting surfaces: 0.1 instead of 0.05"
+        warning = "--lmin 0.1 is larger than --edge-size 0.3%chord on 1 of 2 lifting surfaces: 0.1 mm instead of 0.05"
         run = must("st-raster", g, "-o", self.folder / "r.hdf", "--lmin", 0.1)
         self.assertIn(warning, run.err)
         for options in (["--lmin", 0.05], ["--lmin", 0.1, "--edge-size", "1%chord"], []):
@@ -186,7 +186,7 @@ class LiftingSurfaces(ToolTest):
                 for options in (["--lmin", 0.1], ["--sizes", rule])]
         said = [{key: run.json()[key] for key in ("samples", "cells", "groups", "below_lmin")} for run in runs]
         self.assertEqual(*said)
-        self.assertIn("the lmin of a rule is larger than what --edge-size 0.3%chord asks for: 0.1 instead of 0.05",
+        self.assertIn("the lmin of a rule is larger than what --edge-size 0.3%chord asks for: 0.1 mm instead of 0.05",
                       runs[1].err)
 
     def test_a_largest_length_of_a_rule_leaves_those_across_gaps(self):

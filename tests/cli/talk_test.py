@@ -116,7 +116,7 @@ class Check(ToolTest):
 class ImportCheck(ToolTest):
     def test_it_lists_its_findings_without_being_verbose(self):
         run = must("st-import", MODELS / "plate_with_hole.brep", "--check")
-        self.assertEqual(len(re.findall(r"(?m)^  free edge .* at \(", run.err)), 5, run)
+        self.assertEqual(len(re.findall(r"(?m)^  free edge: edge \d+.* at \(", run.err)), 5, run)
         silent = must("st-import", MODELS / "plate_with_hole.brep", "--check", "-q")
         self.assertEqual(silent.err, "")
         other = must("st-import", MODELS / "plate_with_hole.brep", "-o", self.folder / "g.hdf")
@@ -173,6 +173,14 @@ class Sizes(ToolTest):
         doubled = self.range_of("st-prolong", self.folder / "r.hdf", "-o", self.folder / "s.hdf", "--scale", 2)
         self.assertAlmostEqual(doubled[0], 2 * sizing[0], delta=1e-3 * doubled[0])
         self.assertAlmostEqual(doubled[1], 2 * sizing[1], delta=1e-3 * doubled[1])
+
+    def test_lengths_of_an_artifact_have_their_unit(self):
+        made = artifacts_of("assembly")
+        for name in ("raster.hdf", "sizing.hdf"):
+            said = must("st-info", made / name).out
+            for what in ("diagonal", "min_length", "max_length"):
+                self.assertRegex(said, rf"(?m)^  {what} +[\d.e-]+ mm$")
+            self.assertRegex(said, r"(?m)^  alpha_deg +\d+$")
 
     def test_one_group_has_its_name_in_the_table_and_in_questions(self):
         made = artifacts_of("sphere")
