@@ -370,6 +370,75 @@ class Exports(unittest.TestCase):
                 self.assertGreater(int(head.split()[0]), len(self.triangles))
 
 
+class Values(unittest.TestCase):
+    """Values at nodes that st-remesh carried: `place` is where a node is, `p` a function of that."""
+
+    @classmethod
+    def setUpClass(cls):
+        WORK.mkdir(parents=True, exist_ok=True)
+        run("st-import", MODELS / "box.step", "-o", WORK / "box.hdf", "-q")
+        run("st-raster", WORK / "box.hdf", "-o", WORK / "raster.hdf", "-q")
+        for scale in (1, 0.8):
+            run("st-prolong", WORK / "raster.hdf", "-o", WORK / f"sizing{scale}.hdf", "-q", "--scale", scale)
+        run("st-mesh", WORK / "box.hdf", WORK / "sizing1.hdf", "-o", WORK / "patches.hdf", "-q")
+        run("st-merge", WORK / "patches.hdf", "-o", WORK / "plain.hdf", "-q")
+        points = meshio.read(export("off", mesh="plain")).points
+        arrays = {"place": points, "p": cls.p(points)}
+        text = "".join(f'<DataArray type="Float64" Name="{name}" NumberOfComponents="{a[:1].size}" format="ascii">'
+                       f'{" ".join(map(repr, a.ravel().tolist()))}</DataArray>' for name, a in arrays.items())
+        (WORK / "field.vtu").write_text(
+            f'<VTKFile type="UnstructuredGrid"><PointData>{text}</PointData></VTKFile>')
+        run("st-remesh", WORK / "plain.hdf", WORK / "box.hdf", WORK / "sizing0.8.hdf", "--merged", WORK / "values.hdf",
+            "-q", "--interpolate", f"{WORK / 'field.vtu'}:place,p")
+
+    @staticmethod
+    def p(points):
+        return points @ numpy.array([1.0, 0.1, -2.0])
+
+    def check(self, points, place, p):
+        size = numpy.abs(points).max()
+        self.assertGreater(len(points), 20)
+        self.assertLess(numpy.abs(place - points).max(), 1e-9 * size)
+        self.assertLess(numpy.abs(p - self.p(points)).max(), 1e-8 * size)
+
+    def test_meshio_and_gmsh_read_the_views(self):
+        for suffix, options in MSH_KINDS:
+            with self.subTest(suffix, options=options):
+                path = export(suffix, *options, mesh="values")
+                mesh = meshio.read(path, file_format="gmsh")
+                self.check(mesh.points, mesh.point_data["place"], mesh.point_data["p"].ravel())
+                copy = path.with_name("gmsh_in.msh")
+                shutil.copy(path, copy)
+                script = path.with_name("count.geo")
+                script.write_text(f'Merge "{copy}"; Printf("views %g", PostProcessing.NbViews);\n')
+                done = subprocess.run(["gmsh", script, "-"], capture_output=True, text=True)
+                self.assertIn("views 2", done.stdout)
+
+    def test_vtk_reads_the_solution_of_cgns(self):
+        from vtkmodules.util.numpy_support import vtk_to_numpy
+        from vtkmodules.vtkIOCGNSReader import vtkCGNSReader
+        path = export("cgns", mesh="values")
+        reader = vtkCGNSReader()
+        reader.SetFileName(str(path))
+        reader.UpdateInformation()
+        reader.EnableAllPointArrays()
+        reader.Update()
+        grid = reader.GetOutput().GetBlock(0).GetBlock(0)
+        data = grid.GetPointData()
+        self.check(vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(data.GetArray("place")),
+                   vtk_to_numpy(data.GetArray("p")))
+        if shutil.which("cgnscheck"):
+            done = subprocess.run(["cgnscheck", path], capture_output=True, text=True)
+            said = {line for line in done.stdout.split("\n") if "WARNING" in line or "ERROR" in line}
+            self.assertLessEqual(said, {"WARNING:not a CGNS data-name identifier"})  # names are the user's
+
+    def test_a_table_has_them_with_their_places(self):
+        table = numpy.genfromtxt(export("csv", mesh="values"), delimiter=",", names=True)
+        points, places = ([table[name] for name in names] for names in ("xyz", ("place_1", "place_2", "place_3")))
+        self.check(numpy.transpose(points), numpy.transpose(places), table["p"])
+        self.assertEqual(table["node"].tolist(), list(range(len(table))))
+
+
 class Pairs(unittest.TestCase):
     """A passage whose sides are images of one another, 33 mm apart."""
     STEP = 0.033

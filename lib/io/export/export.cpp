@@ -27,6 +27,7 @@ enum Room : unsigned {
   kMsh = 512,           ///< the mesh itself is written next to it: NAME.msh for NAME.geo
   kFeaturesOnly = 256,  ///< no mesh at all: its feature lines
   kNodeValues = 1024,   ///< values that st-remesh carried
+  kNodesOnly = 2048,    ///< no mesh at all: its nodes
   kNamed = kNumbers | kNames,
 };
 
@@ -49,13 +50,14 @@ constexpr Format kFormats[] = {
     {".obj", export_obj, kNamed | kEntityGroups, kText},
     {".binary.ply", export_binary_ply, kNamed | kDivisions | kEntityGroups, kBinary, ".ply"},
     {".ply", export_ply, kNamed | kDivisions | kEntityGroups, kText, ".binary.ply"},
-    {".binary.msh", export_binary_msh, kNamed | kDivisions | kEntityGroups | kQuads | kMidNodes | kParameters, kBinary,
-     ".msh"},
-    {".msh", export_msh, kNamed | kDivisions | kEntityGroups | kQuads | kMidNodes | kParameters, kText, ".binary.msh"},
-    {".binary.msh2", export_binary_msh2, kNamed | kEntityGroups | kQuads | kMidNodes, kBinary, ".msh2"},
-    {".msh2", export_msh2, kNamed | kEntityGroups | kQuads | kMidNodes, kText, ".binary.msh2"},
-    {".geo", export_geo, kNamed | kDivisions | kEntityGroups | kMsh, kText},
-    {".cgns", export_cgns, kNamed | kQuads | kMidNodes, kBinary},
+    {".binary.msh", export_binary_msh,
+     kNamed | kDivisions | kEntityGroups | kQuads | kMidNodes | kParameters | kNodeValues, kBinary, ".msh"},
+    {".msh", export_msh, kNamed | kDivisions | kEntityGroups | kQuads | kMidNodes | kParameters | kNodeValues, kText,
+     ".binary.msh"},
+    {".binary.msh2", export_binary_msh2, kNamed | kEntityGroups | kQuads | kMidNodes | kNodeValues, kBinary, ".msh2"},
+    {".msh2", export_msh2, kNamed | kEntityGroups | kQuads | kMidNodes | kNodeValues, kText, ".binary.msh2"},
+    {".geo", export_geo, kNamed | kDivisions | kEntityGroups | kMsh | kNodeValues, kText},
+    {".cgns", export_cgns, kNamed | kQuads | kMidNodes | kNodeValues, kBinary},
     {".fro", export_fro, 0, kText},
     {".lb8.ugrid", export_lb8_ugrid, kNamed | kQuads | kMapbc, kBinary, ".ugrid"},
     {".b8.ugrid", export_b8_ugrid, kNamed | kQuads | kMapbc, kBinary, ".ugrid"},
@@ -68,6 +70,7 @@ constexpr Format kFormats[] = {
     {".off", export_off, 0, kText},
     {".smesh", export_smesh, kNamed, kText},
     {".poly", export_poly, kNamed, kText},
+    {".csv", export_csv, kNodesOnly | kNodeValues, kText},
     {".emesh", export_emesh, kFeaturesOnly, kText},
 };
 
@@ -131,7 +134,7 @@ void require_room(const std::string& path, const Format& format, Room room, cons
 std::vector<std::string> losses(const ExportMesh& all, const Format& format) {
   const SurfaceMesh& mesh = all.mesh;
   std::vector<std::string> lost;
-  if (format.room & kFeaturesOnly) return lost;
+  if (format.room & (kFeaturesOnly | kNodesOnly)) return lost;
   const auto lose = [&](const char* what, std::size_t n) {
     if (n > 0) lost.push_back(std::string(what) + " (" + std::to_string(n) + ")");
   };

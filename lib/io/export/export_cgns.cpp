@@ -6,6 +6,7 @@
 
 #include "base/face_labels.h"
 #include "io/export/export_formats.h"
+#include "io/export/node_value_export.h"
 #include "io/export/periodic_motion.h"
 #include "io/hdf5/cgns_tree.h"
 #include "mesh/pair_match.h"
@@ -85,7 +86,7 @@ void add_coordinates(CgnsTree& tree, CgnsTree::Node zone, const ExportTask& task
 /// Names of what belongs to each group.
 struct GroupNames {
   std::vector<std::string> family;
-  std::set<std::string> used_in_zone = {"ZoneType", "GridCoordinates", "ZoneBC", "ZoneGridConnectivity"};
+  std::set<std::string> used_in_zone = {"ZoneType", "GridCoordinates", "ZoneBC", "NodeValues", "ZoneGridConnectivity"};
 };
 
 /// The elements of one kind of one group as a section, numbered on from `next`.
@@ -110,6 +111,24 @@ void add_families(CgnsTree& tree, CgnsTree::Node base, const FaceLabels& labels,
     tree.add_text(family, "FamBC", "FamilyBC_t", boundary_type(labels, g));
     if (names.family[g] != labels.group_name[g])
       tree.add_text(family, "FullName", "Descriptor_t", labels.group_name[g]);
+  }
+}
+
+/// Arrays of three numbers by the names that the SIDS gives a vector's components.
+void add_node_values(CgnsTree& tree, CgnsTree::Node zone, const ExportTask& task) {
+  if (task.node_values.empty()) return;
+  const CgnsTree::Node solution = tree.add(zone, "NodeValues", "FlowSolution_t");
+  tree.add_text(solution, "GridLocation", "GridLocation_t", "Vertex");
+  tree.add_text(solution, "DataClass", "DataClass_t", "UserDefined");  // their units are not known
+  std::set<std::string> used = {"GridLocation", "DataClass"};
+  for (const NodeValues& v : task.node_values) {
+    const std::vector<double> all = values_at_nodes(v, task);
+    for (std::size_t k = 0; k < v.n_components; ++k) {
+      std::vector<double> values;
+      for (std::size_t i = k; i < all.size(); i += v.n_components) values.push_back(all[i]);
+      const std::string name = v.n_components == 3 ? v.name + "XYZ"[k] : component_name(v, k);
+      tree.add_reals(solution, free_name(node_name(name), used), "DataArray_t", values);
+    }
   }
 }
 
@@ -225,6 +244,7 @@ void export_cgns(Output& out, const ExportTask& task) {
     tree.add_integers(boundary, "PointRange", "IndexRange_t", {range[g][0], range[g][1]}, {2, 1});
     tree.add_text(boundary, "GridLocation", "GridLocation_t", "CellCenter");
   }
+  add_node_values(tree, zone, task);
   add_pairs(tree, zone, task, has_unit);
   const std::string bytes = tree.bytes();
   out.bytes(bytes.data(), bytes.size());

@@ -144,6 +144,7 @@ void export_su2(Output& out, const ExportTask& task);
 void export_medit(Output& out, const ExportTask& task);
 void export_binary_medit(Output& out, const ExportTask& task);
 void export_cgns(Output& out, const ExportTask& task);
+void export_csv(Output& out, const ExportTask& task);
 void export_emesh(Output& out, const ExportTask& task);
 
 }  // namespace st

@@ -6,6 +6,7 @@
 
 #include "io/export/export_formats.h"
 #include "io/export/msh_periodic.h"
+#include "io/export/node_value_export.h"
 #include "io/hdf5/face_numbers.h"
 
 namespace st {
@@ -279,6 +280,7 @@ void write_msh4(Output& out, const ExportTask& task, bool is_binary) {
   write_nodes(file, task, runs);
   write_elements(file, task, all);
   write_periodic(file, task.mesh);
+  write_node_data(file, task);
   file.flush();
 }
 
@@ -324,6 +326,7 @@ void write_msh2(Output& out, const ExportTask& task, bool is_binary) {
   }
   file.end_section("Elements");
   write_periodic2(file, m);
+  write_node_data(file, task);
   file.flush();
 }
 

@@ -1,6 +1,7 @@
 // VTU: arrays in base64; names as names of arrays in the field data.
 
 #include "io/export/export_formats.h"
+#include "io/export/node_value_export.h"
 #include "io/export/vtu_writer.h"
 #include "io/hdf5/face_numbers.h"
 #include "mesh/edge_segments.h"
@@ -19,16 +20,6 @@ std::vector<std::int32_t> one_based(const std::vector<std::int32_t>& ids) {
   std::vector<std::int32_t> shifted(ids);
   for (std::int32_t& id : shifted) ++id;
   return shifted;
-}
-
-/// Nodes on sides have the mean of the ends.
-std::vector<double> with_mid_nodes(const NodeValues& v, const MidNodes& mid) {
-  std::vector<double> values = v.values;
-  for (const auto& [a, b] : mid.ends)
-    for (std::size_t k = 0; k < v.n_components; ++k)
-      values.push_back(0.5 * (v.values[static_cast<std::size_t>(a) * v.n_components + k] +
-                              v.values[static_cast<std::size_t>(b) * v.n_components + k]));
-  return values;
 }
 
 void write_field_data(Output& out, const SurfaceMesh& m) {
@@ -99,7 +90,7 @@ void export_vtu(Output& out, const ExportTask& task) {
     write_vtu_array(out, n.name, n.of_node);
   }
   for (const NodeValues& v : task.node_values)
-    write_vtu_array(out, v.name, with_mid_nodes(v, mid), static_cast<int>(v.n_components));
+    write_vtu_array(out, v.name, values_at_nodes(v, task), static_cast<int>(v.n_components));
   out.text("</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
 }
 
