@@ -148,5 +148,11 @@ TEST_F(CheckThreshold, report_holds_histograms_of_every_face_whatever_the_verdic
   for (const auto& face : report["faces"]) EXPECT_EQ(count(face), 3 * 18);
 }
 
+TEST_F(CheckThreshold, periodic_faces_that_are_no_images_of_one_another_fail) {
+  SurfaceMesh cube = shapes::cube(4);
+  cube.merged.pairs = {{0, 1, {}}};
+  EXPECT_EQ(failed_checks(check(cube, {})), std::vector<std::string>{"pairs"});
+}
+
 }  // namespace
 }  // namespace st
