@@ -279,6 +279,7 @@ ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Pr
     raise_background(octree_options[kOnly].get<double>(), sizing, input.set.background);
   input.set.background.triangles = telling_triangles(input.set.background, input.set.slope);
   warn_of_places(input, sizing.shape.view(), sizing.numbers.far_length, sizing.header.unit);
+  warn_of_outside(input.set.background, sizing.faces, sizing.header.unit);
   sizing.sources = std::move(input.set);
   sizing.names.source = std::move(input.names);
   progress.step("expected triangles", 0.8);

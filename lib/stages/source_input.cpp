@@ -140,6 +140,28 @@ void warn_of_places(const SourceInput& input, const OctreeView& octree, double f
                            far_length, unit));
 }
 
+void warn_of_outside(const BackgroundMesh& background, const FaceCells& faces, const std::string& unit) {
+  constexpr double kBesideBackground = 0.01;  // of its diagonal: surfaces of other chords lie a little beside it
+  Box3 box;
+  for (const Vec3 x : background.node_xyz) box.add(x);
+  if (box.is_empty()) return;
+  double area = 0, outside = 0, most = 0;
+  for (std::size_t i = 0; i < faces.area.size(); ++i) {
+    const float* c = faces.plane[i].center;
+    const Vec3 x = faces.origin + Vec3{c[0], c[1], c[2]};
+    const double away = norm(x - clamped(x, box.lo, box.hi));
+    area += faces.area[i];
+    if (away <= kBesideBackground * norm(box.hi - box.lo)) continue;
+    outside += faces.area[i];
+    most = std::max(most, away);
+  }
+  if (outside > 0)
+    log_warning(
+        fmt::format("{:.2g} % of the model's area lies outside the background mesh, up to {:.4g}{}: lengths "
+                    "grow there from its border",
+                    100 * outside / area, most, unit.empty() ? "" : " " + unit));
+}
+
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
                          double slope, const ModelScale& scale, const ModelPlanes* planes) {
   SourceInput input;

@@ -30,5 +30,7 @@ SourceInput read_sources(const std::vector<std::string>& files, const std::strin
 /// Warns of each source whose core lies outside the root cube of the octree, and of a background mesh that does: there
 /// is nothing to mesh. `far_length`: longer lengths are of no interest; `unit` of all lengths, as messages have it.
 void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length, const std::string& unit);
+/// Says how much of the faces' area lies outside the box of a background mesh, and how far.
+void warn_of_outside(const BackgroundMesh& background, const FaceCells& faces, const std::string& unit);
 
 }  // namespace st

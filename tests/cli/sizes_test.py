@@ -107,8 +107,10 @@ class OfAnotherProgram(ToolTest):
         (self.folder / "flow.sol").write_text(self.head + "\n".join(map(str, values)) + "\nEnd\n")
 
     def prolong(self, background):
-        return must("st-prolong", self.raster, "-o", self.folder / "s.hdf", "--background", self.folder / background,
-                    "--json").json()["expected_triangles"]
+        run = must("st-prolong", self.raster, "-o", self.folder / "s.hdf", "--background", self.folder / background,
+                   "--json")
+        self.assertNotIn("outside", run.err)
+        return run.json()["expected_triangles"]
 
     def test_lengths_of_a_solution_count_on_the_surface_that_they_are_given_on(self):
         self.write([0.25 * h for h in self.lengths])
@@ -210,6 +212,9 @@ length = 0.01
             (self.folder / "b.bac").write_text("\n".join(lines))
             run = must("st-prolong", self.raster, "-o", self.folder / "s.hdf", "--background", self.folder / "b.bac")
             (self.assertIn if says else self.assertNotIn)(says or "lowered", run.err)
+            outside = re.search(r"(\S+) % of the model's area lies outside the background mesh, up to ([0-9.]+)", run.err)
+            self.assertAlmostEqual(float(outside[1]), 100 * (1 - 1600 / 8800), delta=4)
+            self.assertAlmostEqual(float(outside[2]), math.hypot(40, 20), delta=4)
             middle, side = self.lengths_at(self.folder / "s.hdf", [(5, 5, 5), (5, 5, -2)])
             self.assertAlmostEqual(middle, 0.1 + 0.25 * (4 if steep else 0.2), delta=1e-9)
             # by the lengths below it, or, where those grow as fast as the slope, by the nearest edge of the border
