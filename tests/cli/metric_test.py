@@ -7,7 +7,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
 from adapt_table import read_mesh  # noqa: E402
-from chain import INPUT, USAGE, ToolTest, artifacts_of, must  # noqa: E402
+from chain import INPUT, USAGE, ToolTest, artifacts_of, content_hash, must  # noqa: E402
 
 
 class Metric(ToolTest):
@@ -189,6 +189,20 @@ class Shock(ToolTest):
         new, old = (must("st-check", m, "--geometry", geometry, "--sizing", sizing, "--json").json()["quality"]["mean"]
                     for m in (anew, redone))
         self.assertGreater(old, new - 0.01)
+
+    def test_same_bits_for_every_number_of_threads_and_ranks(self):
+        self.sizes("--max-aspect", 16)
+        f, box, hashes = self.folder, self.box, []
+        for n in (1, 2, 3):
+            must("st-prolong", f / "r.hdf", "-o", f / "s.hdf", "--only", "--background", f / "shock.sol", "--threads",
+                 n)
+            hashes.append(content_hash(f / "s.hdf"))
+        for how in (("--threads", 1), ("--threads", 3), ("--np", 2), ("--np", 3)):
+            must("st-mesh", box / "geometry.hdf", f / "s.hdf", "-o", f / "p.hdf", *how)
+            must("st-merge", f / "p.hdf", "-o", f / "m.hdf")
+            must("st-remesh", box / "mesh.hdf", box / "geometry.hdf", f / "s.hdf", "--merged", f / "redone.hdf", *how)
+            hashes += [content_hash(f / "m.hdf"), content_hash(f / "redone.hdf")]
+        self.assertEqual(len(set(hashes)), 3)
 
     def test_without_aspect_the_shortest_counts(self):
         self.assertIn("nodes of the background mesh are anisotropic", self.sizes().err)

@@ -112,6 +112,33 @@ TEST_F(MeditMeshes, a_field_of_medit_is_named_by_its_number) {
   EXPECT_ERROR(read_size_mesh(solution + ":metric"), kInput, "'metric' is none");
 }
 
+/// The forms of public files that docs/dev/foreign_sizes.md names, with other numbers.
+TEST_F(MeditMeshes, files_as_three_programs_write_them_are_read) {
+  const auto rows = [](const std::string& row, int n = 6) {
+    std::string text;
+    for (int i = 0; i < n; ++i) text += row + "\n";
+    return text;
+  };
+  const std::string mesh = write("m.mesh", kMeditMesh);
+  // MMG: a length at each node, blank lines
+  const std::string mmg = "MeshVersionFormatted 2\n\nDimension 3\n\nSolAtVertices\n6\n1 1\n";
+  EXPECT_EQ(lengths_in(read_size_mesh(write("m.sol", mmg + rows("0.25") + "\nEnd\n"))), std::vector<double>(5, 0.25));
+  // ParMmg: keywords on lines of their own, a scalar, a vector and a metric
+  const std::string parmmg = "MeshVersionFormatted\n 2\n\nDimension\n 3\n\nSolAtVertices\n6\n3 1 2 3\n";
+  const BackgroundMesh third = read_size_mesh(
+      mesh + ":" + write("phys.sol", parmmg + rows(" 0.25 0.5 0 0 100 0 25 0 0 100") + "\n\nEnd\n") + ":3");
+  EXPECT_NEAR(third.node_size[0].length, 0.1, 1e-12);
+  EXPECT_NEAR(std::abs(third.node_size[0].direction.y), 1, 1e-12);
+  // the unstructured grid adaptation group: metrics of 16 digits, another name, no End
+  const std::string zero = " 0.000000000000000e+00 ", hundred = "9.999999999999999e+01";
+  const std::string group = "MeshVersionFormatted 2\n\nDimension 3\n\nSolAtVertices\n      6\n1 3\n\n" +
+                            rows(hundred + zero + hundred + zero + zero + "9.000000000000000e+02");
+  const BackgroundMesh flat = read_size_mesh(mesh + ":" + write("linear.sol", group));
+  ASSERT_EQ(flat.node_metric.size(), 5u);
+  EXPECT_NEAR(flat.node_metric[0][2], 900, 1e-9);  // zz
+  EXPECT_NEAR(flat.node_size[0].length, 1.0 / 30, 1e-12);
+}
+
 TEST_F(MeditMeshes, a_solution_of_another_name_is_named_after_its_mesh) {
   const std::string mesh = write("m.mesh", kMeditMesh), solution = write("m-metric.sol", three_fields());
   EXPECT_ERROR(read_size_mesh(solution), kInput, "one of another name is given as MESH:SOLUTION");
