@@ -26,6 +26,7 @@
 #include "geometry/import/kept_areas.h"
 #include "geometry/import/kinked_faces.h"
 #include "geometry/import/left_out_faces.h"
+#include "geometry/import/loop_joins.h"
 #include "geometry/import/loop_periods.h"
 #include "geometry/import/loop_repair.h"
 #include "geometry/import/mirror_image.h"
@@ -81,6 +82,7 @@ void scale_to_unit(ImportedShape& model, const ModelUnit& unit, std::vector<Impo
 /// Tables of a model that has got new faces; these need no word on their trimming curves and shells.
 void take_new_faces(ImportedShape& model, occt::ModelOfFile& tables, const std::string& path) {
   std::vector<ImportFinding> own;
+  occt::join_loops(model, own);
   occt::repair_loops(model, own);
   occt::repair_pcurves(model, own);
   tables = occt::make_tables(model, path);
@@ -251,6 +253,7 @@ AirFaces settle_bodies_and_air(ImportedShape& model, occt::ModelOfFile& tables, 
 void repair_edges_and_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
   occt::open_slits(model, findings);
   occt::rebuild_space_curves(model, findings);
+  occt::join_loops(model, findings);
   occt::rebuild_lost_loops(model, findings);
   occt::repair_loops(model, findings);
   occt::move_loops(model, findings);
