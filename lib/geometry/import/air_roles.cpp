@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "geometry/brep/compound.h"
+#include "geometry/brep/shape_queries.h"
 #include "geometry/import/air_pieces.h"
 
 namespace st {
@@ -67,6 +68,11 @@ bool is_closed(const ModelTables& t, const OwnAir& air) {
   });
 }
 
+/// "box:20".
+std::string in_words(const FarField& far) {
+  return (far.kind == FarField::Kind::kBox ? "box:" : "sphere:") + format_number(far.size);
+}
+
 void require_wanted(const ModelTables& t, const FileAir& air, const AskedAir& asked, const std::string& path) {
   if (!air.faces.is_found()) {
     if (asked.replaces)
@@ -79,10 +85,8 @@ void require_wanted(const ModelTables& t, const FileAir& air, const AskedAir& as
   const std::string found = path + ": the file has its own air: " + counts_of(air).in_words();
   const std::string otherwise = air.is_by_shape ? "; --flow-domain no takes all faces as walls" : "";
   if (asked.far)
-    throw Error(ExitCode::kUsage, found +
-                                      "; leave out --farfield to keep this domain, or use --replace-farfield box:20 to "
-                                      "replace or enlarge it" +
-                                      otherwise);
+    throw Error(ExitCode::kUsage, found + "; leave out --farfield to keep this domain, or use --replace-farfield " +
+                                      in_words(*asked.far) + " to replace or enlarge it" + otherwise);
   if (asked.plane && air.is_by_shape && is_closed(t, air.faces))
     throw Error(ExitCode::kUsage,
                 found +
