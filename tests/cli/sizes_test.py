@@ -212,7 +212,8 @@ length = 0.01
             (self.folder / "b.bac").write_text("\n".join(lines))
             run = must("st-prolong", self.raster, "-o", self.folder / "s.hdf", "--background", self.folder / "b.bac")
             (self.assertIn if says else self.assertNotIn)(says or "lowered", run.err)
-            outside = re.search(r"(\S+) % of the model's area lies outside the background mesh, up to ([0-9.]+)", run.err)
+            outside = re.search(r"(\S+) % of the model's area lies outside the background mesh, up to ([\d.]+)",
+                                run.err)
             self.assertAlmostEqual(float(outside[1]), 100 * (1 - 1600 / 8800), delta=4)
             self.assertAlmostEqual(float(outside[2]), math.hypot(40, 20), delta=4)
             middle, side = self.lengths_at(self.folder / "s.hdf", [(5, 5, 5), (5, 5, -2)])
