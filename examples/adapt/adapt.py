@@ -5,8 +5,9 @@ usage: adapt.py MODEL FOLDER [--cycles 4] [--compare] [--bin BIN_DIR] [--farfiel
 
 MODEL is a CAD file of the fluid, or of bodies with --farfield and --symmetry as for st-import. FOLDER is a new folder.
 Each cycle prints a line: triangles on the walls, tetrahedra, the error estimate of the pressure coefficient there, the
-drag of the pressure (without viscosity it is 0, so what is left is error), seconds in all and in ST. The table is also
-FOLDER/cycles.csv. Needs what examples/openfoam needs; a cycle without change of the mesh ends the run.
+drag of the pressure (without viscosity it is 0, so what is left is error), seconds, and ST's share of the processor
+time. The table is also FOLDER/cycles.csv. Needs what examples/openfoam needs; a cycle without change of the mesh ends
+the run.
 --compare then makes a mesh of the first lengths, all scaled by one factor to as many triangles, and a reference: half
 of the smaller length of both. It tells how far the pressure of both is from the reference's.
 Exit codes: 2 usage; 5 a step failed, its output is above and in FOLDER.
@@ -15,6 +16,7 @@ import argparse
 import csv
 import os
 import re
+import resource
 import subprocess
 import sys
 import time
@@ -27,7 +29,13 @@ from wall_pressure import Walls  # noqa: E402
 NORM = "1"  # of the error that st-metric makes small
 GROWTH = 1.25  # of the number of nodes, from cycle to cycle
 SLOPE = "0.3"  # few triangles beside what the flow asks for
-COLUMNS = ("cycle", "triangles", "tetrahedra", "error", "drag", "seconds", "seconds_st")
+COLUMNS = ("cycle", "triangles", "tetrahedra", "error", "drag", "seconds", "share_st")
+
+
+def now():
+    """Seconds by the clock, and of processors in this process and those that it ran."""
+    own, others = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return time.monotonic(), own.ru_utime + own.ru_stime + others.ru_utime + others.ru_stime
 
 
 class Steps:
@@ -35,11 +43,11 @@ class Steps:
 
     def __init__(self, folder, tools):
         self.folder, self.tools = folder, tools
-        self.seconds = self.seconds_st = 0.0
-        (folder / "steps.csv").write_text("step,seconds\n", encoding="utf-8")
+        self.seconds = self.processor = self.processor_st = 0.0
+        (folder / "steps.csv").write_text("step,seconds,processor\n", encoding="utf-8")
 
     def run(self, command):
-        begin = time.monotonic()
+        begin = now()
         with open(self.folder / "steps.log", "a", encoding="utf-8") as log:
             print("$", *command, file=log, flush=True)
             done = subprocess.run([str(c) for c in command], stdout=log, stderr=subprocess.STDOUT, check=False)
@@ -52,15 +60,16 @@ class Steps:
 
     def add(self, step, begin):
         """The time since `begin` counts for this step."""
-        seconds = time.monotonic() - begin
+        seconds, processor = (after - before for after, before in zip(now(), begin))
         self.seconds += seconds
+        self.processor += processor
         with open(self.folder / "steps.csv", "a", encoding="utf-8") as log:
-            print(f"{step},{seconds:.3f}", file=log)
+            print(f"{step},{seconds:.3f},{processor:.3f}", file=log)
 
     def st(self, tool, *arguments):
-        before = self.seconds
+        before = self.processor
         self.run([self.tools / tool if self.tools else tool, *arguments])
-        self.seconds_st += self.seconds - before
+        self.processor_st += self.processor - before
 
 
 def set_stream(case, stream):
@@ -111,9 +120,12 @@ def flow(steps, name, options):
     steps.st("st-export", f / f"mesh{name}.hdf", "-o", surface)
     steps.run([HERE.parent / "openfoam/volume.sh", surface, case])
     set_stream(case, options.stream)
-    steps.run([HERE.parent / "openfoam/flow.sh", case])
-    begin = time.monotonic()
-    walls = Walls(case)
+    if options.solver == "potentialFoam":
+        steps.run([HERE.parent / "openfoam/flow.sh", case])
+    else:
+        steps.run([HERE / "simple.sh", case, *options.stream])
+    begin = now()
+    walls = Walls(case, options.solver)
     walls.write(f / f"flow{name}.vtu")
     steps.add("wall_pressure", begin)
     return walls, number_of_cells(case)
@@ -181,6 +193,7 @@ def parse():
     parser.add_argument("--compare", action="store_true", help="with an evenly scaled mesh and a finer one")
     parser.add_argument("--bin", type=Path, help="where the tools are; else they are found by PATH")
     parser.add_argument("--volume", choices=("tetgen", "gmsh"), default="tetgen")
+    parser.add_argument("--solver", choices=("potentialFoam", "simpleFoam"), default="potentialFoam")
     parser.add_argument("--stream", default="1 0 0", help="direction of the flow far away, 'X Y Z'")
     parser.add_argument("--farfield", help="for st-import")
     parser.add_argument("--symmetry", help="for st-import")
@@ -216,7 +229,7 @@ def main():
             walls, cells = flow(steps, cycle, options)
             first = first or walls
             row = (cycle, len(walls.triangle), cells, f"{walls.error():.4g}", f"{walls.drag(options.stream):.4g}",
-                   f"{steps.seconds:.0f}", f"{steps.seconds_st:.1f}")
+                   f"{steps.seconds:.0f}", f"{steps.processor_st / steps.processor:.3f}")
             table.writerow(row)
             file.flush()
             print("  ".join(f"{name} {value}" for name, value in zip(COLUMNS, row)), flush=True)

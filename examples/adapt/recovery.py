@@ -1,4 +1,4 @@
-"""Gradients at nodes of a mesh from the values of its cells, by a quadric fitted to the cells around each node.
+"""Values and gradients at nodes of a mesh from values of its cells, by a quadric fitted to the cells around each node.
 
 After Zhang and Naga, A new finite element gradient recovery method: superconvergence property, SIAM Journal on
 Scientific Computing 26 (2005), with centres of cells in place of nodes.
@@ -44,7 +44,7 @@ def pairs_once(a, b, n_b):
 
 
 def fit(offset, value, is_there):
-    """Gradients at the origin of quadrics through value [n, m] at offset [n, m, 3], where is_there [n, m]."""
+    """At the origin of quadrics through value [n, m] at offset [n, m, 3], where is_there [n, m]: [n] and [n, 3]."""
     count = is_there.sum(axis=1)
     size = numpy.sqrt((offset**2).sum(axis=(1, 2)) / count)
     x, y, z = numpy.moveaxis(offset / size[:, None, None], 2, 0)
@@ -55,19 +55,20 @@ def fit(offset, value, is_there):
     right = numpy.matmul(terms.transpose(0, 2, 1), (value * weight)[:, :, None])
     trace = numpy.trace(normal, axis1=1, axis2=2)
     normal += 1e-10 * trace[:, None, None] * numpy.eye(10)  # few cells: the flattest of the quadrics
-    return numpy.linalg.solve(normal, right)[:, 1:4, 0] / size[:, None]
+    all_terms = numpy.linalg.solve(normal, right)[:, :, 0]
+    return all_terms[:, 0], all_terms[:, 1:4] / size[:, None]
 
 
-def gradients(cells, value, nodes):
-    """Of value [cells] at nodes: [nodes, 3]."""
-    result = numpy.empty((len(nodes), 3))
+def at_nodes(cells, value, nodes):
+    """Of value [cells]: its values at nodes [nodes], and gradients there [nodes, 3]."""
+    values, gradients = numpy.empty(len(nodes)), numpy.empty((len(nodes), 3))
     for first in range(0, len(nodes), AT_ONCE):
         some = nodes[first:first + AT_ONCE]
         k, cell = cells.around(some)
         count = numpy.bincount(k, minlength=len(some))
         is_there = numpy.arange(count.max()) < count[:, None]
-        offset, values = numpy.zeros((*is_there.shape, 3)), numpy.zeros(is_there.shape)
+        offset, known = numpy.zeros((*is_there.shape, 3)), numpy.zeros(is_there.shape)
         offset[is_there] = cells.centre[cell] - cells.points[some][k]
-        values[is_there] = value[cell]
-        result[first:first + AT_ONCE] = fit(offset, values, is_there)
-    return result
+        known[is_there] = value[cell]
+        values[first:first + AT_ONCE], gradients[first:first + AT_ONCE] = fit(offset, known, is_there)
+    return values, gradients

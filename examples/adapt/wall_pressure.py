@@ -8,12 +8,12 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "openfoam"))
 import draw_pressure  # noqa: E402
 from render_common import numpy, vtk, vtk_to_numpy  # noqa: E402
-from recovery import Cells, gradients  # noqa: E402
+from recovery import Cells, at_nodes  # noqa: E402
 from vtk.util import numpy_support  # noqa: E402
 
 
-def volume(case):
-    """Cells, and the potential in each."""
+def volume(case, array):
+    """Cells, and the value of `array` in each."""
     reader = vtk.vtkOpenFOAMReader()
     reader.SetFileName(draw_pressure.control_of(str(case)))
     reader.UpdateInformation()
@@ -25,7 +25,7 @@ def volume(case):
     grid = reader.GetOutput().NewIterator().GetCurrentDataObject()
     cells = Cells(vtk_to_numpy(grid.GetPoints().GetData()).astype(float),
                   vtk_to_numpy(grid.GetCells().GetConnectivityArray()), vtk_to_numpy(grid.GetCells().GetOffsetsArray()))
-    return cells, vtk_to_numpy(grid.GetCellData().GetArray("Phi")).astype(float)
+    return cells, vtk_to_numpy(grid.GetCellData().GetArray(array)).astype(float)
 
 
 def same_places(points, among):
@@ -37,28 +37,34 @@ def same_places(points, among):
 
 
 class Walls:
-    """Triangles of the walls of a case of potential flow, with the pressure coefficient.
+    """Triangles of the walls of a case, with the pressure coefficient.
 
-    cp [triangles] is that of the cells at them. cp_at_node is that of a quadric fitted to the potential of the cells
-    around each corner, of second order. Between corners it is linear.
+    cp [triangles] is that of the cells at them. cp_at_node is that of a quadric fitted to the cells around each corner,
+    to their potential or, of another solver than potentialFoam, their pressure. Between corners it is linear.
     """
 
-    def __init__(self, case):
+    def __init__(self, case, solver="potentialFoam"):
+        is_potential = solver == "potentialFoam"
         names = [name for name, kind in draw_pressure.patch_types(str(case)).items() if kind == "wall"]
         clean = vtk.vtkCleanPolyData()  # patches share the points of their common edges
-        clean.SetInputData(draw_pressure.patches(str(case), names))
+        clean.SetInputData(draw_pressure.patches(str(case), names, "grad(Phi)" if is_potential else "p"))
         clean.Update()
         self.surface = clean.GetOutput()
         self.triangle = vtk_to_numpy(self.surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         self.xyz = vtk_to_numpy(self.surface.GetPoints().GetData()).astype(float)
-        velocity = vtk_to_numpy(self.surface.GetCellData().GetArray("grad(Phi)")).astype(float)
-        self.cp = 1 - (velocity**2).sum(axis=1)
         a, b, c = (self.xyz[self.triangle[:, k]] for k in range(3))
         self.normal = 0.5 * numpy.cross(b - a, c - a)  # [triangles, 3], as long as the area; into the wall
         self.area = numpy.linalg.norm(self.normal, axis=1)
         self.centre = (a + b + c) / 3
-        cells, potential = volume(case)
-        self.cp_at_node = 1 - (gradients(cells, potential, same_places(self.xyz, cells.points))**2).sum(axis=1)
+        cells, value = volume(case, "Phi" if is_potential else "p")
+        values, gradients = at_nodes(cells, value, same_places(self.xyz, cells.points))
+        if is_potential:
+            velocity = vtk_to_numpy(self.surface.GetCellData().GetArray("grad(Phi)")).astype(float)
+            self.cp = 1 - (velocity**2).sum(axis=1)
+            self.cp_at_node = 1 - (gradients**2).sum(axis=1)
+        else:  # speed and density are 1 far away
+            self.cp = 2 * vtk_to_numpy(self.surface.GetCellData().GetArray("p")).astype(float)
+            self.cp_at_node = 2 * values
         self.cp_at_centre = self.cp_at_node[self.triangle].mean(axis=1)
 
     def error(self):

@@ -31,8 +31,8 @@ def control_of(case):
     return control
 
 
-def patches(case, wanted):
-    """The wanted patches as one surface with the velocity U of their cells."""
+def patches(case, wanted, array="grad(Phi)"):
+    """The wanted patches as one surface, with the values of their cells, `array` among them."""
     reader = vtk.vtkOpenFOAMReader()
     reader.SetFileName(control_of(case))
     reader.UpdateInformation()
@@ -48,8 +48,8 @@ def patches(case, wanted):
         together.AddInputData(leaves.GetCurrentDataObject())
         leaves.GoToNextItem()
     together.Update()
-    if together.GetOutput().GetCellData().GetArray("grad(Phi)") is None:
-        sys.exit(f"draw_pressure: error: no grad(Phi) on {', '.join(wanted)} in '{case}'; run flow.sh first")
+    if together.GetOutput().GetCellData().GetArray(array) is None:
+        sys.exit(f"draw_pressure: error: no {array} on {', '.join(wanted)} in '{case}'; run flow.sh first")
     return together.GetOutput()
 
 

@@ -3,6 +3,7 @@ import csv
 import os
 import re
 import shutil
+import subprocess
 import sys
 import types
 import unittest
@@ -13,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 sys.path.insert(0, str(ROOT / "tests/support"))
 from adapt_table import FIELDS, Loop, errors_by_level, gain_of, on_shape, order_of  # noqa: E402
-from chain import BIN, MODELS, ToolTest, must  # noqa: E402
+from chain import BIN, CORPUS, MODELS, ToolTest, must  # noqa: E402
 
 try:
     os.environ.setdefault("DISPLAY", "none")  # nothing is drawn
@@ -27,12 +28,13 @@ try:
 except ImportError as e:
     WHY_NOT = f"{e}: the loop of examples/adapt is not tested; install python3-vtk9 and run with /usr/bin/python3"
     print(f"SKIPPED: {WHY_NOT}", flush=True)
-NEEDED = ("tetgen", "potentialFoam", "gmshToFoam")
+NEEDED = ("tetgen", "potentialFoam", "simpleFoam", "gmshToFoam")
 NO_FLOW = WHY_NOT or ", ".join(f"no {tool}" for tool in NEEDED if not shutil.which(tool))
 if NO_FLOW and not WHY_NOT:
     print(f"SKIPPED: {NO_FLOW}: the loop of examples/adapt is tested without its flow; run scripts/setup.sh adapt",
           flush=True)
 
+M6 = CORPUS / "aero_onera_m6_sharpte.brep"
 SHOCK = 2.0  # the plane x at which the pressure of the test jumps, on a sphere of radius 10
 
 
@@ -62,11 +64,20 @@ def edges_at(path, plane):
     return float(numpy.median(numpy.linalg.norm(cut - numpy.roll(cut, 1, axis=1), axis=2)))
 
 
+def must_run(*command):
+    done = subprocess.run([str(c) for c in command], capture_output=True, text=True, timeout=300, check=False)
+    if done.returncode != 0:
+        raise AssertionError(done.stdout + done.stderr)
+
+
 class Adapt(ToolTest):
     def test_the_error_of_interpolation_falls_with_second_order_and_is_a_quarter(self):
-        for shape in ("sphere", "box"):
+        models = {shape: next(MODELS.glob(f"{shape}.*")) for shape in ("sphere", "box")}
+        if M6.exists():
+            models["m6"] = M6
+        for shape, model in models.items():
             (self.folder / shape).mkdir()
-            loop = Loop(BIN, next(MODELS.glob(f"{shape}.*")), self.folder / shape)
+            loop = Loop(BIN, model, self.folder / shape)
             for name, field in FIELDS.items():
                 rows = errors_by_level(loop, on_shape(field, shape), 2)
                 self.assertGreater(order_of(rows), 1.8, f"{shape} {name}: {rows}")
@@ -103,6 +114,20 @@ class Adapt(ToolTest):
         cosine = walls.xyz[:, 0] / numpy.linalg.norm(walls.xyz, axis=1)
         error = numpy.abs(walls.cp_at_node - (1 - 2.25 * (1 - cosine**2)))
         self.assertLess(float(error.mean()), 0.05)
+
+    @unittest.skipIf(NO_FLOW or not M6.exists(), NO_FLOW or f"no {M6}: set ST_CORPUS")
+    def test_a_steady_solver_gives_a_wing_the_pressure_of_potential_flow(self):
+        folder, rows = self.loop(M6, "--cycles", "1", "--solver", "simpleFoam")
+        self.assertTrue(0 < float(rows[0]["share_st"]) < 1, rows)
+        case = folder / "case1"
+        steady = wall_pressure.Walls(case, "simpleFoam")
+        shutil.rmtree(case / "0")
+        for part in ("0", "system"):
+            shutil.copytree(ROOT / "examples/openfoam/case" / part, case / part, dirs_exist_ok=True)
+        adapt.set_stream(case, (1, 0, 0))
+        must_run(ROOT / "examples/openfoam/flow.sh", case)
+        potential = wall_pressure.Walls(case)
+        self.assertLess(steady.distances(potential)[0], 0.04)
 
 
 if __name__ == "__main__":
