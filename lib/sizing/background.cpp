@@ -95,6 +95,20 @@ class BackgroundSource final : public SizeSource {
     if (log_stretch_.empty() || (border == kNowhere && tet == kNowhere)) return {length, length, {}};
     return border == kNowhere ? stretched_in(tet, length, x) : stretched_from(border, length, x);
   }
+  /// In a tetrahedron by its own gradient, which may be far below the slope.
+  double least_within(Vec3 x, double radius, double upper) const override {
+    const double drop = slope() * radius;
+    std::size_t border = kNowhere;
+    double best = std::min(upper, std::max(min_size_, least_outside(x, upper + drop, border) - drop));
+    tet_tree_.visit_within(x, radius, best, [&](std::int32_t t) {
+      const TetFrame frame = frame_of(static_cast<std::size_t>(t));
+      const std::array<double, 4> lengths = lengths_of(mesh_, mesh_.tets[t]);
+      const double at_x = interpolated(frame.coordinates(x), lengths);
+      best = std::min(best, std::max(*std::min_element(lengths.begin(), lengths.end()),
+                                     at_x - norm(frame.gradient(lengths)) * radius));
+    });
+    return best;
+  }
   /// Of the cell that tells the length at x.
   Vec3 gradient(Vec3 x) const override {
     std::size_t tet = kNowhere, border = kNowhere;

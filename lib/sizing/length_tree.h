@@ -47,6 +47,12 @@ class LengthTree {
     tree_.visit_near(
         x, [&](std::int32_t node, double d2) { return d2 == 0 && least_[node] < best; }, visit);
   }
+  /// Those whose box comes within `radius` of x, while one may be below `best`.
+  template <class Visit>
+  void visit_within(Vec3 x, double radius, const double& best, const Visit& visit) const {
+    tree_.visit_near(
+        x, [&](std::int32_t node, double d2) { return d2 <= radius * radius && least_[node] < best; }, visit);
+  }
   /// Those from which lengths that grow by `slope` may reach x below `best`.
   template <class Visit>
   void visit_from(Vec3 x, double slope, const double& best, const Visit& visit) const {

@@ -135,6 +135,11 @@ Vec3 SizeSource::gradient(Vec3 x) const {
   return gradient_of([this](Vec3 at) { return size(at); }, x);
 }
 
+double SizeSource::least_within(Vec3 x, double radius, double upper) const {
+  const double drop = slope() * radius;
+  return std::min(upper, std::max(min_size(), size_below(x, upper + drop) - drop));
+}
+
 SourceGrowth SizeSource::growth() const {
   constexpr double kFar = 1e150;  // whose square is a number
   return {{{-kFar, -kFar, -kFar}, {kFar, kFar, kFar}}, {min_size(), 0, 0}};

@@ -40,6 +40,8 @@ class SizeSource : public SizeField {
   double slope() const final { return slope_; }
   /// min(upper, size(x)), sooner where a bound is enough.
   virtual double size_below(Vec3 x, double upper) const { return std::min(upper, size(x)); }
+  /// A bound: it asks for no less than it, or `upper`, within `radius` of x. Here: by the slope.
+  virtual double least_within(Vec3 x, double radius, double upper) const;
   /// Of size() at x. Here: by differences.
   virtual Vec3 gradient(Vec3 x) const;
   /// The tighter, the sooner a search passes over it. Here: it may ask for its smallest length anywhere.

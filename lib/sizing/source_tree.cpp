@@ -105,10 +105,7 @@ double SourceTree::least_near(Vec3 x, double radius, double upper) const {
   const double drop = slope_ * radius;
   tree_.visit_near(
       x, [&](std::int32_t node, double d2) { return least_[node].length < best && reaches(node, d2, best + drop); },
-      [&](std::int32_t i) {
-        const SizeSource& source = *entries_[i].source;
-        best = std::min(best, std::max(source.min_size(), source.size_below(x, best + drop) - drop));
-      });
+      [&](std::int32_t i) { best = entries_[i].source->least_within(x, radius, best); });
   return best;
 }
 

@@ -41,6 +41,26 @@ TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
   EXPECT_EQ(make_background(mesh, kSteep)->local({0, 0, 0}, hint).in(t), 0.1);
 }
 
+TEST(BackgroundMesh, asks_for_no_less_around_a_place_than_its_bound_which_knows_how_flat_it_is) {
+  const auto linear = [](Vec3 x) { return 0.1 + 0.011 * x.x - 0.003 * x.y + 0.013 * x.z; };
+  const auto field = make_background(cube_of_tets(3, linear), kBackgroundSlope);
+  std::mt19937 random(7);
+  constexpr double kRadius = 0.15, kSteepest = 0.0174;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 x = random_background_point(random, -0.3, 1.3);
+    const double bound = field->least_within(x, kRadius, 1);
+    for (int k = 0; k < 100; ++k) {
+      const Vec3 step = random_background_point(random, -1, 1);
+      if (norm(step) > 1) continue;
+      ASSERT_GE(background_at(*field, x + kRadius * step), bound - 1e-12);
+    }
+    if (const Vec3 d = x - Vec3{0.5, 0.5, 0.5}; std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)}) < 0.3) {
+      ASSERT_GE(bound, linear(x) - kSteepest * kRadius - 1e-12);
+    }
+    EXPECT_LE(field->least_within(x, kRadius, 0.05), 0.05);
+  }
+}
+
 TEST(BackgroundMesh, passes_over_flat_tetrahedra) {
   BackgroundMesh mesh = one_tet({0.1, 0.12, 0.13, 0.14});
   mesh.tets.push_back({0, 1, 2, 2});
