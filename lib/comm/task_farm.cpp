@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -143,7 +144,9 @@ class Courier {
 
   /// True when there was something to do.
   bool work() {
-    const bool has_asked = pass_on(), has_answered = answer_others(), has_received = receive_answers();
+    // what cannot come is not looked for: each look costs a round through all connections
+    const bool has_asked = pass_on(), has_answered = answer_ && answer_others(),
+               has_received = !asked_.empty() && receive_answers();
     outgoing_.remove_if([](Transfer& transfer) { return transfer.is_done(); });
     return has_asked || has_answered || has_received;
   }
@@ -154,6 +157,7 @@ class Courier {
   bool pass_on() {
     bool has_news = false;
     for (; auto question = threads_.take_question(); has_news = true) {
+      if (!answer_) throw std::logic_error("ask: no rank answers in this call");
       const std::int32_t number = n_asked_++;
       outgoing_.push_back(
           Transfer::send({number, 0, 0, std::move(question->request.bytes)}, question->request.rank, kRequests));

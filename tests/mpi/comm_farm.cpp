@@ -1,5 +1,7 @@
 // comm_farm SCENARIO [ranks] [--np N] [--threads N]: one scenario of the task farm, checked by the program itself; exit
 // code 0, that of the Error, or 1 for a failed check.
+#define OMPI_SKIP_MPICXX 1  // the C API alone
+#include <mpi.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +14,7 @@
 #include <map>
 #include <mutex>
 #include <numeric>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,6 +23,16 @@
 #include "base/packer.h"
 #include "base/threads.h"
 #include "comm/communicator.h"
+
+namespace {
+std::set<int> looked_for;  // tags
+}
+
+/// In place of the library's: notes what is looked for. Called from the main thread alone.
+extern "C" int MPI_Iprobe(int source, int tag, MPI_Comm comm, int* is_there, MPI_Status* status) {
+  looked_for.insert(tag);
+  return PMPI_Iprobe(source, tag, comm, is_there, status);
+}
 
 namespace st {
 namespace {
@@ -263,6 +276,13 @@ void loses_a_rank(const Communicator& comm) {
   });
 }
 
+/// Each look for a message is a round through all connections: where no task asks, nobody looks for questions.
+void looks_for_one_kind_of_message(const Communicator& comm) {
+  looked_for.clear();
+  run_and_check(comm, 500, [](std::int32_t) { burn(0.0002); });
+  CHECK(looked_for.size() == (comm.size() > 1 ? 1U : 0U));
+}
+
 /// One long task: all others wait, in the farm and at the barrier, and must not use a core meanwhile.
 void idle_ranks_sleep(const Communicator& comm) {
   constexpr double kWait = 1.5;
@@ -310,6 +330,7 @@ int run(int argc, char** argv) {
       {"fails_with_foreign_exception", fails_with_foreign_exception},
       {"fails_in_collect", fails_in_collect},
       {"loses_a_rank", loses_a_rank},
+      {"looks_for_one_kind_of_message", looks_for_one_kind_of_message},
       {"idle_ranks_sleep", idle_ranks_sleep},
       {"keeps_both_ranks_computing", keeps_both_ranks_computing},
       {"gives_short_tasks_ahead", gives_short_tasks_ahead},
