@@ -79,14 +79,15 @@ class ConeSpread {
       table.of_site.push_back(number[s]);
     }
     table.first = all.first;
-    for (std::size_t site = 0; site < all.at_center.size(); ++site) {
-      std::sort(table.of_site.begin() + table.first[site], table.of_site.begin() + table.first[site + 1],
-                [&](std::int32_t a, std::int32_t b) {
-                  return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length
-                                                                      : a < b;
-                });
-      if (all.at_center[site] != kNone) table.at_center[site] = number[all.at_center[site]];
-    }
+    const auto is_shorter = [&](std::int32_t a, std::int32_t b) {
+      return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length : a < b;
+    };
+    parallel_for(all.at_center.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t site = begin; site < end; ++site) {
+        std::sort(table.of_site.begin() + table.first[site], table.of_site.begin() + table.first[site + 1], is_shorter);
+        if (all.at_center[site] != kNone) table.at_center[site] = number[all.at_center[site]];
+      }
+    });
     return table;
   }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/radix_sort.h"
 #include "base/threads.h"
 #include "sizing/octree_nodes.h"
 
@@ -55,11 +56,7 @@ class LengthStore {
         leaf_(shape.leaf_keys.size(), kNothingStored),
         node_(shape.node_children.size() / 8, kNothingStored),
         largest_(node_.size(), kNothingStored) {
-    std::array<std::vector<std::uint32_t>, kMaxLevel + 1> by_level;
-    for (std::size_t i = 0; i < boxes.size(); ++i) by_level[levels[i]].push_back(static_cast<std::uint32_t>(i));
-    for (std::size_t level = kMaxLevel + 1; level-- > kStemLevel + 1;) add_to_stems(by_level[level]);
-    for (std::size_t level = kStemLevel + 1; level-- > 0;)
-      whole_.boxes.insert(whole_.boxes.end(), by_level[level].begin(), by_level[level].end());
+    file_boxes();
     if (node_.empty()) whole_.node = ~0;
   }
 
@@ -67,22 +64,31 @@ class LengthStore {
     parallel_for(stems_.size(), 1,
                  [this](std::size_t i, std::size_t) { fill(stems_[i], kCoordinateEnd >> kStemLevel); });
     fill(whole_, kCoordinateEnd);
-    for (std::size_t node = 0; node < node_.size(); ++node)  // parents come before their children
-      for (std::size_t o = 0; o < 8; ++o) {
-        const std::int32_t child = shape_.node_children[8 * node + o];
-        std::uint64_t& value = child >= 0 ? node_[child] : leaf_[~child];
-        value = std::min(value, node_[node]);
-      }
+    std::size_t begin = 0;
+    for (std::size_t end = std::min<std::size_t>(node_.size(), 1); begin < end;) {  // level by level
+      parallel_for(end - begin, kNodesPerPiece,
+                   [&](std::size_t first, std::size_t last) { pass_down(begin + first, begin + last); });
+      const std::size_t after = after_children(begin, end);
+      begin = end;
+      end = after;
+    }
     return std::move(leaf_);
   }
 
  private:
-  static constexpr std::size_t kStemLevel = 4;
+  static constexpr std::size_t kStemLevel = 4, kBoxesPerPiece = 8'192, kNodesPerPiece = 8'192;
+  /// A box, and where it is put in.
+  struct Filing {
+    std::uint32_t stem;  // the upper part of its key, or kWhole
+    std::uint32_t box;
+    std::uint8_t level;  // of the box
+  };
+  static constexpr std::uint32_t kWhole = 1u << (3 * kStemLevel);
   /// A subtree, and the boxes that are put in from its root on, those of fine levels first.
   struct Stem {
     std::int32_t node = 0;
     GridPoint lo = {};
-    std::vector<std::uint32_t> boxes = {};
+    std::span<const Filing> boxes = {};
   };
   /// A box on its way through a subtree.
   struct Visitor {
@@ -95,31 +101,64 @@ class LengthStore {
     return grid_box(shape, box, std::min(box.half, box.length));
   }
 
-  /// All cells of their own level that boxes meet are there, so all nodes that they meet at a coarser one.
-  void add_to_stems(std::span<const std::uint32_t> boxes) {
-    constexpr int kShift = kMaxLevel - static_cast<int>(kStemLevel);
-    stem_at_.resize(std::size_t{1} << (3 * kStemLevel), kNone);
-    for (const std::uint32_t i : boxes) {
-      const GridBox range = range_of(shape_, boxes_[i]);
-      if (range.is_empty) continue;
-      for (std::uint32_t z = range.lo.z >> kShift; z <= range.hi.z >> kShift; ++z)
-        for (std::uint32_t y = range.lo.y >> kShift; y <= range.hi.y >> kShift; ++y)
-          for (std::uint32_t x = range.lo.x >> kShift; x <= range.hi.x >> kShift; ++x)
-            stem_at({x << kShift, y << kShift, z << kShift}).boxes.push_back(i);
+  void file_boxes() {
+    std::vector<std::vector<Filing>> pieces((boxes_.size() + kBoxesPerPiece - 1) / kBoxesPerPiece);
+    parallel_for(boxes_.size(), kBoxesPerPiece, [&](std::size_t begin, std::size_t end) {
+      std::vector<Filing>& own = pieces[begin / kBoxesPerPiece];
+      own.reserve(end - begin);
+      for (std::size_t i = begin; i < end; ++i) file_box(static_cast<std::uint32_t>(i), own);
+    });
+    std::size_t n = 0;
+    for (const std::vector<Filing>& own : pieces) n += own.size();
+    filings_.reserve(n);
+    for (const std::vector<Filing>& own : pieces) filings_.insert(filings_.end(), own.begin(), own.end());
+    std::vector<Filing> other;
+    radix_sort(filings_, other, [](const Filing& f) {
+      return std::uint64_t{f.stem} * (kMaxLevel + 1) + static_cast<std::uint64_t>(kMaxLevel - f.level);
+    });
+    for (std::size_t first = 0, last = 0; first < n; first = last) {
+      while (last < n && filings_[last].stem == filings_[first].stem) ++last;
+      (filings_[first].stem == kWhole ? whole_ : add_stem(filings_[first].stem)).boxes =
+          std::span<const Filing>(filings_).subspan(first, last - first);
     }
   }
 
-  Stem& stem_at(GridPoint lo) {
-    const std::uint64_t key = morton::encode(lo);
-    std::int32_t& stem = stem_at_[key >> (3 * (kMaxLevel - kStemLevel))];
-    if (stem == kNone) {
-      stem = static_cast<std::int32_t>(stems_.size());
-      std::int32_t node = 0;
-      for (std::size_t level = 0; level < kStemLevel; ++level)
-        node = shape_.node_children[8 * static_cast<std::size_t>(node) + (key >> (3 * (kMaxLevel - 1 - level)) & 7)];
-      stems_.push_back({node, lo});
-    }
-    return stems_[static_cast<std::size_t>(stem)];
+  /// All cells of their own level that boxes meet are there, so all nodes that they meet at a coarser one.
+  void file_box(std::uint32_t i, std::vector<Filing>& filings) const {
+    constexpr int kShift = kMaxLevel - static_cast<int>(kStemLevel);
+    if (levels_[i] <= kStemLevel) return filings.push_back({kWhole, i, levels_[i]});
+    const GridBox range = range_of(shape_, boxes_[i]);
+    if (range.is_empty) return;
+    for (std::uint32_t z = range.lo.z >> kShift; z <= range.hi.z >> kShift; ++z)
+      for (std::uint32_t y = range.lo.y >> kShift; y <= range.hi.y >> kShift; ++y)
+        for (std::uint32_t x = range.lo.x >> kShift; x <= range.hi.x >> kShift; ++x)
+          filings.push_back({static_cast<std::uint32_t>(morton::encode({x, y, z})), i, levels_[i]});
+  }
+
+  Stem& add_stem(std::uint32_t key) {
+    std::int32_t node = 0;
+    for (std::size_t level = 0; level < kStemLevel; ++level)
+      node = shape_.node_children[8 * static_cast<std::size_t>(node) + (key >> (3 * (kStemLevel - 1 - level)) & 7)];
+    const GridPoint at = morton::decode(key);
+    constexpr int kShift = kMaxLevel - static_cast<int>(kStemLevel);
+    return stems_.emplace_back(Stem{node, {at.x << kShift, at.y << kShift, at.z << kShift}, {}});
+  }
+
+  /// What nodes have, all below them have.
+  void pass_down(std::size_t begin, std::size_t end) {
+    for (std::size_t node = begin; node < end; ++node)
+      for (std::size_t o = 0; o < 8; ++o) {
+        const std::int32_t child = shape_.node_children[8 * node + o];
+        std::uint64_t& value = child >= 0 ? node_[child] : leaf_[~child];
+        value = std::min(value, node_[node]);
+      }
+  }
+
+  /// The node after the last below those of a level.
+  std::size_t after_children(std::size_t begin, std::size_t end) const {
+    std::size_t link = 8 * end;  // nodes are numbered in the order of the links to them
+    while (link > 8 * begin && shape_.node_children[link - 1] < 0) --link;
+    return link == 8 * begin ? end : static_cast<std::size_t>(shape_.node_children[link - 1]) + 1;
   }
 
   /// Reaches `extent` from its lower corner.
@@ -127,12 +166,12 @@ class LengthStore {
     const std::size_t n_nodes = stem.boxes.empty() ? 0 : count_nodes(stem.node);
     Visitor box;
     for (std::size_t i = 0; i < stem.boxes.size(); ++i) {
-      const RasterBox& of = boxes_[stem.boxes[i]];
+      const RasterBox& of = boxes_[stem.boxes[i].box];
       box.range = range_of(shape_, of);
       if (box.range.is_empty) continue;
       box.value = pack(of.length, of.cause);
       visit(box, stem.node, stem.lo, extent / 2);
-      const bool is_last = i + 1 == stem.boxes.size() || levels_[stem.boxes[i + 1]] != levels_[stem.boxes[i]];
+      const bool is_last = i + 1 == stem.boxes.size() || stem.boxes[i + 1].level != stem.boxes[i].level;
       if (!is_last || box.n_visits < n_nodes) continue;  // until it is worth its time the old values are upper bounds
       box.n_visits = 0;
       refresh(stem.node);
@@ -200,8 +239,8 @@ class LengthStore {
   const OctreeShape& shape_;
   const std::span<const RasterBox> boxes_;
   const std::vector<std::uint8_t>& levels_;
+  std::vector<Filing> filings_;
   std::vector<Stem> stems_;
-  std::vector<std::int32_t> stem_at_;   // [8^kStemLevel] by key; kNone: no box meets it
   Stem whole_;                          // from the octree's root on: large boxes
   PackedLengths leaf_, node_;           // smallest so far: of a leaf, of all leaves of a node
   std::vector<std::uint64_t> largest_;  // upper bound of what the leaves of a node have

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <utility>
 
 #include "base/assert.h"
 #include "base/limits.h"
 #include "base/radix_sort.h"
+#include "base/threads.h"
 #include "sizing/cell_limit.h"
 #include "sizing/length_store.h"
 #include "sizing/octree_nodes.h"
@@ -40,51 +42,131 @@ std::uint8_t required_level(double root_edge, const RasterBox& box) {
   return static_cast<std::uint8_t>(level);
 }
 
+constexpr std::size_t kBoxesPerPiece = 8'192;
+
 std::vector<std::uint8_t> required_levels(double root_edge, std::span<const RasterBox> boxes) {
   std::vector<std::uint8_t> levels(boxes.size());
-  for (std::size_t i = 0; i < boxes.size(); ++i) levels[i] = required_level(root_edge, boxes[i]);
+  parallel_for(boxes.size(), kBoxesPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) levels[i] = required_level(root_edge, boxes[i]);
+  });
   return levels;
 }
 
-/// Collects keys of one level; sorts repeated ones out whenever their number has doubled.
-class KeyCollector {
- public:
-  explicit KeyCollector(std::vector<std::uint64_t>& keys) : keys_(keys) {}
-  /// True when the keys were sorted.
-  bool add(std::uint64_t key) {
-    if (!filter_.is_new(key)) return false;
-    keys_.push_back(key);
-    if (keys_.size() < next_sort_) return false;
-    sort_unique(keys_);
-    next_sort_ = std::max(kFirstSort, 2 * keys_.size());
-    return true;
-  }
-
- private:
-  static constexpr std::size_t kFirstSort = std::size_t{1} << 22;
-  std::vector<std::uint64_t>& keys_;
-  RepeatFilter filter_;
-  std::size_t next_sort_ = kFirstSort;
-};
-
-/// Inner cells that the boxes ask for: the parents of all cells of the required level that a box meets (at most eight
-/// per box).
-void collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes,
-                            std::span<const std::uint8_t> levels, NodeLevels& nodes, std::uint64_t max_cells) {
-  std::vector<KeyCollector> collectors(nodes.begin(), nodes.end());
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
+/// Inner cells that the boxes from `begin` to the one before `end` ask for: the parents of all cells of the required
+/// level that a box meets (at most eight per box). Some of them stand there more than once.
+NodeLevels required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes,
+                          std::span<const std::uint8_t> levels, std::size_t begin, std::size_t end) {
+  NodeLevels nodes;
+  std::array<std::unique_ptr<RepeatFilter>, kMaxLevel> filters;
+  for (std::size_t i = begin; i < end; ++i) {
     if (levels[i] == 0) continue;
     const GridBox range = grid_box(shape, boxes[i], boxes[i].half);
     if (range.is_empty) continue;
     const int parent = levels[i] - 1, shift = kMaxLevel - parent;
+    if (!filters[parent]) filters[parent] = std::make_unique<RepeatFilter>();
     for (std::uint32_t z = range.lo.z >> shift; z <= range.hi.z >> shift; ++z)
       for (std::uint32_t y = range.lo.y >> shift; y <= range.hi.y >> shift; ++y)
-        for (std::uint32_t x = range.lo.x >> shift; x <= range.hi.x >> shift; ++x) {
-          const std::uint64_t key = morton::encode({x, y, z});
-          if (collectors[parent].add(key)) require_cells(7.0 * static_cast<double>(nodes[parent].size()), max_cells);
-        }
+        for (std::uint32_t x = range.lo.x >> shift; x <= range.hi.x >> shift; ++x)
+          if (const std::uint64_t key = morton::encode({x, y, z}); filters[parent]->is_new(key))
+            nodes[parent].push_back(key);
   }
+  return nodes;
 }
+
+/// Those of all boxes. Repeated ones are sorted out whenever the number of keys has doubled.
+NodeLevels collect_required_nodes(const OctreeShape& shape, std::span<const RasterBox> boxes,
+                                  std::span<const std::uint8_t> levels, std::uint64_t max_cells) {
+  constexpr std::size_t kPiecesAtOnce = 64, kAtOnce = kPiecesAtOnce * kBoxesPerPiece, kFirstSort = std::size_t{1} << 22;
+  NodeLevels nodes;
+  std::array<std::size_t, kMaxLevel> next_sort;
+  next_sort.fill(kFirstSort);
+  for (std::size_t first = 0; first < boxes.size(); first += kAtOnce) {
+    std::array<NodeLevels, kPiecesAtOnce> pieces;
+    parallel_for(std::min(kAtOnce, boxes.size() - first), kBoxesPerPiece, [&](std::size_t begin, std::size_t end) {
+      pieces[begin / kBoxesPerPiece] = required_nodes(shape, boxes, levels, first + begin, first + end);
+    });
+    for (std::size_t level = 0; level < nodes.size(); ++level) {
+      std::vector<std::uint64_t>& keys = nodes[level];
+      for (const NodeLevels& piece : pieces) keys.insert(keys.end(), piece[level].begin(), piece[level].end());
+      if (keys.size() < next_sort[level]) continue;
+      sort_unique(keys);
+      next_sort[level] = std::max(kFirstSort, 2 * keys.size());
+      require_cells(7.0 * static_cast<double>(keys.size()), max_cells);
+    }
+  }
+  return nodes;
+}
+
+/// Writes leaves and links of an octree: a walk to the stems, then all of them at once. In a walk each level's nodes
+/// are met in order.
+class TreeLinker {
+ public:
+  TreeLinker(const NodeLevels& nodes, OctreeShape& shape) : nodes_(nodes), shape_(shape) {
+    for (std::size_t l = 0; l < kMaxLevel; ++l) first_[l + 1] = first_[l] + nodes[l].size();
+  }
+
+  void run() {
+    const std::size_t n_nodes = first_[kMaxLevel];
+    require_countable(7 * n_nodes + 1, "cells of the octree");
+    shape_.leaf_keys.resize(7 * n_nodes + 1);
+    shape_.leaf_levels.resize(7 * n_nodes + 1);
+    shape_.node_children.resize(8 * n_nodes);
+    Next top;
+    link(top, 0, 0, kStemLevel);
+    parallel_for(stems_.size(), 1, [this](std::size_t i, std::size_t) {
+      Next next = stems_[i].first;
+      link(next, kStemLevel, stems_[i].key, kMaxLevel);
+    });
+  }
+
+ private:
+  static constexpr std::size_t kStemLevel = 4;
+  /// What a walk comes to next: of each level a node, and a leaf.
+  struct Next {
+    std::array<std::size_t, kMaxLevel> node{};
+    std::size_t leaf = 0;
+  };
+  struct Stem {
+    std::uint64_t key;
+    Next first;
+  };
+
+  /// Returns the node of a cell, or ~leaf. What is below nodes of the level `last` is left for later.
+  std::int32_t link(Next& next, std::size_t level, std::uint64_t key, std::size_t last) {
+    if (level == kMaxLevel || next.node[level] == nodes_[level].size() || nodes_[level][next.node[level]] != key) {
+      shape_.leaf_keys[next.leaf] = key << (3 * (kMaxLevel - level));
+      shape_.leaf_levels[next.leaf] = static_cast<std::uint8_t>(level);
+      return ~static_cast<std::int32_t>(next.leaf++);
+    }
+    const std::size_t node = first_[level] + next.node[level];
+    if (level == last) {
+      stems_.push_back({key, next});
+      pass_by(next, level, key);
+      return static_cast<std::int32_t>(node);
+    }
+    ++next.node[level];
+    for (std::uint64_t o = 0; o < 8; ++o)
+      shape_.node_children[8 * node + o] = link(next, level + 1, key << 3 | o, last);
+    return static_cast<std::int32_t>(node);
+  }
+
+  /// All that is in the cell.
+  void pass_by(Next& next, std::size_t level, std::uint64_t key) const {
+    std::size_t n = 0;
+    for (std::size_t l = level; l < kMaxLevel; ++l) {
+      const auto first = nodes_[l].begin() + static_cast<std::ptrdiff_t>(next.node[l]);
+      const auto end = std::lower_bound(first, nodes_[l].end(), (key + 1) << (3 * (l - level)));
+      n += static_cast<std::size_t>(end - first);
+      next.node[l] = static_cast<std::size_t>(end - nodes_[l].begin());
+    }
+    next.leaf += 7 * n + 1;
+  }
+
+  const NodeLevels& nodes_;
+  OctreeShape& shape_;
+  std::array<std::size_t, kMaxLevel + 1> first_{};  // node of each level
+  std::vector<Stem> stems_;
+};
 
 }  // namespace
 
@@ -112,29 +194,7 @@ void close_nodes(NodeLevels& nodes) {
   }
 }
 
-// One walk: each level's nodes are met in order.
-void link_tree(const NodeLevels& nodes, OctreeShape& shape) {
-  std::array<std::size_t, kMaxLevel + 1> offset{}, cursor{};
-  for (std::size_t l = 0; l < kMaxLevel; ++l) offset[l + 1] = offset[l] + nodes[l].size();
-  const std::size_t n_nodes = offset[kMaxLevel];
-  require_countable(7 * n_nodes + 1, "cells of the octree");
-  shape.leaf_keys.clear();
-  shape.leaf_levels.clear();
-  shape.leaf_keys.reserve(7 * n_nodes + 1);
-  shape.leaf_levels.reserve(7 * n_nodes + 1);
-  shape.node_children.resize(8 * n_nodes);
-  const auto walk = [&](const auto& self, std::size_t level, std::uint64_t key) -> std::int32_t {
-    if (level < kMaxLevel && cursor[level] < nodes[level].size() && nodes[level][cursor[level]] == key) {
-      const std::size_t node = offset[level] + cursor[level]++;
-      for (std::uint64_t o = 0; o < 8; ++o) shape.node_children[8 * node + o] = self(self, level + 1, key << 3 | o);
-      return static_cast<std::int32_t>(node);
-    }
-    shape.leaf_keys.push_back(key << (3 * (kMaxLevel - level)));
-    shape.leaf_levels.push_back(static_cast<std::uint8_t>(level));
-    return ~static_cast<std::int32_t>(shape.leaf_keys.size() - 1);
-  };
-  walk(walk, 0, 0);
-}
+void link_tree(const NodeLevels& nodes, OctreeShape& shape) { TreeLinker(nodes, shape).run(); }
 
 Vec3 OctreeView::leaf_center(std::int32_t leaf) const {
   const GridPoint p = morton::decode(leaf_keys[leaf]);
@@ -172,8 +232,7 @@ std::uint64_t count_leaves(const NodeLevels& nodes) {
 NodeLevels split_cells(const Box3& root, std::span<const RasterBox> boxes, std::uint64_t max_cells) {
   OctreeShape shape;
   octree_root(root, shape.lo, shape.edge);
-  NodeLevels nodes;
-  collect_required_nodes(shape, boxes, required_levels(shape.edge, boxes), nodes, max_cells);
+  NodeLevels nodes = collect_required_nodes(shape, boxes, required_levels(shape.edge, boxes), max_cells);
   close_nodes(nodes);
   require_cells(static_cast<double>(count_leaves(nodes)), max_cells);
   return nodes;
@@ -204,14 +263,17 @@ PackedLengths store_boxes(const OctreeShape& shape, std::span<const RasterBox> b
 }
 
 RasterOctree unpack_octree(OctreeShape shape, const PackedLengths& packed) {
+  constexpr std::size_t kLeavesPerPiece = 8'192;
   ST_ASSERT(packed.size() == shape.leaf_keys.size());
   RasterOctree octree{std::move(shape), std::vector<float>(packed.size(), std::numeric_limits<float>::infinity()),
                       std::vector<std::int32_t>(packed.size(), kNone)};
-  for (std::size_t leaf = 0; leaf < packed.size(); ++leaf) {
-    if (packed[leaf] == kNothingStored) continue;
-    octree.stored_length[leaf] = std::bit_cast<float>(static_cast<std::uint32_t>(packed[leaf] >> 32));
-    octree.stored_cause[leaf] = static_cast<std::int32_t>(packed[leaf]);
-  }
+  parallel_for(packed.size(), kLeavesPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf) {
+      if (packed[leaf] == kNothingStored) continue;
+      octree.stored_length[leaf] = std::bit_cast<float>(static_cast<std::uint32_t>(packed[leaf] >> 32));
+      octree.stored_cause[leaf] = static_cast<std::int32_t>(packed[leaf]);
+    }
+  });
   return octree;
 }
 

@@ -164,6 +164,27 @@ TEST(Octree, of_parts_of_the_boxes_is_that_of_all_boxes) {
   EXPECT_EQ(united.stored_cause, whole.stored_cause);
 }
 
+TEST(Octree, of_more_boxes_than_a_thread_takes_at_once_is_that_of_a_few_at_a_time) {
+  const std::vector<RasterBox> boxes = sphere_boxes(30'000);
+  NodeLevels nodes;
+  for (std::size_t first = 0; first < boxes.size(); first += 1'000)
+    unite_nodes(nodes, split_cells(kUnitBox, std::span(boxes).subspan(first, 1'000)));
+  const OctreeShape shape = make_shape(kUnitBox, nodes);
+  EXPECT_STREQ(octree_defect(shape.view()), "");
+  PackedLengths stored(shape.leaf_keys.size(), ~std::uint64_t{0});
+  for (std::size_t first = 0; first < boxes.size(); first += 1'000) {
+    const PackedLengths own = store_boxes(shape, std::span(boxes).subspan(first, 1'000));
+    for (std::size_t i = 0; i < own.size(); ++i) stored[i] = std::min(stored[i], own[i]);
+  }
+  for (const int n_threads : {1, 3}) {
+    set_thread_count(n_threads);
+    EXPECT_EQ(split_cells(kUnitBox, boxes), nodes);
+    EXPECT_EQ(make_shape(kUnitBox, nodes).node_children, shape.node_children);
+    EXPECT_EQ(store_boxes(shape, boxes), stored) << n_threads << " threads";
+  }
+  set_thread_count(1);
+}
+
 TEST(Octree, ignores_boxes_outside_and_clips_boxes_that_stick_out) {
   const RasterOctree octree =
       build_octree(kUnitBox, std::vector<RasterBox>{box_at({9, 0.5, 0.5}, 0.01F), box_at({-5, -5, -5}, 0.01F)});
