@@ -98,9 +98,9 @@ class BaseStripFinder {
     std::array<EdgeId, 2> sides;
   };
 
-  /// Beyond an edge of a face; nothing where the surface has a corner there, and where it is much wider or narrower on.
+  /// Beyond an edge of a face, whether there is a corner or not; nothing where it is much wider or narrower on.
   std::optional<Quad> quad_beyond(FaceId from, EdgeId e) const {
-    if (offsets_[e + 1] - offsets_[e] != 2 || t_.edge_is_degenerate[e] || !is_smooth(e)) return std::nullopt;
+    if (offsets_[e + 1] - offsets_[e] != 2 || t_.edge_is_degenerate[e]) return std::nullopt;
     const FaceId f = edge_faces_[offsets_[e]] == from ? edge_faces_[offsets_[e] + 1] : edge_faces_[offsets_[e]];
     const auto loop = t_.edges_of(f);
     if (f == from || t_.loops(f).size() != 1 || loop.size() != 4) return std::nullopt;
@@ -132,10 +132,14 @@ class BaseStripFinder {
       for (const EdgeId end : t_.edges_of(face)) {
         if (std::ranges::count(own, end) > 0) continue;
         std::vector<Quad> pieces;
+        std::vector<EdgeId> crossed = {end};
         std::optional<Quad> next = quad_beyond(face, end);
-        for (; next && !goes_on(*next) && pieces.size() < kMost; next = quad_beyond(next->face, next->beyond))
+        for (; next && !goes_on(*next) && pieces.size() < kMost; next = quad_beyond(next->face, next->beyond)) {
           pieces.push_back(*next);
-        if (next && goes_on(*next))
+          crossed.push_back(next->beyond);
+        }
+        if (!pieces.empty() && next && goes_on(*next) &&  // the costly question last
+            std::ranges::all_of(crossed, [this](EdgeId e) { return is_smooth(e); }))
           for (const Quad& piece : pieces) found.emplace(piece.face, piece);
       }
     std::erase_if(all, [&](const Strip& s) { return s.others.empty() && !s.cut_side && found.contains(s.face); });

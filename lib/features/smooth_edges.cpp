@@ -63,10 +63,24 @@ bool SmoothEdges::operator()(EdgeId edge) {
   return answer_[e] == Answer::kSmooth;
 }
 
-std::vector<std::uint8_t> find_smooth_edges(const Model& model) {
+std::vector<std::uint8_t> find_smooth_edges(const Model& model, const Executor& executor) {
+  constexpr std::size_t kPerTask = 64;
   SmoothEdges edges(model);
   std::vector<std::uint8_t> is_smooth(static_cast<std::size_t>(model.tables().n_edges()));
-  for (EdgeId e = 0; e < model.tables().n_edges(); ++e) is_smooth[static_cast<std::size_t>(e)] = edges(e);
+  const auto n_tasks = (is_smooth.size() + kPerTask - 1) / kPerTask;
+  executor.run_tasks(
+      static_cast<std::int32_t>(n_tasks), heaviest_first(std::vector<double>(n_tasks, 1)),
+      [&](std::int32_t task) {
+        const std::size_t first = kPerTask * static_cast<std::size_t>(task);
+        std::vector<std::uint8_t> own(std::min(kPerTask, is_smooth.size() - first));
+        for (std::size_t i = 0; i < own.size(); ++i) own[i] = edges(static_cast<EdgeId>(first + i));
+        return packed(own);
+      },
+      [&](std::int32_t task, Bytes&& bytes) {
+        std::vector<std::uint8_t> own;
+        unpack(bytes, own);
+        std::copy(own.begin(), own.end(), is_smooth.begin() + static_cast<std::ptrdiff_t>(kPerTask) * task);
+      });
   return is_smooth;
 }
 

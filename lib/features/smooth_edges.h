@@ -5,11 +5,12 @@
 #include <span>
 #include <vector>
 
+#include "base/executor.h"
 #include "geometry/model/model.h"
 
 namespace st {
 
-/// Tells of one edge after the other. Local.
+/// Tells of one edge after the other, or of different ones at the same time. Local.
 class SmoothEdges {
  public:
   /// `model` outlives it.
@@ -32,8 +33,8 @@ class SmoothEdges {
   std::vector<Answer> answer_;          // [n_edges]
 };
 
-/// [n_edges] 1: the edge is smooth.
-std::vector<std::uint8_t> find_smooth_edges(const Model& model);
+/// Collective. [n_edges] 1: the edge is smooth; complete on rank 0.
+std::vector<std::uint8_t> find_smooth_edges(const Model& model, const Executor& executor = SerialExecutor());
 
 /// Whether two uses of an edge by `faces` have normals within `most` of each other half way along it, radians. Local.
 bool is_smooth_half_way(const Model& model, EdgeId e, std::span<const FaceId> faces, double most);

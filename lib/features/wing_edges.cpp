@@ -347,16 +347,14 @@ class WingEdgeFinder {
   /// Both long edges of a strip, where the faces beyond look away from each other. Where one of them lies on a symmetry
   /// plane, the strip is half a base, and the other edge is there twice.
   void try_blunt(const Strip& strip, std::vector<std::optional<WingEdge>>& found) {
-    Places places;
-    for (std::size_t k = 0; k < 2; ++k) {
-      if (!is_candidate(strip.edges[k])) return;
-      places[k] = stations(strip.edges[k], surfaces_of(strip.edges[k]));
-    }
+    if (!is_candidate(strip.edges[0]) || !is_candidate(strip.edges[1])) return;
     const std::array<FaceId, 2> mirror = {mirror_face(strip.edges[0]), mirror_face(strip.edges[1])};
     if (mirror[0] != kNone && mirror[1] != kNone) return;
     const bool is_half = mirror[0] != kNone || mirror[1] != kNone;
     const double width = (is_half ? 2 : 1) * median_width(strip);
     if (!is_narrow(strip, width)) return;
+    Places places;
+    for (std::size_t k = 0; k < 2; ++k) places[k] = stations(strip.edges[k], surfaces_of(strip.edges[k]));
     if (is_half) complete(strip, places);
     has_hollow_ = has_hollow_ || (is_hollow_base(places[0]) && is_hollow_base(places[1]));
     if (count_blunt(strip, places) < kAgreeing || is_rim(strip, places)) return;

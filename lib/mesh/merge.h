@@ -100,7 +100,7 @@ SurfaceMesh describe_boundary(const MergeInput& input, const WeldedPatches& weld
 /// `edges`: those of the mesh.
 std::vector<FacePatch> split_patches(const SurfaceMesh& mesh, const EdgeMesh& edges, FaceId n_faces);
 
-/// The orientation step alone: turns triangles (and their corner uv) of `mesh` in place.
+/// The orientation step alone: turns triangles (and their corner uv, if any) of `mesh` in place.
 OrientationReport orient_outward(SurfaceMesh& mesh);
 
 }  // namespace st

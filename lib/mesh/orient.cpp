@@ -91,7 +91,7 @@ void turn_faces(SurfaceMesh& mesh, std::span<const std::uint8_t> is_turned) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!is_turned[mesh.triangle_face[t]]) continue;
     std::swap(mesh.triangles[t].n[1], mesh.triangles[t].n[2]);
-    std::swap(mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]);
+    if (!mesh.corner_uv.empty()) std::swap(mesh.corner_uv[3 * t + 1], mesh.corner_uv[3 * t + 2]);
   }
 }
 

@@ -36,6 +36,20 @@ void share_lengths(const Executor& executor, std::vector<CellLength>& cells) {
   for (const float length : lengths) cells.push_back({length, {0, 0, 0}, length});
 }
 
+/// Places and triangles alone, turned outward.
+SurfaceMesh joined(const ModelTables& t, const MeshResult& result) {
+  std::vector<const FacePatch*> patches;
+  for (const FacePatch& p : result.patches) patches.push_back(&p);
+  WeldedPatches welded = weld_patches(result.edges, t.vertex_xyz, patches);
+  SurfaceMesh mesh;
+  mesh.node_xyz = std::move(welded.points);
+  mesh.triangles = std::move(welded.triangles);
+  mesh.triangle_face.reserve(mesh.triangles.size());
+  for (const FacePatch* p : patches) mesh.triangle_face.insert(mesh.triangle_face.end(), p->triangles.size(), p->face);
+  orient_outward(mesh);
+  return mesh;
+}
+
 }  // namespace
 
 bool has_coarse_surface(const ModelTables& tables) { return is_closed(tables, report_edge_uses(tables)); }
@@ -61,17 +75,16 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   options.time_limit = seconds;
   options.when_late = WhenLate::kThrow;
   options.parts_bodies = false;
-  options.tells_damage = false;  // nobody sees it: st-mesh tells of the mesh
+  options.tells_damage = false;     // nobody sees it: st-mesh tells of the mesh
+  options.stores_requests = false;  // nor meshes it again
   const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor, &strips);
   MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};
   warn_of_holes(result.failures);
-  OrientationReport orientation;
-  const ModelTables& t = topology.tables();
   std::erase_if(result.patches, [&](const FacePatch& p) {  // sizes pass where there is air on both sides
     return p.triangles.empty() || roles.role[p.face] == FaceRole::kInterface;
   });
-  SurfaceMesh mesh = merge_patches({result.edges, t.vertex_xyz, t.edge_vertices, result.patches, {}}, orientation);
+  SurfaceMesh mesh = joined(topology.tables(), result);
   BlankSurface surface{std::move(mesh.node_xyz), std::move(mesh.triangles), BlankSide::kInside};
   if (std::find(roles.role.begin(), roles.role.end(), FaceRole::kFarfield) != roles.role.end())
     surface.side = BlankSide::kOutside;

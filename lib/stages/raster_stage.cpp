@@ -735,7 +735,6 @@ ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const F
                         std::span<const Strip> strips, const AskedLimits& asked, Wings& wings) {
   wings.aircraft.bodies = find_bodies(model, roles, wings.aircraft.wings);
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
-  limits.edge_is_smooth = find_smooth_edges(model);
   sample_wings(o, model, asked.rules, strips, roles.reference_diagonal, asked.wall.max_length, limits, wings);
   return limits;
 }
@@ -889,7 +888,9 @@ class RasterRun {
       if (comm_.is_root()) log_report(kPassageLine);
       find_wings();
     }
+    std::vector<std::uint8_t> is_smooth = find_smooth_edges(model_, trace_);
     if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
+    limits_.edge_is_smooth = std::move(is_smooth);
     share_limits(trace_, limits_);
     require_places(o_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);

@@ -73,6 +73,7 @@ MeshResult mesh_regions(const Model& model, const MeshTopology& topology, const 
                         const MeshOptions& options, const Executor& executor) {
   MeshResult result;
   run_faces(model, topology, field, std::move(plan), options, executor, result);
+  if (!options.stores_requests) return result;
   executor.begin_phase("requests");
   if (executor.is_root() || options.patches == PatchesGo::kNowhere) store_requests(field, result);
   return result;

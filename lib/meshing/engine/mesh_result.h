@@ -35,6 +35,7 @@ struct MeshOptions {
   PatchesGo patches = PatchesGo::kToRoot;
   bool parts_bodies = true;              ///< bodies that the CAD keeps apart are refined where their triangles cross
   bool tells_damage = true;              ///< warns of faces that refining does not help
+  bool stores_requests = true;           ///< nodes get the lengths that the field requests: for a later st-remesh
   const PeriodicPairs* pairs = nullptr;  ///< outlive the run; null: there are none
   /// Places, with a radius, where lengths along shall become those across, from places, corners and faces of a mesh;
   /// rank 0 asks, once it is meshed. Null: none.

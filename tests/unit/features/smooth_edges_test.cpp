@@ -32,6 +32,30 @@ TEST(SmoothEdges, are_all_cuts_of_a_wing_but_not_its_rims_and_trailing_edge) {
   }
 }
 
+/// Counts what is shared out.
+class CountingExecutor : public SerialExecutor {
+ public:
+  int size() const override { return 3; }
+  void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
+                 const std::function<Bytes(std::int32_t)>& compute,
+                 const std::function<void(std::int32_t, Bytes&&)>& collect) const override {
+    n_tasks_ += n_tasks;
+    SerialExecutor::run_tasks(n_tasks, order, compute, collect);
+  }
+  std::int32_t n_tasks() const { return n_tasks_; }
+
+ private:
+  mutable std::int32_t n_tasks_ = 0;
+};
+
+TEST(SmoothEdges, are_looked_at_by_all_ranks) {
+  const Model model = test::make_model("wing_of_200");
+  const CountingExecutor executor;
+  EXPECT_EQ(find_smooth_edges(model, executor), find_smooth_edges(model));
+  EXPECT_EQ(executor.n_tasks(), (model.tables().n_edges() + 63) / 64);
+  EXPECT_GE(executor.n_tasks(), 2);
+}
+
 TEST(SmoothEdges, are_told_apart_half_way) {
   const Model model = test::make_model("cylinder");
   const ModelTables& t = model.tables();
