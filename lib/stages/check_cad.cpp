@@ -93,6 +93,8 @@ constexpr double kMostOff = 0.03;
 constexpr double kRound = 1.2;
 /// Of the area of the whole CAD: of a small face no more is missing.
 constexpr double kLittle = 2e-3;
+/// Likewise of a face that is not wide, where the ends of its sides were moved by more than it measures.
+constexpr double kNothing = 1e-6;
 
 /// Faces that differ in area from the CAD's.
 struct AreaChecks {
@@ -103,7 +105,7 @@ struct AreaChecks {
 /// Wrong are faces off by more than the tolerance, what chords explain, and the slack of the CAD. Of a face wider than
 /// two requested lengths only chords of the requested length explain anything: no more than kMostOff of its area, or
 /// what a hemisphere lacks of a face that is less than six lengths wide and a small part of the whole. Others beyond
-/// kMostOff are below the sizes: they look as the sizes make them.
+/// kMostOff are below the sizes: they look as the sizes make them, and a negligible part of the whole may be missing.
 AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
                        const ChordError& chords, double tolerance) {
   constexpr double kWide = 2;  // requested lengths
@@ -122,7 +124,8 @@ AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, cons
     const double explained = is_wide ? chords.area[f] : chords.found_area[f];
     double allowed = tolerance * cad + explained + slack_area(tables, f);
     const double round = difference < kLittle * whole ? kRound * (size / width) * (size / width) : 0;
-    if (is_wide) allowed = std::min(allowed, std::max({kMostOff, tolerance, round}) * cad);
+    allowed =
+        is_wide ? std::min(allowed, std::max({kMostOff, tolerance, round}) * cad) : std::max(allowed, kNothing * whole);
     if (difference > allowed && measure.face_area[f] > 0)
       c.areas.defects.add({place[f], f, kNone});
     else if (difference > kMostOff * cad && measure.face_area[f] > 0)

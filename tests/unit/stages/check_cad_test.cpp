@@ -262,6 +262,18 @@ TEST_F(CheckCad, fails_a_face_off_by_more_than_3_percent_unless_it_is_below_the_
   EXPECT_NEAR(nlohmann::json::parse(narrow.json).at("volume_difference"), -0.587, 1e-3);
 }
 
+TEST_F(CheckCad, lets_faces_below_the_sizes_be_off_by_a_negligible_part_of_the_whole) {
+  const auto wrong = [&] {
+    geometry_hash_ = write_geometry(path("geometry.hdf"), geometry_);
+    return nlohmann::json::parse(check(make_mesh(3)).json).at("checks").at("areas").at("count").get<int>();
+  };
+  std::vector<double>& area = geometry_.tables.face_area;
+  for (const double z : {0.0, kHeight}) area[face(SurfaceType::kPlane, z)] *= 3;
+  EXPECT_EQ(wrong(), 2) << "both caps";
+  area[face(SurfaceType::kCylinder)] *= 1e7;
+  EXPECT_EQ(wrong(), 1) << "the side only";
+}
+
 TEST_F(CheckCad, fails_nodes_off_their_face_whatever_the_tolerances_of_the_cad) {
   for (double& t : geometry_.tables.edge_tolerance) t = 5;
   geometry_hash_ = write_geometry(path("geometry.hdf"), geometry_);
