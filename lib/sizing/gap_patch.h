@@ -24,6 +24,10 @@ struct GapPatch {
   bool keeps_floor = false;             ///< whatever slot_floor the other side has
   std::optional<int> gap_cells;         ///< lengths across gaps, ahead; nullopt: these do not matter
   std::optional<int> wall_cells;        ///< lengths across walls, behind; nullopt: these do not matter
+  double max_aspect = 1;                ///< lengths along over those across
+  double max_along = 0;                 ///< largest length along, model unit
+  double alpha = 0;                     ///< turning along one length, radians
+  Vec3 way;                             ///< unit, along which the patch's own lengths are longer; zero: along none
   std::int32_t cause = 0;               ///< packed
   std::int32_t solid = -1;              ///< that the face bounds; -1: none
   std::uint64_t inside = ~std::uint64_t{0};  ///< bit 8 * row + column: that of 8 x 8 cells lies inside the loops; rows

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "sizing/gap_stretch.h"
+
 namespace st {
 namespace {
 
@@ -63,11 +65,12 @@ class GapTiler {
     double distance = 0;              // to the other patch along the normal, either sign, model unit
     const GapPatch* other = nullptr;  // none: nothing asks for less
     Vec3 x;                           // where the other patch is met
+    Vec3 from, normal;                // the point, and the patch's normal there
   };
 
   Sight look(double s, double t) const {
     const Vec3 x = patch_.point(s, t), n = patch_.normal_at(s, t);
-    Sight sight{patch_.length, 0, nullptr, {}};
+    Sight sight{patch_.length, 0, nullptr, {}, x, n};
     for (const Facing& f : facing_) {
       const Vec3 to = f.center - x;
       const double along = dot(to, n);
@@ -77,7 +80,7 @@ class GapTiler {
       const std::optional<double> d = f.patch->facing_distance(x, n);
       if (d && !is_contact(*f.patch, *d) && std::abs(*d) < cells_to(patch_, *d) * sight.length &&
           !(*d > 0 && is_past_crossing(*f.patch, s, t, *d)))
-        sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n};
+        sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n, x, n};
     }
     return sight;
   }
@@ -133,27 +136,33 @@ class GapTiler {
     }
   }
 
-  double length_at(double s, double t) const {
-    const Sight sight = look(s, t);
-    return std::max(sight.length, sight.other ? floor_before(patch_, *sight.other) : patch_.min_length);
+  /// Likewise, and no less than the floor.
+  Sight look_above_floor(double s, double t) const {
+    Sight sight = look(s, t);
+    sight.length = std::max(sight.length, sight.other ? floor_before(patch_, *sight.other) : patch_.min_length);
+    return sight;
   }
 
   /// Cuts the tile into n_s x n_t, and each part again while it is larger than its raster box.
   void cut(const Tile& tile, int n_s, int n_t, int depth) {
     const double ds = (tile.s_hi - tile.s_lo) / n_s, dt = (tile.t_hi - tile.t_lo) / n_t;
-    std::array<double, (kMaxParts + 1) * (kMaxParts + 1)> length;
+    std::array<Sight, (kMaxParts + 1) * (kMaxParts + 1)> sight;
     for (int j = 0; j <= n_t; ++j)
-      for (int i = 0; i <= n_s; ++i) length[j * (n_s + 1) + i] = length_at(tile.s_lo + i * ds, tile.t_lo + j * dt);
+      for (int i = 0; i <= n_s; ++i)
+        sight[j * (n_s + 1) + i] = look_above_floor(tile.s_lo + i * ds, tile.t_lo + j * dt);
     for (int j = 0; j < n_t; ++j)
       for (int i = 0; i < n_s; ++i) {
         const int k = j * (n_s + 1) + i;
-        const double smallest = std::min({length[k], length[k + 1], length[k + n_s + 1], length[k + n_s + 2]});
-        visit({tile.s_lo + i * ds, tile.s_lo + (i + 1) * ds, tile.t_lo + j * dt, tile.t_lo + (j + 1) * dt}, smallest,
+        const auto is_less = [](const Sight& a, const Sight& b) { return a.length < b.length; };
+        const Sight& closest = std::min({sight[k], sight[k + 1], sight[k + n_s + 1], sight[k + n_s + 2]}, is_less);
+        visit({tile.s_lo + i * ds, tile.s_lo + (i + 1) * ds, tile.t_lo + j * dt, tile.t_lo + (j + 1) * dt}, closest,
               depth);
       }
   }
 
-  void visit(const Tile& tile, double length, int depth) {
+  /// `closest`: of the tile's corners.
+  void visit(const Tile& tile, const Sight& closest, int depth) {
+    const double length = closest.length;
     if (!(length < patch_.length) || !patch_.is_inside(tile.s_lo, tile.s_hi, tile.t_lo, tile.t_hi)) return;
     const double room = kFill * cell_per_length_ * length;
     const auto parts = [&](double width) {
@@ -162,15 +171,25 @@ class GapTiler {
     const int n_s = parts(tile.s_hi - tile.s_lo), n_t = parts(tile.t_hi - tile.t_lo);
     if (n_s * n_t > 1 && depth < kMaxDepth) return cut(tile, n_s, n_t, depth + 1);
     const double s = 0.5 * (tile.s_lo + tile.s_hi), t = 0.5 * (tile.t_lo + tile.t_hi);
-    add_box(patch_.point(s, t), length, patch_.cause,
+    add_box(patch_.point(s, t), length, patch_.cause, stretch_of(closest),
             reach_of(0.5 * (patch_.point(tile.s_hi, t) - patch_.point(tile.s_lo, t)),
                      0.5 * (patch_.point(s, tile.t_hi) - patch_.point(s, tile.t_lo))));
     if (has_large_) add_far_box(s, t);
   }
 
-  void add_box(Vec3 x, double length, std::int32_t cause, const SampleReach& reach = {}) {
-    boxes_.push_back(
-        {x, static_cast<float>(0.5 * cell_per_length_ * length), static_cast<float>(length), cause, {}, {}, reach});
+  SampleStretch stretch_of(const Sight& sight) const {
+    if (!sight.other) return {};
+    return gap_stretch(patch_, {sight.from, sight.normal, sight.other, sight.x, sight.length});
+  }
+
+  void add_box(Vec3 x, double length, std::int32_t cause, const SampleStretch& stretch, const SampleReach& reach = {}) {
+    boxes_.push_back({x,
+                      static_cast<float>(0.5 * cell_per_length_ * length),
+                      static_cast<float>(length),
+                      cause,
+                      {},
+                      stretch,
+                      reach});
   }
 
   /// Speaks for a patch on the other side that is so large that it may not see this one.
@@ -179,7 +198,7 @@ class GapTiler {
     if (!sight.other || !cells_to(*sight.other, sight.distance) || !is_large(*sight.other)) return;
     const double length =
         std::max(std::abs(sight.distance) / cells_to(*sight.other, sight.distance), floor_before(*sight.other, patch_));
-    if (length < sight.other->length) add_box(sight.x, length, sight.other->cause);
+    if (length < sight.other->length) add_box(sight.x, length, sight.other->cause, stretch_of(sight));
   }
 
   bool is_large(const GapPatch& other) const { return extent(other) > kLarge * extent(patch_); }

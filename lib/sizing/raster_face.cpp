@@ -11,6 +11,7 @@
 #include "sizing/cell_limit.h"
 #include "sizing/line_stretch.h"
 #include "sizing/patch_walk.h"
+#include "sizing/probe_turning.h"
 
 namespace st {
 namespace {
@@ -27,113 +28,6 @@ constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du an
 constexpr double kClearlyFlatter = 0.3;  // smaller over larger curvature: their directions are certain
 constexpr double kClearlyCurved = 0.01;  // of alpha along one length: likewise
 constexpr double kCollapsed = 1e-9;  // derivative over the other one, scaled to the ranges, where a side has collapsed
-
-struct CurvatureProbe {
-  Vec3 x;
-  Vec3 normal;                  // unit; zero at a singular point
-  double curvature = 0;         // largest absolute principal curvature; zero at a singular point
-  std::int32_t member = kNone;  // of a composite surface: on which of its faces
-};
-
-bool is_straddling(const Patch<CurvatureProbe>& patch) {
-  return std::ranges::any_of(patch.probe, [&](const CurvatureProbe& p) { return p.member != patch.probe[0].member; });
-}
-
-/// Pairs of a patch's probes: neighbours along rows, columns and both diagonals. Two that follow each other lie beside
-/// each other.
-struct ProbePairs {
-  static constexpr std::size_t n = 20;
-  std::array<std::uint8_t, n> first{}, second{};
-  std::array<std::array<std::uint8_t, 8>, 9> of_probe{};  // pairs with it
-  std::array<std::uint8_t, 9> n_of_probe{};
-
-  constexpr ProbePairs() {
-    constexpr std::uint8_t kFirst[] = {0, 3, 6, 0, 2, 4, 0, 3, 1, 4}, kSecond[] = {1, 4, 7, 3, 5, 7, 4, 7, 3, 6};
-    for (std::size_t i = 0; i < n; ++i) {
-      first[i] = static_cast<std::uint8_t>(kFirst[i / 2] + i % 2);
-      second[i] = static_cast<std::uint8_t>(kSecond[i / 2] + i % 2);
-      for (const std::size_t k : {first[i], second[i]}) of_probe[k][n_of_probe[k]++] = static_cast<std::uint8_t>(i);
-    }
-  }
-};
-constexpr ProbePairs kPairs;
-
-/// How the surface turns between probes inside the loops, by pair; zero where one is outside.
-struct PairTurning {
-  static constexpr std::size_t n = ProbePairs::n;
-  std::array<double, n> angle, rate;  // rate: angle per distance
-
-  /// `noise`: angles up to it say nothing of the rate. Loops are apart so that two pairs are computed at once.
-  PairTurning(const Patch<CurvatureProbe>& patch, double noise) {
-    std::array<double, n> half{}, length{};
-    add_squares(
-        patch, [](const CurvatureProbe& p) { return p.normal; }, half);
-    add_squares(
-        patch, [](const CurvatureProbe& p) { return p.x; }, length);
-    int n_large = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      half[i] = 0.5 * std::sqrt(half[i]);
-      angle[i] = small_angle(half[i]);
-    }
-    for (std::size_t i = 0; i < n; ++i) n_large += half[i] * half[i] < kSmall2 ? 0 : 1;
-    for (std::size_t i = 0; i < n && n_large > 0; ++i)
-      if (!(half[i] * half[i] < kSmall2))
-        angle[i] = large_angle(half[i], patch.probe[kPairs.first[i]], patch.probe[kPairs.second[i]]);
-    for (std::size_t i = 0; i < n; ++i) {
-      length[i] = std::sqrt(length[i]) * (1 + angle[i] * angle[i] / 24);  // arc from chord
-      const double own = angle[i] / length[i], told = length[i] > 0 ? own : 0;
-      rate[i] = angle[i] > noise ? told : 0;
-    }
-    if (patch.n_inside < 9)
-      for (std::size_t i = 0; i < n; ++i)
-        if (!patch.is_inside[kPairs.first[i]] || !patch.is_inside[kPairs.second[i]]) angle[i] = rate[i] = 0;
-    if (is_straddling(patch)) leave_out_kinks(patch);
-  }
-  static double largest_at(std::size_t probe, const std::array<double, n>& of_pairs) {
-    double largest = 0;
-    for (std::size_t i = 0; i < kPairs.n_of_probe[probe]; ++i)
-      largest = std::max(largest, of_pairs[kPairs.of_probe[probe][i]]);
-    return largest;
-  }
-
- private:
-  /// Where two members of a composite meet, the surface may turn by a small angle over no distance.
-  void leave_out_kinks(const Patch<CurvatureProbe>& patch) {
-    for (std::size_t i = 0; i < n; ++i)
-      if (patch.probe[kPairs.first[i]].member != patch.probe[kPairs.second[i]].member) angle[i] = rate[i] = 0;
-  }
-
-  static constexpr double kSmall2 = 0.01;  // up to there the next term of the series is below rounding
-
-  /// Squared distances between what `of` gives for both probes of each pair.
-  template <class Of>
-  static void add_squares(const Patch<CurvatureProbe>& patch, const Of& of, std::array<double, n>& square) {
-    std::array<double, 9> value[3];
-    for (std::size_t k = 0; k < 9; ++k) {
-      const Vec3 v = of(patch.probe[k]);
-      value[0][k] = v.x, value[1][k] = v.y, value[2][k] = v.z;
-    }
-    for (const std::array<double, 9>& axis : value)
-      for (std::size_t i = 0; i < n; i += 2)
-        for (std::size_t k = 0; k < 2; ++k) {
-          const double d = axis[kPairs.second[i] + k] - axis[kPairs.first[i] + k];
-          square[i + k] += d * d;
-        }
-  }
-  /// From half the distance between unit normals: twice its arcsine.
-  static double small_angle(double half) {
-    constexpr double kTerm[] = {1 / 6.0,      3 / 40.0,        15 / 336.0,        105 / 3456.0,
-                                945 / 42240., 10395 / 599040., 135135 / 9676800., 2027025 / 175472640.};
-    const double square = half * half;
-    double sum = 0;
-    for (std::size_t i = std::size(kTerm); i-- > 0;) sum = square * (kTerm[i] + sum);
-    return 2 * half * (1 + sum);
-  }
-  static double large_angle(double half, const CurvatureProbe& a, const CurvatureProbe& b) {
-    if (a.normal == Vec3{} || b.normal == Vec3{}) return 0;
-    return 2 * std::asin(std::min(1.0, half));
-  }
-};
 
 class FaceRaster {
  public:
@@ -310,31 +204,33 @@ class FaceRaster {
 
   void add_box(const CurvaturePatch& patch, const PatchSize& size, double length) {
     const PatchPart part = part_inside(patch, loops_);
+    Vec3 way;
     boxes_.push_back({patch.sides.empty() ? size.center : part.center,
                       static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_,
-                      SmallNormal(patch.probe[4].normal), stretch_of(patch, length),
+                      SmallNormal(patch.probe[4].normal), stretch_of(patch, length, way),
                       reach_of(part.along_u, part.along_v)});
-    if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length));
+    if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length, way));
     report_.area += inside_area(patch);
     require_samples(static_cast<std::uint64_t>(++report_.n_patches), limits_.max_samples);
   }
 
   /// Along the direction of the smaller curvature, where that allows a longer edge: it turns by no more than alpha, and
   /// its chord is no further from the surface than that of one length across.
-  SampleStretch stretch_of(const CurvaturePatch& patch, double length) {
-    if (!(limits_.max_aspect > 1) || !patch.is_inside[4]) return {};
+  /// Sets the direction, whether it allows more or not.
+  SampleStretch stretch_of(const CurvaturePatch& patch, double length, Vec3& direction) {
+    if (!(limits_.max_aspect > 1) || (!patch.is_inside[4] && !patches_)) return {};
     ++report_.n_evaluations;
     const SurfacePoint2 p = surface_.evaluate2(patch.uv(4));
     const Curvature own = principal_curvature(p);
     const ChordLimit::Answer chord = chord_ ? chord_->answer(p.x) : ChordLimit::Answer{};
-    Vec3 direction = flattest_direction(p, own);
+    direction = flattest_direction(p, own);
     const bool is_clear = std::abs(own.k2) < kClearlyFlatter * std::abs(own.k1) &&
                           std::abs(own.k1) * length > kClearlyCurved * limits_.alpha;
     if (!is_clear && chord.length <= length)  // the chord decides
       direction = normalized(cross(normalized(cross(p.du, p.dv)), chord.direction));
-    if (direction == Vec3{}) return {};
+    if (direction == Vec3{} || !patch.is_inside[4]) return {};
     const double curvature = curvature_along(patch, direction, own);
-    double along = std::min(limits_.max_along.value_or(limits_.max_length), limits_.max_aspect * length);
+    double along = std::min(max_along(), limits_.max_aspect * length);
     if (along * curvature > limits_.alpha) along = limits_.alpha / curvature;
     if (along * along * curvature > limits_.alpha * length) along = std::sqrt(limits_.alpha * length / curvature);
     if (!(along > kLeastStretch * length)) return {};
@@ -359,7 +255,9 @@ class FaceRaster {
     return curvature;
   }
 
-  GapPatch gap_patch(const CurvaturePatch& patch, double length) const {
+  double max_along() const { return limits_.max_along.value_or(limits_.max_length); }
+
+  GapPatch gap_patch(const CurvaturePatch& patch, double length, Vec3 way) const {
     std::array<Vec3, 9> points;
     for (std::size_t k = 0; k < 9; ++k) points[k] = patch.probe[k].x;
     GapPatch result = fit_patch(points, patch.probe[4].normal);
@@ -368,6 +266,10 @@ class FaceRaster {
     result.min_length = limits_.gap_floor > 0 ? result.slot_floor : limits_.min_length;
     result.gap_cells = limits_.gap_cells;
     result.wall_cells = limits_.wall_cells;
+    result.max_aspect = limits_.max_aspect;
+    result.max_along = max_along();
+    result.alpha = limits_.alpha;
+    result.way = way;
     result.cause = cause_;
     result.inside = cells_inside(patch, loops_);
     return result;

@@ -1,0 +1,70 @@
+#include "sizing/gap_stretch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sizing/line_stretch.h"
+
+namespace st {
+namespace {
+
+constexpr double kParallel = 0.02;   // sine between both sides: less tells no direction
+constexpr double kChange = 0.3;      // of the gap's width along one length
+constexpr double kMuchLonger = 1.5;  // than along the patch's own direction: that fits the lengths beside the gap
+
+Vec3 across(Vec3 d, Vec3 n) { return normalized(d - dot(d, n) * n); }
+
+/// Largest curvature in a tangential direction.
+double curvature_in(const GapPatch& patch, Vec3 u) {
+  const double s = dot(u, patch.axis_s), t = dot(u, patch.axis_t);
+  return std::abs(patch.k_ss * s * s + 2 * patch.k_st * s * t + patch.k_tt * t * t);
+}
+
+class GapStretch {
+ public:
+  GapStretch(const GapPatch& patch, const GapPlace& place) : patch_(patch), place_(place) {
+    const Vec3 to = place.met - place.other->x;
+    opposite_ = place.other->normal_at(dot(to, place.other->axis_s), dot(to, place.other->axis_t));
+    width_ = distance(place.x, place.met);
+  }
+
+  SampleStretch run() const {
+    const Vec3 own = across(patch_.way, place_.normal);
+    const Vec3 crossing = cross(place_.normal, opposite_);
+    Vec3 direction = own;
+    double along = own == Vec3{} ? 0 : along_in(own);
+    if (norm(crossing) > kParallel)
+      if (const double other = along_in(normalized(crossing)); other > kMuchLonger * along) {
+        along = other;
+        direction = normalized(crossing);
+      }
+    if (!(along > kLeastStretch * place_.length)) return {};
+    return {SmallNormal(direction), static_cast<float>(along)};
+  }
+
+ private:
+  double along_in(Vec3 u) const {
+    double along = std::min(patch_.max_along, patch_.max_aspect * place_.length);
+    for (const GapPatch* side : {&patch_, place_.other}) {
+      const double curvature = curvature_in(*side, u);
+      if (along * curvature > patch_.alpha) along = patch_.alpha / curvature;
+      if (along * along * curvature > patch_.alpha * place_.length)
+        along = std::sqrt(patch_.alpha * place_.length / curvature);
+    }
+    const double slope = std::abs(dot(opposite_, u) / dot(opposite_, place_.normal));
+    return along * slope > kChange * width_ ? kChange * width_ / slope : along;
+  }
+
+  const GapPatch& patch_;
+  const GapPlace& place_;
+  Vec3 opposite_;  // normal of the other side
+  double width_;
+};
+
+}  // namespace
+
+SampleStretch gap_stretch(const GapPatch& patch, const GapPlace& place) {
+  return patch.max_aspect > 1 ? GapStretch(patch, place).run() : SampleStretch();
+}
+
+}  // namespace st
