@@ -29,15 +29,18 @@ class GapStretch {
   }
 
   SampleStretch run() const {
-    const Vec3 own = across(patch_.way, place_.normal);
     const Vec3 crossing = cross(place_.normal, opposite_);
-    Vec3 direction = own;
-    double along = own == Vec3{} ? 0 : along_in(own);
-    if (norm(crossing) > kParallel)
-      if (const double other = along_in(normalized(crossing)); other > kMuchLonger * along) {
-        along = other;
-        direction = normalized(crossing);
+    Vec3 direction;
+    double along = 0;
+    for (const Vec3 d : {patch_.way, place_.other->way, norm(crossing) > kParallel ? crossing : Vec3{}}) {
+      const Vec3 own = across(d, place_.normal);
+      if (own == Vec3{}) continue;
+      const double longer = along_in(own);
+      if (longer > kMuchLonger * along) {
+        along = longer;
+        direction = own;
       }
+    }
     if (!(along > kLeastStretch * place_.length)) return {};
     return {SmallNormal(direction), static_cast<float>(along)};
   }

@@ -15,9 +15,9 @@ struct GapPlace {
   double length;          ///< that is asked for across the gap, model unit
 };
 
-/// Along the direction of the patch's own stretch, or the one in which the gap stays as wide, if that allows much more.
-/// It turns by no more than alpha along one length on both sides, the chord stays as near as that of one length across,
-/// and the width of the gap changes little. Nothing where the patch is not stretched.
+/// Along the direction of the patch's own stretch, that of the other side's, or the one in which the gap stays as wide,
+/// if that allows much more. It turns by no more than alpha along one length on both sides, the chord stays as near as
+/// that of one length across, and the width of the gap changes little. Nothing where the patch may not be stretched.
 SampleStretch gap_stretch(const GapPatch& patch, const GapPlace& place);
 
 }  // namespace st

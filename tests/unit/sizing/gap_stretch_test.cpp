@@ -46,6 +46,13 @@ TEST(GapStretch, follows_the_patch_where_the_gap_is_even) {
   EXPECT_GT(std::abs(Vec3(stretch.direction).y), 0.99);
 }
 
+TEST(GapStretch, follows_the_other_side_where_the_patch_has_no_direction) {
+  const GapPatch below = flat_patch({0, 0, 0}, {0, 0, 1}, {}), above = flat_patch({0, 0, 0.04}, {0, 0, -1}, {0, 1, 0});
+  const SampleStretch stretch = stretch_below(below, above);
+  EXPECT_NEAR(stretch.along, 0.2, 1e-6);
+  EXPECT_GT(std::abs(Vec3(stretch.direction).y), 0.99);
+}
+
 TEST(GapStretch, follows_the_line_along_which_both_sides_run) {
   // the other side leans by 20 degrees about x: the gap stays as wide along x, the patch has its lengths along y
   const Vec3 leaning{0, std::sin(radians(20)), -std::cos(radians(20))};
