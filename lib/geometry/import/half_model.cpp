@@ -22,8 +22,11 @@
 #include "base/error.h"
 #include "base/face_labels.h"
 #include "geometry/brep/compound.h"
+#include "geometry/brep/face_integral.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/face_turns.h"
 #include "geometry/import/import.h"
+#include "geometry/import/loop_joins.h"
 #include "geometry/import/nested_solids.h"
 #include "geometry/import/plane_loops.h"
 
@@ -83,6 +86,26 @@ bool is_in_plane(const TopoDS_Face& face, const Cut& cut) {
 
 // --- the body on one side ---
 
+Vec3 kept_direction(const Cut& cut) {
+  const gp_Dir d = axis_direction(cut.plane.axis, cut.plane.side);
+  return {d.X(), d.Y(), d.Z()};
+}
+
+/// Throws Error(kGeometry) where the pieces of a face with turns, by `image`, are not as large as its kept side.
+template <typename Image>
+void require_turns(const std::vector<TurnedFace>& turned, const TopTools_IndexedMapOfShape& faces, const Image& image,
+                   const std::string& path) {
+  constexpr double kFacetError = 5e-3;  // of the face's area: facets of face_turns.cpp lack less
+  for (const TurnedFace& t : turned) {
+    const TopoDS_Shape pieces = image(faces(t.face));
+    const double area = pieces.IsNull() ? 0 : area_of_faces(pieces);
+    if (std::fabs(area - t.area) > kFacetError * area_of_faces(faces(t.face)))
+      throw Error(ExitCode::kGeometry, path + ": face " + std::to_string(t.face) +
+                                           " goes around its surface more than once, and OpenCASCADE loses turns of "
+                                           "it at the symmetry plane; cut the model in the CAD system");
+  }
+}
+
 /// Takes the kept side of every solid and loose face by a boolean; attributes follow the pieces.
 void cut_model(ImportedShape& model, const Cut& cut, const Box3& box, const std::string& path) {
   gp_XYZ lo(box.lo.x, box.lo.y, box.lo.z), hi(box.hi.x, box.hi.y, box.hi.z);
@@ -107,9 +130,16 @@ void cut_model(ImportedShape& model, const Cut& cut, const Box3& box, const std:
     if (pieces.IsEmpty()) return face;
     return compound_of(pieces);
   };
+  const TopTools_IndexedMapOfShape faces = model.faces;
+  const std::vector<TurnedFace> turned =
+      turned_faces_beyond(faces, kept_direction(cut), cut.plane.side * cut.plane.value);
   if (!common.IsDone() || common.HasErrors() || !model.replace(common.Shape(), image))
     throw Error(ExitCode::kGeometry,
                 path + ": OpenCASCADE cannot cut the model at the symmetry plane; cut it in the CAD system");
+  if (turned.empty()) return;
+  std::vector<ImportFinding> own;
+  join_loops(model, own);
+  require_turns(turned, faces, image, path);
 }
 
 void keep_one_side(ImportedShape& model, Cut& cut, const Box3& box, std::vector<ImportFinding>& findings,
