@@ -142,7 +142,8 @@ std::uint64_t cells_inside(const Patch<Probe>& patch, const LoopPolygons& loops)
   const Vec2 cell = 0.125 * whole.size();
   std::uint64_t inside = 0;
   for (int k = 0; k < 64; ++k) {
-    const Vec2 middle = whole.lo + Vec2{(k % 8 + 0.5) * cell.x, (k / 8 + 0.5) * cell.y};
+    const int row = k / 8, column = k % 8;
+    const Vec2 middle = whole.lo + Vec2{(column + 0.5) * cell.x, (row + 0.5) * cell.y};
     inside |= static_cast<std::uint64_t>(loops.contains(middle)) << k;
   }
   if (inside != 0) return inside;

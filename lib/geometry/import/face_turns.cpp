@@ -47,7 +47,7 @@ double share_above(std::array<double, 3> height) {
 
 std::optional<double> area_beyond(const TopoDS_Face& face, Vec3 normal, double offset) {
   const TopoDS_Face copy = TopoDS::Face(BRepBuilderAPI_Copy(face).Shape());
-  BRepMesh_IncrementalMesh(copy, kDeflection * rough_box(face).diagonal(), false, kAngle);
+  const BRepMesh_IncrementalMesh mesher(copy, kDeflection * rough_box(face).diagonal(), false, kAngle);
   TopLoc_Location place;
   const Handle(Poly_Triangulation) facets = BRep_Tool::Triangulation(copy, place);
   if (facets.IsNull()) return std::nullopt;

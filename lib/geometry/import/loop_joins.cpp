@@ -42,7 +42,7 @@ std::vector<Piece> pieces_of(const TopoDS_Wire& wire, const TopoDS_Face& face) {
   std::size_t n_edges = 0;
   for (TopExp_Explorer e(wire, TopAbs_EDGE); e.More(); e.Next()) n_edges += !is_constraint(e.Current());
   for (BRepTools_WireExplorer walk(wire); walk.More(); walk.Next()) {
-    const TopoDS_Edge edge = walk.Current();
+    const TopoDS_Edge& edge = walk.Current();
     if (is_constraint(edge)) continue;
     double t0, t1;
     const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);

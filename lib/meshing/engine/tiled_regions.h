@@ -26,8 +26,8 @@ class FaceField {
   const SizeField& get() const { return is_refined_ ? refined_ : field_; }  // spares one call for each length
 
  private:
-  FaceField(const SizeField& field, std::vector<Refinement> near)
-      : field_(field), is_refined_(!near.empty()), refined_(field, std::move(near)) {}
+  FaceField(const SizeField& field, const std::vector<Refinement>& near)
+      : field_(field), is_refined_(!near.empty()), refined_(field, near) {}
   const SizeField& field_;
   bool is_refined_;
   RefinedField refined_;
