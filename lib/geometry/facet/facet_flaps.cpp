@@ -17,6 +17,7 @@ bool are_opposed(const Corners& a, const Corners& b) {
 }  // namespace
 
 std::vector<TwinFacets> find_flaps(const std::vector<Corners>& corners, const std::vector<TwinFacets>& pairs) {
+  if (pairs.empty()) return {};
   std::map<NodePair, std::vector<std::int32_t>> others;  // facets at the sides of pairs, but those of pairs
   std::map<NodePair, int> n_pairs;
   std::vector<std::uint8_t> is_in_pair(corners.size(), 0);
@@ -24,7 +25,6 @@ std::vector<TwinFacets> find_flaps(const std::vector<Corners>& corners, const st
     is_in_pair[a] = is_in_pair[b] = 1;
     for (int k = 0; k < 3; ++k) ++n_pairs[side_of(corners[a], k)];
   }
-  if (pairs.empty()) return {};
   for (std::size_t t = 0; t < corners.size(); ++t)
     for (int k = 0; k < 3; ++k)
       if (!is_in_pair[t] && n_pairs.contains(side_of(corners[t], k)))

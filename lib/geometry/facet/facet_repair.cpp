@@ -10,6 +10,7 @@
 #include "base/boxes.h"
 #include "base/error.h"
 #include "geometry/facet/facet_flaps.h"
+#include "geometry/facet/facets_of_nodes.h"
 #include "geometry/facet/short_sides.h"
 
 namespace st {
@@ -284,7 +285,7 @@ class FacetRepair {
     std::size_t n_turned = 0, n_before = 0;
     for (int pass = 0; pass < kCapPasses; ++pass) {
       const std::vector<Corners> neighbours = find_neighbours(in_.corners);
-      find_facets_around_nodes();
+      facets_ = FacetsOfNodes(in_.corners, in_.x.size());
       std::vector<std::uint8_t> is_touched(in_.corners.size(), 0);
       for (std::int32_t t = 0; t < static_cast<std::int32_t>(in_.corners.size()); ++t) {
         const int k = longest_side(in_.corners[t]);
@@ -360,27 +361,16 @@ class FacetRepair {
   }
 
   bool has_side(std::int32_t a, std::int32_t b) const {
-    return std::any_of(around_.begin() + around_offsets_[a], around_.begin() + around_offsets_[a + 1],
-                       [&](std::int32_t t) { return std::count(in_.corners[t].begin(), in_.corners[t].end(), b) > 0; });
-  }
-
-  void find_facets_around_nodes() {
-    around_offsets_.assign(in_.x.size() + 1, 0);
-    around_.resize(3 * in_.corners.size());
-    for (const Corners& c : in_.corners)
-      for (const std::int32_t n : c) ++around_offsets_[n + 1];
-    std::partial_sum(around_offsets_.begin(), around_offsets_.end(), around_offsets_.begin());
-    std::vector<std::int32_t> next(around_offsets_.begin(), around_offsets_.end() - 1);
-    for (std::size_t t = 0; t < in_.corners.size(); ++t)
-      for (const std::int32_t n : in_.corners[t]) around_[next[n]++] = static_cast<std::int32_t>(t);
+    return std::ranges::any_of(facets_.of(a),
+                               [&](std::int32_t t) { return std::ranges::count(in_.corners[t], b) > 0; });
   }
 
   FacetInput& in_;
   Box3 box_;
   std::vector<ImportFinding> findings_;
-  std::vector<std::array<Link, 3>> links_;             // of each facet, those without another one last
-  std::vector<std::uint8_t> is_open_;                  // has a side that not exactly two facets have
-  std::vector<std::int32_t> around_offsets_, around_;  // facets of each node, when a pass began
+  std::vector<std::array<Link, 3>> links_;  // of each facet, those without another one last
+  std::vector<std::uint8_t> is_open_;       // has a side that not exactly two facets have
+  FacetsOfNodes facets_;                    // when a pass began
   Vec3 place_;
 };
 

@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
-#include <span>
 #include <utility>
 
 #include "base/sort_once.h"
+#include "geometry/facet/facets_of_nodes.h"
 
 namespace st {
 namespace {
@@ -28,14 +27,14 @@ class ShortSides {
         if (is_short(c[k], c[(k + 1) % 3])) sides.push_back(std::minmax(c[k], c[(k + 1) % 3]));
     if (sides.empty()) return 0;
     sort_once(sides);
-    find_facets_around_nodes();
+    facets_ = FacetsOfNodes(in_.corners, in_.x.size());
     is_touched_.assign(in_.x.size(), 0);
     std::size_t n = 0;
     for (const auto& [a, b] : sides) {
       if (is_touched_[a] || is_touched_[b] || !stays_a_surface(a, b)) continue;
       for (const std::int32_t node : {a, b})
         for (const std::int32_t beside : neighbours_of(node)) is_touched_[beside] = 1;
-      for (const std::int32_t t : facets_of(b)) std::ranges::replace(in_.corners[t], b, a);
+      for (const std::int32_t t : facets_.of(b)) std::ranges::replace(in_.corners[t], b, a);
       ++n;
     }
     drop_facets_without_three_nodes();
@@ -50,25 +49,10 @@ class ShortSides {
     return distance(in_.x[a], in_.x[b]) <= std::min(gap_, kSinglePrecision * largest);
   }
 
-  void find_facets_around_nodes() {
-    around_offsets_.assign(in_.x.size() + 1, 0);
-    around_.resize(3 * in_.corners.size());
-    for (const Corners& c : in_.corners)
-      for (const std::int32_t n : c) ++around_offsets_[n + 1];
-    std::partial_sum(around_offsets_.begin(), around_offsets_.end(), around_offsets_.begin());
-    std::vector<std::int32_t> next(around_offsets_.begin(), around_offsets_.end() - 1);
-    for (std::size_t t = 0; t < in_.corners.size(); ++t)
-      for (const std::int32_t n : in_.corners[t]) around_[next[n]++] = static_cast<std::int32_t>(t);
-  }
-
-  std::span<const std::int32_t> facets_of(std::int32_t node) const {
-    return std::span(around_).subspan(around_offsets_[node], around_offsets_[node + 1] - around_offsets_[node]);
-  }
-
   /// And itself, ascending.
   std::vector<std::int32_t> neighbours_of(std::int32_t node) const {
     std::vector<std::int32_t> nodes;
-    for (const std::int32_t t : facets_of(node))
+    for (const std::int32_t t : facets_.of(node))
       nodes.insert(nodes.end(), in_.corners[t].begin(), in_.corners[t].end());
     sort_once(nodes);
     return nodes;
@@ -76,7 +60,7 @@ class ShortSides {
 
   bool stays_a_surface(std::int32_t a, std::int32_t b) const {
     std::vector<std::int32_t> opposite{a, b}, common;
-    for (const std::int32_t t : facets_of(a)) {
+    for (const std::int32_t t : facets_.of(a)) {
       const Corners& c = in_.corners[t];
       if (std::ranges::count(c, b) > 0) opposite.insert(opposite.end(), c.begin(), c.end());
     }
@@ -89,7 +73,7 @@ class ShortSides {
   bool lie_on_each_other(std::int32_t a, std::int32_t b) const {
     const auto others = [&](std::int32_t node) {
       std::vector<NodePair> sides;
-      for (const std::int32_t t : facets_of(node)) {
+      for (const std::int32_t t : facets_.of(node)) {
         const Corners& c = in_.corners[t];
         const auto k = std::ranges::find(c, node) - c.begin();
         sides.push_back(std::minmax(c[(k + 1) % 3], c[(k + 2) % 3]));
@@ -116,8 +100,8 @@ class ShortSides {
 
   FacetInput& in_;
   double gap_;
-  std::vector<std::int32_t> around_offsets_, around_;  // facets of each node
-  std::vector<std::uint8_t> is_touched_;               // nodes beside a side that went
+  FacetsOfNodes facets_;                  // when the pass began
+  std::vector<std::uint8_t> is_touched_;  // nodes beside a side that went
 };
 
 }  // namespace
