@@ -56,7 +56,7 @@ def report_sources(field, nodes):
         (field.folder / "s.toml").write_text(text)
         asked = numpy.minimum(before, (share * before + SLOPE * apart).min(axis=1))
         ratio = field.at(chosen, "--sources", field.folder / "s.toml") / asked
-        print(f"sources of {share} of the length: field / asked {ratio.min():.9f} to {ratio.max():.9f}")
+        print(f"sources of {share} of the length: field / asked is 1 within {abs(ratio - 1).max():.1e}")
 
 
 def report_background(field, nodes):
@@ -74,7 +74,7 @@ def report_background(field, nodes):
     points = numpy.random.default_rng(5).uniform(low, high, (N_POINTS, 3))
     asked = 0.3 * least + (points - low) @ slope / 3
     ratio = field.at(points, "--background", field.folder / "b.bac") / asked
-    print(f"background at {N_POINTS} points: field / asked {ratio.min():.9f} to {ratio.max():.9f}")
+    print(f"background at {N_POINTS} points: field / asked is 1 within {abs(ratio - 1).max():.1e}")
 
 
 def main():

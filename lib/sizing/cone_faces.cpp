@@ -189,9 +189,9 @@ class FaceAgreement {
   }
 
   bool touches(std::int32_t a, std::int32_t b) const {
-    constexpr float kRounded = 1 + 1e-4F;  // of the halves of cells
     const ConeCell &first = sites_.cell[a], &second = sites_.cell[b];
-    const float reach = kRounded * (first.half + second.half);
+    // Cells that do not touch are farther apart by the smaller one. Rounding of places in a large cube is far less.
+    const float reach = first.half + second.half + std::min(first.half, second.half) / 2;
     for (int k = 0; k < 3; ++k)
       if (std::abs(first.c[k] - second.c[k]) > reach) return false;
     return true;

@@ -208,7 +208,7 @@ std::size_t sample_sizes(const OctreeField& field, const CauseNames& names, cons
     const SizeExplanation why = field.explain(x);
     std::string cause = cause_text(names, why.cause);
     for (std::size_t k = 0; (k = cause.find('"', k)) != std::string::npos; k += 2) cause.insert(k, 1, '"');
-    out << fmt::format("{},{},{},{:.9g},{:.6g},{:.6g},{:.6g},\"{}\"\n", x.x, x.y, x.z, why.length, why.gradient.x,
+    out << fmt::format("{},{},{},{},{:.6g},{:.6g},{:.6g},\"{}\"\n", x.x, x.y, x.z, why.length, why.gradient.x,
                        why.gradient.y, why.gradient.z, cause);
     ++n;
   }

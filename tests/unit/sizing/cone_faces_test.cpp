@@ -107,8 +107,8 @@ TEST(ConeFaces, pass_nothing_where_a_link_is_closed) {
   EXPECT_EQ(row.settled(1), (CellSamples{0, 1}));
 }
 
-/// Of a block of 2 x 2 x 2 cells.
-CellRow cell_block() {
+/// Of a block of 2 x 2 x 2 cells, the first one's centre at the same coordinate along each axis.
+CellRow cell_block(float from) {
   CellRow block(8);
   block.beside.clear();
   block.graph.of_beside.clear();
@@ -116,7 +116,7 @@ CellRow cell_block() {
   for (int i = 0; i < 8; ++i) {
     const auto first = static_cast<std::int32_t>(block.beside.size());
     for (int k = 0; k < 3; ++k) {
-      block.graph.cell[i].c[k] = static_cast<float>(i >> k & 1);
+      block.graph.cell[i].c[k] = from + static_cast<float>(i >> k & 1);
       block.beside.push_back({i ^ 1 << k, 1 << (2 * k + 1 - (i >> k & 1))});
     }
     block.graph.of_beside.push_back({first, first + 3});
@@ -126,8 +126,8 @@ CellRow cell_block() {
 }
 
 /// With a cone at each centre: longer than at the first one by so much after so many steps along the axes.
-CellRow rising_block(const std::array<float, 4>& rise) {
-  CellRow block = cell_block();
+CellRow rising_block(const std::array<float, 4>& rise, float from = 0) {
+  CellRow block = cell_block(from);
   std::vector<std::vector<std::int32_t>> own;
   for (int i = 0; i < 8; ++i) {
     const float* c = block.graph.cell[i].c;
@@ -145,6 +145,12 @@ TEST(ConeFaces, settle_the_steps_to_centres_across_edges_and_corners) {
   const CellRow steep_across_corner = rising_block({0, 0.19F, 0.28F, 0.47F});
   EXPECT_EQ(steep_across_corner.settled(3), (CellSamples{3})) << "0.28 over the root of 2";
   EXPECT_EQ(steep_across_corner.settled(7), (CellSamples{0, 7}));
+}
+
+TEST(ConeFaces, settle_the_steps_to_centres_of_small_cells_in_a_large_cube) {
+  constexpr float kFar = 16'383.3F;  // the next centre is 1.001 away, as rounded
+  const CellRow steep_across_edges = rising_block({0, 0.19F, 0.38F, 0.38F}, kFar);
+  EXPECT_EQ(steep_across_edges.settled(3), (CellSamples{0, 3}));
 }
 
 TEST(ConeFaces, settle_the_steps_to_centres_everywhere) {
