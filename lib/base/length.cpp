@@ -57,6 +57,11 @@ LengthSpec parse_length(const std::string& text, const std::string& option) {
   return spec;
 }
 
+std::string in_unit(const std::string& unit, int power) {
+  if (unit.empty()) return "";
+  return power == 1 ? " " + unit : " " + unit + "^" + std::to_string(power);
+}
+
 double resolve_length(const LengthSpec& spec, const LengthReference& reference, const std::string& option) {
   const auto of_wing = [&](const std::optional<double>& length) {
     if (!length)

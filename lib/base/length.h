@@ -33,6 +33,9 @@ std::optional<double> unit_in_metres(const std::string& name);
 /// for a non-finite or a non-positive value.
 LengthSpec parse_length(const std::string& text, const std::string& option);
 
+/// What follows a number that is printed: " m", " m^2"; empty for a model without a unit.
+std::string in_unit(const std::string& unit, int power = 1);
+
 /// The length in the model unit. Throws Error(kUsage) for an absolute length in a model without a unit (names --unit),
 /// and for one of chord or span where there is none.
 double resolve_length(const LengthSpec& spec, const LengthReference& reference, const std::string& option);

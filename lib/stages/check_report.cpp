@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/length.h"
 #include "stages/text_table.h"
 #include "stages/wing_table.h"
 
@@ -214,7 +215,7 @@ std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const
 }  // namespace
 
 std::string length_text(double length, const std::string& unit) {
-  return fmt::format("{:.3g}{}{}", length, unit.empty() ? "" : " ", unit);
+  return fmt::format("{:.3g}{}", length, in_unit(unit));
 }
 
 std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {

@@ -75,9 +75,8 @@ Check check_volume(const TopologyReport& topology, const MeshMeasure& measure, c
   const bool has_volume =  // faces between solids are walls of both
       topology.is_closed() && topology.n_cad_boundary_edges == 0 && topology.n_cad_nonmanifold_edges == 0;
   if (has_volume && !(measure.volume > 0)) c.defects.add({});
-  c.note = has_volume
-               ? fmt::format("{:.9g}{}{}", measure.volume, unit.empty() ? "" : " " + unit, unit.empty() ? "" : "^3")
-               : "open, or faces between solids: none";
+  c.note =
+      has_volume ? fmt::format("{:.9g}{}", measure.volume, in_unit(unit, 3)) : "open, or faces between solids: none";
   return c;
 }
 

@@ -88,7 +88,7 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
     const std::string own = of_group.empty() ? "" : ", or the tolerance of their group,";
     Check c{"max-deviation",
             fmt::format("faces with a triangle centroid off the surface by more than {:.6g}{}{}", bound,
-                        f.unit.empty() ? "" : " " + f.unit, own),
+                        in_unit(f.unit), own),
             {},
             true,
             ""};

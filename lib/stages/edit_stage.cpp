@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "base/length.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/similarity.h"
@@ -390,11 +391,11 @@ StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, cons
   const auto n_moved =
       std::count_if(e.motion.begin(), e.motion.end(), [](const Similarity& m) { return m != Similarity(); });
   StageSummary s;
-  const auto in_unit = [&](int power) { return t.unit.empty() ? "" : fmt::format(" {}^{}", t.unit, power); };
-  s.line = fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}{}, {:.2f} s", o.output,
-                       t.n_faces(), inputs.files.size(), inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
-                       r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.uses.n_free), area, in_unit(2),
-                       t.volume ? fmt::format(", volume {:.6g}{}", *t.volume, in_unit(3)) : "", seconds);
+  s.line =
+      fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}{}, {:.2f} s", o.output,
+                  t.n_faces(), inputs.files.size(), inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
+                  r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.uses.n_free), area, in_unit(t.unit, 2),
+                  t.volume ? fmt::format(", volume {:.6g}{}", *t.volume, in_unit(t.unit, 3)) : "", seconds);
   const nlohmann::ordered_json json = {
       {"tool", "st-edit"},
       {"output", o.output},

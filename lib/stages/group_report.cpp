@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/length.h"
 #include "geometry/model/groups.h"
 #include "io/file/json_text.h"
 #include "io/hdf5/artifact.h"
@@ -167,10 +168,9 @@ std::string in_words(const Json& group, const Identity& id) {
   std::string text = part.empty() ? "" : " of " + part;
   if (!name.empty()) text += " named " + name;
   if (box.is_empty()) return text;
-  const std::string unit = id.unit.empty() ? "" : " " + id.unit;
   return text + fmt::format(", area {:.4g}{}, from ({:.4g}, {:.4g}, {:.4g}) to ({:.4g}, {:.4g}, {:.4g}){}", area,
-                            unit.empty() ? "" : unit + "^2", box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z,
-                            unit);
+                            in_unit(id.unit, 2), box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z,
+                            in_unit(id.unit));
 }
 
 /// Lists groups of faces, edges or vertices.

@@ -9,6 +9,7 @@
 
 #include "base/child_process.h"
 #include "base/hash.h"
+#include "base/length.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/threads.h"
@@ -112,8 +113,6 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"box", {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}}};
 }
 
-std::string in_unit(const ImportResult& r) { return r.tables.unit.empty() ? "" : " " + r.tables.unit; }
-
 Model model_of(const ImportResult& r) { return r.facets.empty() ? Model(r.tables, r.brep) : Model(r.tables, r.facets); }
 
 /// Says what the shape suggests; the file's text.
@@ -142,10 +141,10 @@ nlohmann::json list_wing_edges(const ImportResult& r) {
     const WingEdge& w = edges[i];
     log_report(fmt::format(
         "  {}, {} at ({:.6g}, {:.6g}, {:.6g}), length {:.4g}{}, angle {:.3g} deg{}", t.edge_label(w.edge),
-        name_of(w.kind), w.middle.x, w.middle.y, w.middle.z, w.length, in_unit(r), degrees(w.angle),
-        w.size > 0
-            ? fmt::format(", {} {:.4g}{}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size, in_unit(r))
-            : ""));
+        name_of(w.kind), w.middle.x, w.middle.y, w.middle.z, w.length, in_unit(r.tables.unit), degrees(w.angle),
+        w.size > 0 ? fmt::format(", {} {:.4g}{}", w.kind == WingEdgeKind::kLeading ? "radius" : "width", w.size,
+                                 in_unit(r.tables.unit))
+                   : ""));
   }
   if (edges.size() > kFindingsShown)
     log_report(fmt::format("  ... and {} more: see --json", edges.size() - kFindingsShown));
@@ -257,22 +256,23 @@ void say_open_vertices(const ImportStageOptions& o, const ImportResult& r) {
     log_warning(fmt::format(
         "{}: edges end away from {}, by up to {:.3g}{} at {} ({:.6g}, {:.6g}, {:.6g}); st-check fails meshes whose "
         "lengths there are about as small: repair the CAD there, or ask for longer ones",
-        o.model, n == 1 ? "their vertex" : fmt::format("{} vertices", n), worst->size, in_unit(r), worst->entity,
-        worst->xyz.x, worst->xyz.y, worst->xyz.z));
+        o.model, n == 1 ? "their vertex" : fmt::format("{} vertices", n), worst->size, in_unit(r.tables.unit),
+        worst->entity, worst->xyz.x, worst->xyz.y, worst->xyz.z));
 }
 
 /// How far the half that --mirror makes is from what was there.
 void say_mirror(const ImportResult& r) {
   for (const ImportFinding& f : r.findings)
     if (f.kind == FindingKind::kMirrored)
-      log_report(fmt::format("  {}{} at ({:.6g}, {:.6g}, {:.6g})", f.what(), in_unit(r), f.xyz.x, f.xyz.y, f.xyz.z));
+      log_report(fmt::format("  {}{} at ({:.6g}, {:.6g}, {:.6g})", f.what(), in_unit(r.tables.unit), f.xyz.x, f.xyz.y,
+                             f.xyz.z));
 }
 
 /// What --cap closed, and what it could not.
 void say_openings(const ImportStageOptions& o, const ImportResult& r) {
   for (const ImportFinding& f : r.findings) {
     if (f.kind == FindingKind::kCapped)
-      log_report(fmt::format("  {}: {}{}", f.entity, f.what(), r.tables.unit.empty() ? "" : in_unit(r) + "^2"));
+      log_report(fmt::format("  {}: {}{}", f.entity, f.what(), in_unit(r.tables.unit, 2)));
     if (f.kind == FindingKind::kOpeningLeft)
       log_warning(fmt::format("{}: {}, at ({:.6g}, {:.6g}, {:.6g})", o.model, f.what(), f.xyz.x, f.xyz.y, f.xyz.z));
   }
@@ -357,7 +357,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
     const ImportFinding& f = r.findings[i];
     say_line(fmt::format("  {}{}{} at ({:.6g}, {:.6g}, {:.6g}), size {:.4g}{}", f.is_repair ? "repaired: " : "",
                          f.what(), f.entity.empty() ? "" : ": " + f.entity, f.xyz.x, f.xyz.y, f.xyz.z, f.size,
-                         in_unit(r)));
+                         in_unit(r.tables.unit)));
   }
   if (n > shown) say_line(fmt::format("  ... and {} more: see --json", n - shown));
 }
@@ -365,11 +365,10 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
 /// "box 37.8 x 18.9 x 4.1 m, area 520 m^2, volume 402 m^3".
 std::string extent(const ImportResult& r) {
   const Box3 box = r.tables.box();
-  const std::string unit = r.tables.unit.empty() ? "" : " " + r.tables.unit, square = unit.empty() ? "" : unit + "^2",
-                    cube = unit.empty() ? "" : unit + "^3";
+  const std::string& unit = r.tables.unit;
   std::string text = fmt::format("box {:.6g} x {:.6g} x {:.6g}{}, area {:.6g}{}", box.hi.x - box.lo.x,
-                                 box.hi.y - box.lo.y, box.hi.z - box.lo.z, unit, r.area, square);
-  if (r.is_closed) text += fmt::format(", volume {:.6g}{}", r.volume, cube);
+                                 box.hi.y - box.lo.y, box.hi.z - box.lo.z, in_unit(unit), r.area, in_unit(unit, 2));
+  if (r.is_closed) text += fmt::format(", volume {:.6g}{}", r.volume, in_unit(unit, 3));
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/length.h"
 #include "base/text.h"
 #include "geometry/model/joined_tables.h"
 #include "io/file/json_text.h"
@@ -158,7 +159,7 @@ std::string property_text(const AttributeSummary& property, const std::string& u
   const double* value = std::get_if<double>(&property.value);
   if (!value) return dump(to_json(property));
   const bool is_length = property.name == "diagonal" || property.name.ends_with("_length");
-  return fmt::format("{:.6g}{}", *value, is_length && !unit.empty() ? " " + unit : "");
+  return fmt::format("{:.6g}{}", *value, is_length ? in_unit(unit) : "");
 }
 
 std::string info_lines(const std::string& path, const ArtifactDescription& artifact, const FaceOrigins& origins) {

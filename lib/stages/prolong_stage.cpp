@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/length.h"
 #include "base/limits.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -263,8 +264,7 @@ void raise_background(double least, const SizingArtifact& sizing, BackgroundMesh
     log_warning(
         fmt::format("{} of {} nodes of the background mesh ask for less than the raster's lmin, {:.4g}{}, and "
                     "get it; give st-raster a smaller --lmin",
-                    n, mesh.node_xyz.size(), sizing.frame.scale * least,
-                    sizing.header.unit.empty() ? "" : " " + sizing.header.unit));
+                    n, mesh.node_xyz.size(), sizing.frame.scale * least, in_unit(sizing.header.unit)));
 }
 
 /// Adds the sources of `o`, and all that depends on them and on the scale, to the octree's lengths.
@@ -354,9 +354,8 @@ ProlongedSizes change_sources(ProlongStageOptions o, Progress& progress) {
 void report_undercuts(const SizingArtifact& sizing) {
   if (sizing.undercuts.empty()) return;
   const double scale = sizing.scale * sizing.frame.scale;
-  const std::string in_unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit;
   log_report(fmt::format("  {} places on faces are below the lmin given for them, down to {:.4g}{}, because of {}",
-                         count(sizing.undercuts), scale * least_of(sizing.undercuts), in_unit,
+                         count(sizing.undercuts), scale * least_of(sizing.undercuts), in_unit(sizing.header.unit),
                          undercut_text(sizing.undercuts, sizing.names, scale)));
 }
 

@@ -282,7 +282,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
   sizes.end_size = end_size(o);
   sizes.given = find_floors(rules, false, model.tables(), wings.edges, limits);
-  const std::string unit = model.tables().unit.empty() ? "" : " " + model.tables().unit;
+  const std::string unit = in_unit(model.tables().unit);
   warn_of_floor(o, wings.aircraft.wings, sizes, unit);
   std::optional<RaisedLength> most;
   for (const LiftingSurface& wing : wings.aircraft.wings) {
@@ -302,8 +302,9 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
 void report_undercuts(const RasterArtifact& a) {
   if (a.undercuts.empty()) return;
   log_report(fmt::format(
-      "  {} of {} samples are below the lmin given for them, down to {:.4g}, on narrower strips or bases: {}",
-      count(a.undercuts), a.samples.size(), least_of(a.undercuts), undercut_text(a.undercuts, a.cause_names(), 1)));
+      "  {} of {} samples are below the lmin given for them, down to {:.4g}{}, on narrower strips or bases: {}",
+      count(a.undercuts), a.samples.size(), least_of(a.undercuts), in_unit(a.header.unit),
+      undercut_text(a.undercuts, a.cause_names(), 1)));
 }
 
 nlohmann::ordered_json below_lmin_json(const RasterArtifact& a) {
@@ -656,12 +657,13 @@ FaceCells locate_faces(const Model& model, const OctreeShape& shape, const Model
   return faces;
 }
 
-void warn_of_depth(const DepthLimit& depth) {
+void warn_of_depth(const DepthLimit& depth, const std::string& unit) {
   if (depth.n_samples == 0) return;
   log_warning(fmt::format(
-      "{} samples with lengths down to {:.4g} need smaller cells than those of the octree's deepest level {}, {:.4g}; "
+      "{} samples with lengths down to {:.4g}{} need smaller cells than those of the octree's deepest level {}, "
+      "{:.4g}{}; "
       "their lengths apply in cells of that size; mesh in a smaller domain, or use larger lengths",
-      depth.n_samples, depth.smallest_length, kMaxLevel, depth.smallest_cell));
+      depth.n_samples, depth.smallest_length, in_unit(unit), kMaxLevel, depth.smallest_cell, in_unit(unit)));
 }
 
 nlohmann::json depth_json(const DepthLimit& depth) {
@@ -839,7 +841,7 @@ class RasterRun {
     times_.gather(comm_);
     if (comm_.is_root()) {
       progress_.step("writing", 0.9);
-      warn_of_depth(counts_.depth);
+      warn_of_depth(counts_.depth, model_.tables().unit);
       write();
     }
     trace_.write();

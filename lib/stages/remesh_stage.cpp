@@ -433,8 +433,8 @@ nlohmann::json tell_association(const RemeshStageOptions& o, const RemeshInput& 
 
 StageSummary with_distance(StageSummary summary, const RemeshInput& in) {
   if (in.foreign)
-    summary.line += fmt::format("; nodes within {:.3g}{} of the CAD", in.foreign->report.max_distance,
-                                in.geometry.unit.empty() ? "" : " " + in.geometry.unit);
+    summary.line +=
+        fmt::format("; nodes within {:.3g}{} of the CAD", in.foreign->report.max_distance, in_unit(in.geometry.unit));
   return summary;
 }
 

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/length.h"
 #include "base/near_face_name.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
@@ -156,7 +157,7 @@ StageSummary run_size_at(const std::string& artifact, const std::string& text) {
     throw Error(ExitCode::kUsage, fmt::format("--at '{}': not a point; write three numbers, such as 1.5,0,-2", text));
   const MappedSizing sizing = map_sizing(artifact);
   const PointSize size = find_size(artifact, *sizing.field, x);
-  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit;
+  const std::string unit = in_unit(sizing.header.unit);
   StageSummary summary;
   summary.line = fmt::format("{} at {}: {}", artifact, to_text(x), size_text(size, unit));
   summary.json = json_text(size_json(artifact, size));
@@ -170,7 +171,7 @@ StageSummary run_size_why(const std::string& artifact, const std::string& group,
   const std::vector<std::uint8_t> is_in = find_named_faces(group, raster);
   const auto n_faces = std::count(is_in.begin(), is_in.end(), 1);
   const GroupSizes sizes = sizes_of_faces(group, is_in, raster, *sizing.field);
-  const std::string unit = sizing.header.unit.empty() ? "" : " " + sizing.header.unit;
+  const std::string unit = in_unit(sizing.header.unit);
   StageSummary summary;
   summary.line =
       fmt::format("{}, \"{}\": {} face{}, about {:.0f} triangles, least length {:.4g}{}, median {:.4g}{}", artifact,

@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/length.h"
 #include "sizing/size_field.h"
 #include "stages/expected_triangles.h"
 #include "stages/text_table.h"
@@ -20,8 +21,9 @@ std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share);
 
 std::vector<std::string> table_of(const std::vector<GroupSizes>& groups, const CauseNames& names, std::size_t most,
                                   bool has_triangles, const std::string& unit) {
-  const std::string in_unit = unit.empty() ? "" : ", " + unit;
-  std::vector<TableRow> rows{{"group", "triangles", "least length" + in_unit, "median" + in_unit, "most because of"}};
+  const std::string comma_unit = unit.empty() ? "" : ", " + unit;
+  std::vector<TableRow> rows{
+      {"group", "triangles", "least length" + comma_unit, "median" + comma_unit, "most because of"}};
   for (std::size_t i = 0; i < std::min(groups.size(), most); ++i) {
     const GroupSizes& g = groups[i];
     rows.push_back({g.name, fmt::format("{:.0f}", g.triangles), fmt::format("{:.4g}", g.least),
@@ -105,8 +107,7 @@ std::string range_text(const std::vector<GroupSizes>& groups, const std::string&
                                       [](const GroupSizes& a, const GroupSizes& b) { return a.least < b.least; });
   const auto largest = std::max_element(groups.begin(), groups.end(),
                                         [](const GroupSizes& a, const GroupSizes& b) { return a.largest < b.largest; });
-  return fmt::format(", lengths {:.4g} to {:.4g}{}{} on the faces", least->least, largest->largest,
-                     unit.empty() ? "" : " ", unit);
+  return fmt::format(", lengths {:.4g} to {:.4g}{} on the faces", least->least, largest->largest, in_unit(unit));
 }
 
 std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/length.h"
 #include "base/log.h"
 #include "base/nearest_name.h"
 #include "io/file/text_file.h"
@@ -99,13 +100,13 @@ double distance_between(const Box3& a, Vec3 lo, Vec3 hi) {
 
 /// What is to be said of something outside: how far it is away, and what of it is felt inside.
 std::string outside_text(double away, double least_inside, double far_length, const std::string& unit) {
-  const std::string in_unit = unit.empty() ? "" : " " + unit;
   return fmt::format(
       "lies {:.4g}{} outside the octree, which holds the model alone: {}; is it in the model's unit and "
       "place (--transform)?",
-      away, in_unit,
-      least_inside < far_length ? fmt::format("only its growth reaches in, as {:.4g}{} or more", least_inside, in_unit)
-                                : "it has no effect");
+      away, in_unit(unit),
+      least_inside < far_length
+          ? fmt::format("only its growth reaches in, as {:.4g}{} or more", least_inside, in_unit(unit))
+          : "it has no effect");
 }
 
 }  // namespace
@@ -159,7 +160,7 @@ void warn_of_outside(const BackgroundMesh& background, const FaceCells& faces, c
     log_warning(
         fmt::format("{:.2g} % of the model's area lies outside the background mesh, up to {:.4g}{}: lengths "
                     "grow there from its border",
-                    100 * outside / area, most, unit.empty() ? "" : " " + unit));
+                    100 * outside / area, most, in_unit(unit)));
 }
 
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,

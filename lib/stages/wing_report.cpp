@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/length.h"
 #include "base/sort_once.h"
 #include "features/station_gaps.h"
 
@@ -19,8 +20,6 @@ std::vector<const UnusedTrailing*> longest_first(std::span<const UnusedTrailing>
                    [](const UnusedTrailing* a, const UnusedTrailing* b) { return a->length > b->length; });
   return order;
 }
-
-std::string in_unit(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
 
 std::vector<std::int32_t> from_one(std::vector<std::int32_t> ids) {
   for (std::int32_t& id : ids) ++id;

@@ -76,5 +76,11 @@ TEST(Length, unit_names_are_known_in_any_case_and_spelling) {
   EXPECT_FALSE(unit_in_metres(""));
 }
 
+TEST(Length, a_number_is_followed_by_its_unit) {
+  EXPECT_EQ(in_unit("mm"), " mm");
+  EXPECT_EQ(in_unit("mm", 3), " mm^3");
+  EXPECT_EQ(in_unit("", 2), "");
+}
+
 }  // namespace
 }  // namespace st
