@@ -345,12 +345,7 @@ void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Sp
 void add_unheld(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, std::vector<UnheldPlace>& all) {
   const auto add = [&](std::size_t i, Vec3 WingRecord::Station::*place, double has) {
     const WingRecord::Station& s = *spanwise.station[i];
-    if (!(s.asked > 0) || has <= kHeld * s.asked || !mesh.is_at(s.*place)) return;
-    double radius = kAround * s.asked;
-    for (const int step : {-1, 1})
-      if (const auto next = spanwise.beside(i, step))
-        radius = std::max(radius, 0.5 * distance(s.*place, spanwise.station[*next]->*place));
-    all.push_back({s.*place, radius});
+    if (s.asked > 0 && has > kHeld * s.asked && mesh.is_at(s.*place)) all.push_back({s.*place, kAround * s.asked});
   };
   for (std::size_t i = 0; i < spanwise.station.size(); ++i) {
     add(i, &WingRecord::Station::nose, nose_of(mesh, wing, spanwise, i).normal);

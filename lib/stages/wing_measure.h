@@ -59,7 +59,7 @@ struct WingMeasure {
 /// their lengths around a place. Local; linear in triangles for each of the five stations.
 std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const WingRecord> wings);
 
-/// A nose or trailing edge that is coarser than 1.3 times what was asked for, and half of the way to the next ones.
+/// A nose or trailing edge that is coarser than 1.3 times what was asked for, and three of these lengths.
 struct UnheldPlace {
   Vec3 xyz;
   double radius;  ///< model unit

@@ -26,7 +26,7 @@ class FlawFinder {
       : points_(points),
         triangles_(triangles),
         present_(present),
-        wider_(n_tries > kGentleTries ? std::exp2(n_tries - kGentleTries) : 1),
+        is_late_(n_tries > kGentleTries),
         factor_(triangles.size(), 1),
         is_obtuse_(triangles.size(), 0) {}
 
@@ -80,7 +80,7 @@ class FlawFinder {
     });
   }
 
-  /// `is_long`: lengths along differ from those across; they become no shorter than these, at last everywhere these.
+  /// `is_long`: lengths along differ from those across; they become no shorter than these, at last these.
   RefinementPoint place_at(std::size_t t, bool& is_long) const {
     const Triangle& r = triangles_[t];
     const double longest =
@@ -91,19 +91,19 @@ class FlawFinder {
     is_long = local.along > kAlike * local.length;
     const double factor = is_obtuse_[t] ? std::min(kShorter, factor_[t]) : factor_[t];
     const double shorter = factor * std::min(local.along, longest);
-    const bool is_last = wider_ > 1 && is_obtuse_[t] && is_obtuse(r, kFarAngle);
+    const bool is_last = is_late_ && is_obtuse_[t] && is_obtuse(r, kFarAngle);
     if (is_last)
       place.length = is_long ? 0 : kLast * local.length;
     else
       place.length = std::max(is_long ? local.length : 0, shorter);
-    place.radius = kAround * (is_last ? wider_ : 1) * longest;
+    place.radius = kAround * longest;
     return place;
   }
 
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
   const SizeField& present_;
-  double wider_;                 // than kAround
+  bool is_late_;                 // after a few gentle rounds
   std::vector<double> factor_;   // [triangles] of lengths along, by neighbours; 1: none is asked for
   std::vector<char> is_obtuse_;  // [triangles]
 };

@@ -22,7 +22,7 @@ struct StretchFlaws {
 };
 
 /// `present`: the lengths that the triangles were made for. `n_tries`: made before; after a few, lengths along become
-/// those across at once about angles above 150 degrees, further around each time. Local, linear.
+/// those across at once about angles above 150 degrees. Local, linear.
 StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                 const SizeField& present, int n_tries);
 

@@ -27,13 +27,13 @@ constexpr int kHalvings = 10;              // between probes
 constexpr double kLonger = 1.1;            // there over the least one: less is no ridge
 constexpr double kTurned = 0.7;            // cosine between steps: a line that turns more ends
 constexpr double kClear = 1.5;             // lengths across, to other nodes and edges that must stay
-constexpr double kClearBeside = 8;         // likewise, to such edges along the line: their rows cover it
+constexpr double kClearBeside = 20;        // likewise, to such edges along the line: their rows cover it
 constexpr double kBesideCosine = 0.8;      // between such an edge and the line
 constexpr std::size_t kLeastNodes = 4;
 
 class RidgeLayer {
  public:
-  explicit RidgeLayer(FaceWork& work) : w_(work), m_(work.mesh) {}
+  explicit RidgeLayer(FaceWork& work) : w_(work), m_(work.mesh), beside_(work.segments.begin(), work.segments.end()) {}
 
   std::vector<std::vector<std::int32_t>> run() {
     std::vector<std::vector<std::int32_t>> lines;
@@ -165,6 +165,8 @@ class RidgeLayer {
       if (n != kNone) lines.back().push_back(n);
     }
     std::erase_if(lines, [](const auto& line) { return line.size() < kLeastNodes; });
+    for (const auto& line : lines)
+      for (std::size_t i = 1; i < line.size(); ++i) beside_.push_back({line[i - 1], line[i]});
     return lines;
   }
 
@@ -183,12 +185,16 @@ class RidgeLayer {
 
   bool is_crowded(const MeshNode& p, std::int32_t last) const {
     const double clear = kClear * p.request;
-    return std::any_of(m_.ring().begin(), m_.ring().end(), [&](const Triangulation::RingEdge& e) {
+    const bool is_near = std::any_of(m_.ring().begin(), m_.ring().end(), [&](const Triangulation::RingEdge& e) {
       const Vec3 a = m_.nodes[e.a].x, b = m_.nodes[e.b].x;
       if (e.a != last && distance(p.x, a) < clear) return true;
-      if (!e.constrained || e.a == last || e.b == last) return false;
-      const double free = is_beside(p, b - a) ? kClearBeside * p.request : clear;
-      return segment_distance(p.x, a, b) < free;
+      return e.constrained && e.a != last && e.b != last && segment_distance(p.x, a, b) < clear;
+    });
+    if (is_near) return true;
+    return std::any_of(beside_.begin(), beside_.end(), [&](const std::pair<std::int32_t, std::int32_t>& side) {
+      const Vec3 a = m_.nodes[side.first].x, b = m_.nodes[side.second].x;
+      return distance(a, b) > kAspect * p.request && is_beside(p, b - a) &&
+             segment_distance(p.x, a, b) < kClearBeside * p.request;
     });
   }
 
@@ -198,7 +204,8 @@ class RidgeLayer {
 
   FaceWork& w_;
   Triangulation& m_;
-  std::int32_t triangle_ = kNone;  // where the last place is
+  std::vector<std::pair<std::int32_t, std::int32_t>> beside_;  // edges of loops, and of lines so far
+  std::int32_t triangle_ = kNone;                              // where the last place is
 };
 
 }  // namespace

@@ -127,14 +127,27 @@ TEST(RidgeLines, are_none_along_a_loop) {
   EXPECT_TRUE(lay_ridges(face.work).empty());
 }
 
+/// As loop_about_ridge(), cut off below the ridge by an edge of `n` segments.
+std::vector<Vec2> loop_cut_off(double y, int n) {
+  std::vector<Vec2> loop;
+  for (const Vec2 p : loop_about_ridge())
+    if (p.y > y) loop.push_back(p);
+  for (int i = 1; i < n; ++i) loop.push_back({30.0 * i / n, y});
+  return loop;
+}
+
 TEST(RidgeLines, are_none_beside_a_loop_that_has_rows) {
   const WallField field(0.1, 0.2, 1);
-  std::vector<Vec2> loop;  // as loop_about_ridge(), cut off a few rows below the ridge
-  for (const Vec2 p : loop_about_ridge())
-    if (p.y > -0.4) loop.push_back(p);
-  for (int i = 1; i < 30; ++i) loop.push_back({static_cast<double>(i), -0.4});
-  RowCase face({loop}, field);
-  EXPECT_TRUE(lay_ridges(face.work).empty());
+  for (const double y : {-0.4, -1.2}) {  // a few rows, and twelve lengths
+    RowCase face({loop_cut_off(y, 30)}, field);
+    EXPECT_TRUE(lay_ridges(face.work).empty()) << y;
+  }
+}
+
+TEST(RidgeLines, lie_beside_a_loop_without_long_segments) {
+  const WallField field(0.1, 0.2, 1);
+  RowCase face({loop_cut_off(-1.2, 300)}, field);
+  EXPECT_FALSE(lay_ridges(face.work).empty());
 }
 
 TEST(RidgeLines, have_rows_on_both_sides) {
