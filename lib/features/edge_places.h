@@ -18,6 +18,7 @@ inline constexpr double kWidestBase = 0.06;   ///< of the chord
 inline constexpr double kClearlyMore = 1.25;  ///< way with profiles square to the edge over that square to an axis
 inline constexpr double kAlongChord = 0.9;    ///< cosine between an edge around a tip or a root and the chord, at least
 inline constexpr double kOutlier = 1.4;       ///< chord over what is usual around
+inline constexpr double kBeforeNose = 0.1;    ///< of the chord: how far before a nose ice, and its edges, may lie
 
 /// A place on an edge, before anything is measured there.
 struct EdgePlace {

@@ -60,7 +60,7 @@ constexpr double kPlaneFace = 1e-3;            // radians: between normals of a 
 constexpr double kNoseStrip = 0.02;            // of the chord: width of the faces at such a corner, at least
 constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
 constexpr double kLeftAtTip = 1e-3;            // of the chord: from the last nose to a tip, as `rans` asks
-constexpr double kBeforeNose = 0.1;            // of the chord: from the nose to edges of ice before it at most
+constexpr double kCovered = 1e-3;              // of the chord: from a nose to another face that is nearer, at least
 constexpr double kLens = 0.75;                 // of the way where the nose is on the edge itself: does not count
 
 constexpr const char *kRimOfEnd = "they are rims of a tip or a root",
@@ -271,8 +271,10 @@ class SurfaceMeasurer {
   std::optional<LiftingSurface> finish(SurfaceDraft&& draft, std::span<const std::uint8_t> is_concave,
                                        std::span<const std::uint8_t> is_wall) const {
     LiftingSurface& surface = draft.surface;
-    keep_own(model_.tables(), is_concave, surface);
+    keep_own(model_.tables(), is_concave, find_covers(draft, is_concave), surface);
     if (!is_measured(surface)) return std::nullopt;
+    is_off_ =
+        is_off_ || std::ranges::any_of(wrong_, [&](FaceId f) { return std::ranges::binary_search(surface.faces, f); });
     const std::vector<std::uint8_t> is_own = find_body_faces(model_.tables(), is_concave, is_wall, surface);
     for (std::size_t k = 0; k < surface.trailing.size(); ++k) {
       reach_ends(draft.axis[k], surface.faces, surface.trailing[k]);
@@ -589,35 +591,45 @@ class SurfaceMeasurer {
     return surface;
   }
 
-  /// The nose on the facets may lie on the face beside that of the true one. Facets that leave the CAD show no nose.
+  /// The nose on the facets may lie on the face beside that of the true one. Facets that leave the CAD show no nose,
+  /// and those whose nose inside of a face is none of its surface are wrong there.
   void measure(const Profile& profile, ChordStation& station) const {
     station.nose = profile.nose;
     station.nose_face = profile.nose_face;
     const auto is_near = [&](const CutPlace& place, double most) {
       return closest_point(*model_.surface(place.face), place.x, grid_[place.face]).distance <= most;
     };
+    const auto is_inside = [&](const CutPlace& beside) { return beside.face == profile.nose_face; };
     const double most = kOffSurface * reach_, most_beside = std::max(most, kOffBeside * profile.chord);
-    station.is_measured =
-        put_on_surface(profile, station) ||
-        (is_near({profile.nose_face, profile.nose}, most) &&
-         std::ranges::all_of(profile.beside_nose, [&](const CutPlace& p) { return is_near(p, most_beside); }));
+    const bool is_exact = put_on_surface(profile, station);
+    station.is_measured = is_exact || (is_near({profile.nose_face, profile.nose}, most) &&
+                                       std::ranges::all_of(profile.beside_nose,
+                                                           [&](const CutPlace& p) { return is_near(p, most_beside); }));
     is_off_ = is_off_ || !station.is_measured;
+    if (!is_exact && std::ranges::all_of(profile.beside_nose, is_inside)) wrong_.push_back(profile.nose_face);
     station.chord = distance(station.nose, station.trailing);
   }
 
-  /// False: no surface that the profile crosses has a nose there, as where another body cuts it off.
+  /// False: no surface that the profile crosses has a nose there, as where another body cuts it off, or covers it.
   bool put_on_surface(const Profile& profile, ChordStation& station) const {
     std::vector<FaceId> faces = {profile.nose_face};
     faces.insert(faces.end(), profile.faces.begin(), profile.faces.end());
+    const double near = std::max(reach_, kNearNose * profile.chord);
     for (const FaceId f : faces) {
-      const auto nose = exact_nose(*model_.surface(f), station.trailing, profile,
-                                   std::max(reach_, kNearNose * profile.chord), guess_[f], &grid_[f]);
-      if (!nose) continue;
+      const auto nose = exact_nose(*model_.surface(f), station.trailing, profile, near, guess_[f], &grid_[f]);
+      if (!nose || is_behind_other(*nose, f, profile, near)) continue;
       station.nose = *nose;
       station.nose_face = f;
       return true;
     }
     return false;
+  }
+
+  /// Whether a place on the surface of a face is behind another one, as a nose is behind ice on it.
+  bool is_behind_other(Vec3 x, FaceId f, const Profile& profile, double near) const {
+    const FaceId other = cutter_.nearest_face(x, profile.normal, near);
+    return other != f && other != kNone &&
+           closest_point(*model_.surface(other), x, grid_[other]).distance > kCovered * profile.chord;
   }
 
   static void measure_chords(LiftingSurface& surface) {
@@ -685,6 +697,25 @@ class SurfaceMeasurer {
     }
   }
 
+  /// Faces of other bodies that lie just around own noses, as those of ice.
+  std::vector<FaceId> find_covers(const SurfaceDraft& draft, std::span<const std::uint8_t> is_concave) const {
+    const std::vector<std::uint8_t> is_own = find_crossed_own_faces(model_.tables(), is_concave, draft.surface);
+    std::vector<FaceId> covers;
+    for (std::size_t k = 0; k < draft.axis.size(); ++k) {
+      const ChordEdge& edge = draft.surface.trailing[k];
+      const auto curve = model_.curve(edge.edge);
+      const ArcTable arc(*curve);
+      for (const ChordStation& s : edge.stations) {
+        if (!s.is_measured || is_own[s.nose_face]) continue;
+        const Vec3 normal = draft.axis[k] ? *draft.axis[k] : normalized(curve->evaluate(arc.parameter_at(s.share)).d1);
+        const auto cut = cutter_.whole_cut(s.trailing, normal, reach_, is_own);
+        if (cut && cut->is_covered()) covers.insert(covers.end(), cut->others.begin(), cut->others.end());
+      }
+    }
+    sort_once(covers);
+    return covers;
+  }
+
   /// Noses run along the trailing edge: they do not where a body of revolution ends in its apex.
   static bool has_moving_noses(const LiftingSurface& surface) {
     double of_noses = 0, of_edge = 0;
@@ -730,6 +761,7 @@ class SurfaceMeasurer {
   const double reach_, diagonal_;
   const ChainLine& line_;
   mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
+  mutable std::vector<FaceId> wrong_;                    // whose facets have a nose where their surface has none
   mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
   mutable std::map<FaceId, SurfaceGrid> grid_;           // of each face on which noses are looked for
   mutable std::map<FaceId, bool> is_plane_;              // of faces beside a corner
@@ -1173,7 +1205,9 @@ class SurfaceFinder {
     if (is_small && !body) return;
     const auto& [better, also] = exact_surface(chain, body ? *body : roles_, extent);
     if (!better && !surface && is_small) why = also;
-    if (!better || (surface && better->span * better->covered() <= surface->span * surface->covered())) return;
+    const auto seen = [](const LiftingSurface& s) { return s.span * s.covered(); };
+    const double known = !surface ? 0 : (why.is_inexact ? kSeen : 1) * seen(*surface);
+    if (!better || seen(*better) <= known) return;
     if (!surface) why = also;
     surface = better;
   }
@@ -1248,7 +1282,9 @@ class SurfaceFinder {
   /// Splines at its edges, or beyond narrow faces there, as strips of the skin that are plane are.
   bool is_of_spline(const std::vector<WingEdge>& chain) const {
     const ModelTables& t = model_.tables();
-    const auto is_spline = [&](FaceId f) { return t.face_type[f] == SurfaceType::kBspline; };
+    const auto is_spline = [&](FaceId f) {  // extrusions of splines are surfaces of their own kind
+      return t.face_type[f] == SurfaceType::kBspline || t.face_type[f] == SurfaceType::kExtrusion;
+    };
     const auto is_beyond = [&](FaceId f, double length) {
       return t.face_width[f] < kNarrowStrip * length &&
              std::ranges::any_of(t.edges_of(f), [&](EdgeId e) { return std::ranges::any_of(faces_at(e), is_spline); });

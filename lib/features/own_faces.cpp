@@ -39,10 +39,17 @@ std::vector<std::uint8_t> find_body_faces(const ModelTables& t, std::span<const 
   return find_own_faces(t, is_concave, is_allowed, surface);
 }
 
-void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, LiftingSurface& surface) {
+std::vector<std::uint8_t> find_crossed_own_faces(const ModelTables& t, std::span<const std::uint8_t> is_concave,
+                                                 const LiftingSurface& surface) {
   std::vector<std::uint8_t> is_crossed(static_cast<std::size_t>(t.n_faces()), 0);
   for (const FaceId f : surface.faces) is_crossed[f] = 1;
-  const std::vector<std::uint8_t> is_own = find_own_faces(t, is_concave, is_crossed, surface);
+  return find_own_faces(t, is_concave, is_crossed, surface);
+}
+
+void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, std::span<const FaceId> covers,
+              LiftingSurface& surface) {
+  std::vector<std::uint8_t> is_own = find_crossed_own_faces(t, is_concave, surface);
+  for (const FaceId f : covers) is_own[f] = 1;
   std::erase_if(surface.faces, [&](FaceId f) { return !is_own[f]; });
   for (ChordEdge& edge : surface.trailing)
     for (ChordStation& s : edge.stations)

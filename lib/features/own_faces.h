@@ -20,8 +20,13 @@ std::vector<std::uint8_t> find_own_faces(const ModelTables& t, std::span<const s
 std::vector<std::uint8_t> find_body_faces(const ModelTables& t, std::span<const std::uint8_t> is_concave,
                                           std::span<const std::uint8_t> is_wall, const LiftingSurface& surface);
 
-/// Keeps, of the faces that profiles cross, those that no concave edge parts from the trailing edge, and of the
-/// stations those whose nose lies there: profiles cross fairings, too. `is_concave`: [n_edges]. Local.
-void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, LiftingSurface& surface);
+/// [n_faces] likewise through the faces that profiles cross. Local.
+std::vector<std::uint8_t> find_crossed_own_faces(const ModelTables& t, std::span<const std::uint8_t> is_concave,
+                                                 const LiftingSurface& surface);
+
+/// Keeps, of the faces that profiles cross, those that no concave edge parts from the trailing edge, and `covers`, and
+/// of the stations those whose nose lies there: profiles cross fairings, too. `is_concave`: [n_edges]. Local.
+void keep_own(const ModelTables& t, std::span<const std::uint8_t> is_concave, std::span<const FaceId> covers,
+              LiftingSurface& surface);
 
 }  // namespace st

@@ -9,6 +9,7 @@
 
 #include "base/boxes.h"
 #include "base/sort_once.h"
+#include "features/edge_places.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -306,16 +307,26 @@ std::optional<ThinPart> ProfileCutter::whole(Vec3 at, Vec3 normal, double reach)
   return width ? std::optional(ThinPart{way, *width}) : std::nullopt;
 }
 
+bool WholeCut::is_covered() const { return !is_own && own_alone >= (1 - kBeforeNose) * whole; }
+
 std::optional<WholeCut> ProfileCutter::whole_cut(Vec3 edge, Vec3 normal, double reach,
                                                  std::span<const std::uint8_t> is_own) const {
   const std::vector<Segment> part = part_at(edge, normal, reach);
   if (part.empty()) return std::nullopt;
   const End end = furthest_end(part, edge);
-  WholeCut cut{.is_own = is_own[end.face] != 0};
-  for (const Segment& s : part)
-    for (const Vec3& x : s.end)
-      if (is_own[facets_.face[s.facet]]) cut.chord = std::max(cut.chord, distance(x, edge));
   const double furthest = distance(end.x, edge);
+  WholeCut cut{.is_own = is_own[end.face] != 0};
+  cut.whole = cut.own_alone = furthest;
+  for (const Segment& s : part) {
+    const FaceId face = facets_.face[s.facet];
+    if (!is_own[face]) cut.others.push_back(face);
+    for (const Vec3& x : s.end)
+      if (is_own[face])
+        cut.chord = std::max(cut.chord, distance(x, edge));
+      else
+        cut.own_alone = std::min(cut.own_alone, distance(x, edge));
+  }
+  sort_once(cut.others);
   if (!(furthest > 0)) return std::nullopt;
   const Vec3 forward = (end.x - edge) / furthest, across = cross(normal, forward);
   for (const double place : kPlaces)

@@ -53,9 +53,15 @@ struct ThinPart {
 
 /// A cut that may be no profile.
 struct WholeCut {
-  double chord = 0;      ///< from the edge to the furthest end on own faces, model unit
-  double thickness = 0;  ///< largest, over the chord, where the cut has two sides
-  bool is_own = true;    ///< the end furthest from the edge is on an own face, too
+  double chord = 0;                 ///< from the edge to the furthest end on own faces, model unit
+  double whole = 0;                 ///< likewise on any face
+  double own_alone = 0;             ///< from the edge to the nearest place on another face, or to the end
+  double thickness = 0;             ///< largest, over the chord, where the cut has two sides
+  bool is_own = true;               ///< the end furthest from the edge is on an own face, too
+  std::vector<FaceId> others = {};  ///< that it crosses, not own
+
+  /// Whether another body lies just before the own nose, as ice does, and ends there.
+  bool is_covered() const;
 };
 
 /// Where a cut ends: no further facet than one of this face is there.

@@ -320,7 +320,7 @@ class TailFinder {
     wing.faces = own.faces;
     wing.span = own.span;
     sort_once(wing.faces);
-    keep_own(t_, is_concave, wing);
+    keep_own(t_, is_concave, {}, wing);
     for (const Draft& other : all)
       if (other.is_on_nose && has_same_tail(other, own)) wing.leading.push_back(other.edge.edge);
     for (ChordStation& s : wing.trailing[0].stations) s.chord = s.chord > 0 ? s.chord : own.chord;

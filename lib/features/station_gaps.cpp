@@ -68,7 +68,8 @@ class GapCloser {
   /// What is longer than the chord beside it, as a cut along a tip, says nothing.
   bool has_no_nose(const Station& s, double usual, Vec3 normal) const {
     const auto cut = search_.cutter.whole_cut(s.trailing, normal, search_.reach, search_.is_own);
-    return cut && cut->chord <= kOutlier * usual && (!cut->is_own || cut->thickness > ProfileCutter::kThickestPart);
+    return cut && cut->chord <= kOutlier * usual && !cut->is_covered() &&
+           (!cut->is_own || cut->thickness > ProfileCutter::kThickestPart);
   }
 
   const GapSearch& search_;

@@ -117,6 +117,10 @@ SPANS = {
     "all_moving_tail": [3.42, 3.42, 1.45, 1.45],
     "biplane": [6, 6, 1.15, 1.15],
     "iced_wing": [4],  # horns of ice are at its nose
+    "rimed_wing": [4.08],
+    "canards_and_y_tail": [1.18, 1.18, 1.14, 1.14, 0.65],  # fins, canards, keel, from the body on
+    "foil_with_pods": [0.91, 0.91, 0.91, 0.91],
+    "drooped_foil": [1.41, 1.41, 1.09],
     "loop_propeller": [1.95, 1.95],
 }
 # Noses before slots and flaps, where the trailing edge is another part's or none.
@@ -202,6 +206,22 @@ class WingShapes(ToolTest):
         tail = max(self.raster("t_tail", "euler").json()["lifting_surfaces"], key=lambda wing: wing["span"])
         for station in tail["stations"]:
             self.assertAlmostEqual(station["nose"][2], 3, 5, "the tail is at z = 3")
+
+    def test_noses_lie_on_the_leading_edge_or_on_ice_before_it(self):
+        def nose_of_canard(station):  # of chord 0.8 to 0.4 within 1.5
+            return 1.5 + 0.4 * abs(station["nose"][1]) / 1.5
+
+        def nose_of_iced_wing(station):
+            return -0.025 if 0.5 < station["nose"][1] < 3.5 else 0
+
+        for name, span, nose in (("canards_and_v_tail", 1.03, nose_of_canard), ("iced_wing", 4, nose_of_iced_wing)):
+            (self.folder / "geometry.hdf").unlink(missing_ok=True)
+            wings = [wing for wing in self.raster(name, "euler").json()["lifting_surfaces"]
+                     if abs(wing["span"] - span) < 0.02]
+            self.assertTrue(wings, name)
+            for wing in wings:
+                for station in wing["stations"]:
+                    self.assertAlmostEqual(station["nose"][0], nose(station), delta=0.003, msg=name)
 
     def test_a_round_tail_that_is_taken_out_is_not_found_from_another_edge(self):
         rules = self.folder / "sizes.toml"

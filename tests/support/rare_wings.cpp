@@ -255,6 +255,52 @@ TopoDS_Shape iced_wing() {
   return fuse(wing_of_four({}), shifted(ice, gp_Vec(0, 0.5, 0)));
 }
 
+/// A swept wing with rime in three stretches of its nose, a smooth cap, a ridge, and a blunt block.
+TopoDS_Shape rimed_wing() {
+  const auto frame = [](double y) { return straight(gp_Pnt(0.3 * y, y, 0.05 * y), 1 - 0.1 * y, 3); };
+  TopoDS_Shape wing = loft({.thickness = 0.12, .camber = 0.02}, {frame(0), frame(4)});
+  const auto rime = [&](double from, double to, const std::vector<std::pair<double, double>>& outline) {
+    std::vector<std::vector<gp_Pnt>> rings;
+    for (const double y : {from, to}) {
+      rings.emplace_back();
+      for (const auto& [x, h] : outline) rings.back().push_back(frame(y)(x, h));
+    }
+    wing = fuse(wing, polygon_loft(rings));
+  };
+  rime(0.4, 1.2, {{0.015, 0.015}, {-0.01, 0.012}, {-0.015, 0}, {-0.01, -0.012}, {0.015, -0.015}});
+  rime(1.5, 2.3, {{0.02, 0.02}, {-0.03, 0.012}, {0.02, -0.02}});
+  rime(2.7, 3.6, {{0.02, 0.022}, {-0.04, 0.03}, {-0.04, -0.02}, {0.02, -0.018}});
+  return wing;
+}
+
+/// Canards that hang down and are twisted, on a square body, below a tail of three fins.
+TopoDS_Shape canards_and_y_tail() {
+  const auto canard = loft({.thickness = 0.07, .camber = 0.01}, {straight(gp_Pnt(0.8, 0.1, 0), 0.7, -20, 2),
+                                                                 straight(gp_Pnt(1.5, 1.3, -0.45), 0.25, -20, -2)});
+  const auto fin =
+      loft({.thickness = 0.08}, {straight(gp_Pnt(4.3, 0.1, 0.1), 0.8, 35), straight(gp_Pnt(4.9, 1.2, 0.9), 0.35, 35)});
+  const auto keel =
+      loft({.thickness = 0.1}, {straight(gp_Pnt(4.4, 0, 0), 0.7, -90), straight(gp_Pnt(4.7, 0, -0.9), 0.4, -90)});
+  return fuse_all({box(0, -0.25, -0.25, 5.6, 0.5, 0.5), canard, mirrored(canard), fin, mirrored(fin), keel});
+}
+
+/// A tapered foil with pods at its middle, on its nose, and a longer one at each tip.
+TopoDS_Shape foil_with_pods() {
+  const auto foil = loft({.thickness = 0.09, .camber = 0.02},
+                         {straight(gp_Pnt(0, 0, 0), 0.6, 6), straight(gp_Pnt(0.45, 2, 0.2), 0.2, 6)});
+  return fuse_all({foil, mirrored(foil), pod(-0.4, 0, 0, 1.3, 0.1), pod(0, 1, 0.1, 0.8, 0.05),
+                   pod(0, -1, 0.1, 0.8, 0.05), pod(0.2, 2, 0.2, 0.8, 0.06), pod(0.2, -2, 0.2, 0.8, 0.06)});
+}
+
+/// A swept strut and a foil of two tapered halves that hang down from a short thick bulb.
+TopoDS_Shape drooped_foil() {
+  const auto half =
+      loft({.thickness = 0.12}, {straight(gp_Pnt(0, 0, 0), 0.5, -12), straight(gp_Pnt(0.35, 1.5, -0.32), 0.12, -12)});
+  const auto strut =
+      loft({.thickness = 0.12}, {straight(gp_Pnt(0.1, 0, 0), 0.4, 90), straight(gp_Pnt(-0.3, 0, 1.2), 0.6, 90)});
+  return fuse_all({pod(-0.25, 0, 0, 1.1, 0.14), half, mirrored(half), strut});
+}
+
 TopoDS_Shape braced_wing() {
   const auto body = fuselage({{0, 0}, {0.4, 0.3}, {1.2, 0.47}, {2.5, 0.5}, {6, 0.5}, {8, 0.33}, {9.8, 0}});
   const auto wing = loft({}, {straight(gp_Pnt(2.8, 0, 0.3), 1), straight(gp_Pnt(3.1, 4, 0.3), 0.5)});
@@ -455,6 +501,10 @@ const Makers& rare_models() {
                           {"loop_propeller", loop_propeller},
                           {"half_blunt", half_blunt},
                           {"iced_wing", iced_wing},
+                          {"rimed_wing", rimed_wing},
+                          {"canards_and_y_tail", canards_and_y_tail},
+                          {"foil_with_pods", foil_with_pods},
+                          {"drooped_foil", drooped_foil},
                           {"braced_wing", braced_wing},
                           {"swept_elements", swept_elements},
                           {"propfan", propfan},

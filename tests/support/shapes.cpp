@@ -437,6 +437,34 @@ TopoDS_Shape tapering_wing() {
   return loft.Shape();
 }
 
+/// Of chord 8 and 4 at z = 0 and 15, its trailing edge along x = 10 up to y = 4, its root in a cylinder along x.
+TopoDS_Shape canard_on_body() {
+  BRepOffsetAPI_ThruSections loft(true, true);
+  for (const auto& [z, share] : {std::pair{0.0, 0.8}, {15.0, 0.4}}) {
+    gp_Trsf scaling, shift;
+    scaling.SetScale(gp_Pnt(10, 0, 0), share);
+    shift.SetTranslation(gp_Vec(0, 4 * z / 15, z));
+    loft.AddWire(TopoDS::Wire(
+        BRepBuilderAPI_Transform(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(aerofoil(0.1036, 0.08))).Wire(),
+                                 shift * scaling)
+            .Shape()));
+  }
+  loft.CheckCompatibility(false);
+  const gp_Ax2 axis(gp_Pnt(-15, 0, 0), gp_Dir(1, 0, 0));
+  return BRepAlgoAPI_Fuse(loft.Shape(), BRepPrimAPI_MakeCylinder(axis, 4, 55).Shape()).Shape();
+}
+
+/// The sharp wing, on a third of its span two horns of ice around its nose.
+TopoDS_Shape iced_wing() {
+  BRepBuilderAPI_MakePolygon outline;
+  for (const auto& [x, y] :
+       {std::pair{0.2, 0.2}, {-0.2, 0.45}, {-0.25, 0.4}, {-0.12, 0.0}, {-0.25, -0.35}, {-0.2, -0.4}, {0.2, -0.2}})
+    outline.Add(gp_Pnt(x, y, 10));
+  outline.Close();
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(outline.Wire(), true).Face();
+  return BRepAlgoAPI_Fuse(wing(0.1036), BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 10)).Shape()).Shape();
+}
+
 /// A wing of chord 10 and span 30 with a rhombus as profile, 0.8 thick.
 TopoDS_Shape double_wedge() {
   BRepBuilderAPI_MakePolygon profile(gp_Pnt(0, 0, 0), gp_Pnt(5, -0.4, 0), gp_Pnt(10, 0, 0), gp_Pnt(5, 0.4, 0), true);
@@ -695,6 +723,8 @@ const std::map<std::string, Factory>& factories() {
       {"half_sharp_wing", [] { return half_wing(0.1036); }},
       {"half_blunt_wing", [] { return half_wing(0.1015); }},
       {"wing_on_body", wing_on_body},
+      {"canard_on_body", canard_on_body},
+      {"iced_wing", iced_wing},
       {"fan", fan},
       {"three_blades", three_blades},
       {"two_wings_in_line",

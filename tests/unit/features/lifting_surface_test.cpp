@@ -169,6 +169,36 @@ TEST(LiftingSurface, says_why_a_trailing_edge_has_none) {
   }
 }
 
+TEST(LiftingSurface, has_its_noses_where_coarse_facets_miss_them) {
+  const std::vector<LiftingSurface> wings = wings_of("canard_on_body");
+  ASSERT_EQ(wings.size(), 1u);
+  int n_noses = 0;
+  for (const ChordStation& s : wings[0].trailing[0].stations) {
+    if (!s.is_measured) continue;
+    ++n_noses;
+    EXPECT_NEAR(s.chord, 8 - 4 * s.trailing.z / 15, 0.01) << s.trailing.z;
+    EXPECT_NEAR(s.nose.y, 4 * s.nose.z / 15, 0.02) << s.trailing.z;
+  }
+  EXPECT_GT(n_noses, 10);
+}
+
+TEST(LiftingSurface, has_its_noses_on_the_ice_in_front_of_it) {
+  const std::vector<LiftingSurface> wings = wings_of("iced_wing");
+  ASSERT_EQ(wings.size(), 1u);
+  EXPECT_GT(wings[0].covered(), 0.99);
+  int n_on_ice = 0;
+  for (const ChordStation& s : wings[0].trailing[0].stations) {
+    const bool is_iced = s.trailing.z > 10 && s.trailing.z < 20;
+    if (!s.is_measured) continue;
+    EXPECT_NEAR(s.nose.x, is_iced ? -0.25 : 0, 1e-3) << s.trailing.z;
+    n_on_ice += is_iced;
+    if (is_iced) {
+      EXPECT_TRUE(std::ranges::binary_search(wings[0].faces, s.nose_face));
+    }
+  }
+  EXPECT_GT(n_on_ice, 5);
+}
+
 TEST(LiftingSurface, knows_the_chord_near_a_place) {
   const std::vector<LiftingSurface> wings = wings_of("sharp_wing");
   ASSERT_EQ(wings.size(), 1u);

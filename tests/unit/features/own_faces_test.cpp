@@ -25,7 +25,7 @@ TEST(OwnFaces, end_at_concave_edges) {
   on_body.is_measured = true;
   for (FaceId f = 0; f < model.tables().n_faces(); ++f)
     if (model.tables().face_box[f].lo.x < -2.9 && model.tables().face_box[f].hi.x > 12) on_body.nose_face = f;
-  keep_own(model.tables(), find_concave_edges(model, roles), wings[0]);
+  keep_own(model.tables(), find_concave_edges(model, roles), {}, wings[0]);
   EXPECT_LT(wings[0].faces.size(), static_cast<std::size_t>(model.tables().n_faces()));
   EXPECT_TRUE(std::ranges::includes(wings[0].faces, own));
   EXPECT_FALSE(on_body.is_measured) << "its nose lies on the body";
