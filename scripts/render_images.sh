@@ -44,6 +44,7 @@ draw render_sizing.py "$scratch/wake.vtu" --mesh "$run/mesh.hdf" --field "$scrat
 if [ -n "$models" ]; then
   "$here/render_gap.sh" "$bin" "$models/curved_slot.brep" "$images" "${check[@]}" || result=1
   "$here/render_stretched.sh" "$bin" "$images" "${check[@]}" || result=1
+  "$here/render_metric.sh" "$bin" "$models/sphere.brep" "$images" "${check[@]}" || result=1
   draw render_guide.py "$bin"
 fi
 exit $result

@@ -36,6 +36,12 @@ inline Vec3 normalized(Vec3 a) {
   return n > 0 ? a / n : Vec3{};
 }
 
+/// A unit vector normal to `a`; zero where that is zero.
+inline Vec3 a_normal_to(Vec3 a) {
+  const double x = std::abs(a.x), y = std::abs(a.y), z = std::abs(a.z);
+  return normalized(cross(a, x <= y && x <= z ? Vec3{1, 0, 0} : y <= z ? Vec3{0, 1, 0} : Vec3{0, 0, 1}));
+}
+
 inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
 inline Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
 inline Vec2 operator*(double s, Vec2 a) { return {s * a.x, s * a.y}; }

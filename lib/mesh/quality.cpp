@@ -342,9 +342,10 @@ class ForcedEdges {
 };
 
 /// Length over requested length of every edge, in the order of the table.
-std::vector<double> length_ratios(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested) {
+std::vector<double> length_ratios(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested,
+                                  const RequestedLength& along) {
   const auto n_nodes = static_cast<std::size_t>(mesh.n_nodes());
-  const NodeSizes at_node(mesh.node_xyz, requested);
+  const NodeSizes asked(mesh.node_xyz, requested, along);
   std::vector<std::size_t> first((n_nodes + kPerPiece - 1) / kPerPiece, 0);  // edge of each piece
   parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
     edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
@@ -359,8 +360,8 @@ std::vector<double> length_ratios(const SurfaceMesh& mesh, const EdgeTable& edge
     edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
                         [&](NodeId a, NodeId b, std::span<const SideId>) {
                           const Vec3 p = mesh.node_xyz[a], q = mesh.node_xyz[b];
-                          const auto inverse = [&](NodeId n) { return 1 / at_node.length(n, q - p); };
-                          const double middle = requested(0.5 * (p + q), hint).in(q - p);
+                          const auto inverse = [&](NodeId n) { return 1 / asked.length(n, q - p, hint); };
+                          const double middle = asked.length(0.5 * (p + q), q - p, hint);
                           *ratio++ = distance(p, q) * (inverse(a) + 4 / middle + inverse(b)) / 6;
                         });
   });
@@ -369,11 +370,12 @@ std::vector<double> length_ratios(const SurfaceMesh& mesh, const EdgeTable& edge
 
 }  // namespace
 
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested) {
+ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested,
+                                    const RequestedLength& along) {
   ConformityReport report;
   report.groups.resize(mesh.labels.group_name.size());
   report.faces.resize(mesh.labels.face_name.size());
-  std::vector<double> ratios = length_ratios(mesh, edges, requested);
+  std::vector<double> ratios = length_ratios(mesh, edges, requested, along);
   ForcedEdges forced(mesh);
   std::size_t n_seen = 0;
   edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
@@ -391,8 +393,7 @@ ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& ed
   for (const ConformityStats& face : report.faces) report.model.add(face);
   report.forced = forced.places();
   if (ratios.empty()) return report;
-  report.p1 = percentile(ratios, 0.01);
-  report.p99 = percentile(ratios, 0.99);
+  report.p1 = percentile(ratios, 0.01), report.p99 = percentile(ratios, 0.99);
   return report;
 }
 

@@ -130,10 +130,14 @@ struct ConformityReport {
 
 /// As SizeField::local; may be called on several threads.
 using RequestedSize = std::function<LocalSize(Vec3, int& hint)>;
+/// As SizeField::length_along; likewise.
+using RequestedLength = std::function<double(Vec3, Vec3 way, int& hint)>;
 
 /// Ratio of an edge: its length times the mean of 1/requested over it (Simpson's rule on its ends and middle).
 /// `requested_length(xyz) > 0` in model units. Forced is an edge below kConformityMin with both ends on the boundary of
-/// faces that lies on a CAD edge of at most three segments, between two CAD vertices, or across a face. Local, linear.
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested);
+/// faces that lies on a CAD edge of at most three segments, between two CAD vertices, or across a face. `along`: asked
+/// for each edge instead, where planes matter. Local, linear.
+ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested,
+                                    const RequestedLength& along = {});
 
 }  // namespace st

@@ -9,6 +9,8 @@
 #include "base/eigen.h"
 #include "sizing/length_tree.h"
 #include "sizing/mean_stretch.h"
+#include "sizing/multiscale_metric.h"
+#include "sizing/space_metric.h"
 #include "sizing/symmetric_tensor.h"
 #include "sizing/tet_frame.h"
 
@@ -74,7 +76,9 @@ class BackgroundSource final : public SizeSource {
       min_size_ = std::min(min_size_, s.length);
       max_aspect_ = std::max(max_aspect_, s.along / s.length);
     }
-    if (max_aspect_ > 1)
+    if (has_metrics())
+      take_logs(mesh_.node_metric);
+    else if (max_aspect_ > 1)
       for (const LocalSize& s : mesh_.node_size) log_stretch_.push_back(log_stretch(s));
     border_ = border_of(mesh_);
     border_.insert(border_.end(), mesh_.triangles.begin(), mesh_.triangles.end());
@@ -92,9 +96,17 @@ class BackgroundSource final : public SizeSource {
   LocalSize local(Vec3 x, int&) const override {
     std::size_t tet = kNowhere, border = kNowhere;
     const double length = least_outside(x, least_inside(x, kInfinity, tet), border);
+    if (has_metrics()) {
+      const LocalSize s = size_of_metric(metric_at(x));
+      return longer_along(s.direction, length, s.along);
+    }
     if (log_stretch_.empty() || (border == kNowhere && tet == kNowhere)) return {length, length, {}};
     return border == kNowhere ? stretched_in(tet, length, x) : stretched_from(border, length, x);
   }
+  LocalSize local_on(Vec3 x, Vec3 normal, int& hint) const override {
+    return has_metrics() ? cut_by_plane(metric_at(x), normal) : local(x, hint);
+  }
+  bool has_metrics() const override { return !mesh_.node_metric.empty(); }
   /// In a tetrahedron by its own gradient, which may be far below the slope.
   double least_within(Vec3 x, double radius, double upper) const override {
     const double drop = slope() * radius;
@@ -199,6 +211,37 @@ class BackgroundSource final : public SizeSource {
     const double inside = least_of_other_tets(nodes, mean.direction, x);
     return longer_along(mean.direction, length, inside < kInfinity ? inside : least_of_border(nodes, mean, x));
   }
+  /// In space, of the cell that tells the length at x; from the border all lengths grow alike.
+  SymmetricTensor metric_at(Vec3 x) const {
+    std::size_t tet = kNowhere, border = kNowhere;
+    const double length = least_outside(x, least_inside(x, kInfinity, tet), border);
+    if (border == kNowhere)
+      return least_of_other_metrics(mesh_.tets[tet], x,
+                                    mean_metric_in(mesh_.tets[tet], frame_of(tet).coordinates(x), length));
+    const std::array<double, 3> at = closest_on_triangle(corners_of(border), x), of_nodes = border_lengths(border);
+    const double there = std::min(length, at[0] * of_nodes[0] + at[1] * of_nodes[1] + at[2] * of_nodes[2]);
+    const SymmetricTensor mean = mean_metric_in(border_[border], at, there);
+    return least_of_other_metrics(border_[border], x,
+                                  length > there ? GrowingMetric(mean).after(length - there) : mean);
+  }
+  template <std::size_t N>
+  SymmetricTensor mean_metric_in(const std::array<std::int32_t, N>& nodes, const std::array<double, N>& at,
+                                 double shortest) const {
+    std::array<SymmetricTensor, N> logs;
+    for (std::size_t k = 0; k < N; ++k) logs[k] = mesh_.node_metric[nodes[k]];
+    return mean_metric(logs, at, shortest);
+  }
+  /// The intersection of `own` with what tetrahedra at x ask for that have none of `nodes`: meshes may overlap.
+  template <std::size_t N>
+  SymmetricTensor least_of_other_metrics(const std::array<std::int32_t, N>& nodes, Vec3 x, SymmetricTensor own) const {
+    tet_tree_.visit_at(x, kInfinity, [&](std::int32_t t) {
+      const auto& tet = mesh_.tets[t];
+      const std::array<double, 4> at = frame_of(static_cast<std::size_t>(t)).coordinates(x);
+      if (!is_inside(at) || have_common_node(tet, nodes)) return;
+      own = intersection(own, mean_metric_in(tet, at, interpolated(at, lengths_of(mesh_, tet))));
+    });
+    return own;
+  }
   static LocalSize longer_along(Vec3 direction, double length, double along) {
     return along > length && !(direction == Vec3{}) ? LocalSize{length, along, direction}
                                                     : LocalSize{length, length, {}};
@@ -257,6 +300,11 @@ class BackgroundSource final : public SizeSource {
   double min_size_ = kInfinity, max_aspect_ = 1;
 };
 
+/// Of the sizes behind those that have one.
+void add_plain_metrics(const std::vector<LocalSize>& sizes, std::vector<SymmetricTensor>& metrics) {
+  for (const LocalSize& s : sizes) metrics.push_back(metric_of(s));
+}
+
 }  // namespace
 
 LocalSize uniaxial(const LocalSize& s) {
@@ -279,14 +327,13 @@ SymmetricTensor metric_of(const LocalSize& size) {
   return tensor_of(Eigen::Matrix3d(shape / (size.length * size.length)));
 }
 
-std::int64_t remove_stretch(BackgroundMesh& mesh) {
-  mesh.node_metric.clear();
-  std::int64_t n_stretched = 0;
-  for (LocalSize& s : mesh.node_size) {
-    n_stretched += s.along > s.length;
-    s = {s.length, s.length, {}};
-  }
-  return n_stretched;
+void forget_plain_metrics(BackgroundMesh& mesh) {
+  constexpr double kEqual = 0.999;  // of 1/length^2: less is rounding of a file
+  const auto is_plain = [](const SymmetricTensor& m) {
+    const PrincipalAxes axes = principal_axes(matrix_of(m));
+    return !(axes.value[1] < kEqual * axes.value[2]);
+  };
+  if (std::all_of(mesh.node_metric.begin(), mesh.node_metric.end(), is_plain)) mesh.node_metric = {};
 }
 
 std::int64_t raise_lengths(double least, BackgroundMesh& mesh) {
@@ -295,6 +342,7 @@ std::int64_t raise_lengths(double least, BackgroundMesh& mesh) {
     n_raised += s.length < least;
     s = uniaxial({std::max(s.length, least), std::max(s.along, least), s.direction});
   }
+  for (SymmetricTensor& m : mesh.node_metric) m = raised_metric(m, least);
   return n_raised;
 }
 
@@ -325,6 +373,11 @@ void transform(const Similarity& motion, BackgroundMesh& mesh) {
 }
 
 void append(const BackgroundMesh& other, BackgroundMesh& mesh) {
+  if (!mesh.node_metric.empty() || !other.node_metric.empty()) {
+    if (mesh.node_metric.empty()) add_plain_metrics(mesh.node_size, mesh.node_metric);
+    mesh.node_metric.insert(mesh.node_metric.end(), other.node_metric.begin(), other.node_metric.end());
+    if (other.node_metric.empty()) add_plain_metrics(other.node_size, mesh.node_metric);
+  }
   const auto first = static_cast<std::int32_t>(mesh.node_xyz.size());
   mesh.tets.reserve(mesh.tets.size() + other.tets.size());
   mesh.triangles.reserve(mesh.triangles.size() + other.triangles.size());

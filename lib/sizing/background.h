@@ -14,8 +14,9 @@ namespace st {
 /// A symmetric tensor: xx yy zz xy yz xz.
 using SymmetricTensor = std::array<double, 6>;
 
-/// Lengths are linear in each tetrahedron. One direction may have a longer one: that of the log-Euclidean mean of its
-/// nodes' metrics, by their weights at a place. The less their directions agree, the shorter it is: MeanStretch.
+/// The smallest length is linear in each tetrahedron. Others are in the ratio of the log-Euclidean mean of the nodes'
+/// metrics, by their weights at a place: all three with node_metric, see mean_metric(); else one longer length along a
+/// direction, the shorter the less the nodes' directions agree, see MeanStretch.
 struct BackgroundMesh {
   std::vector<Vec3> node_xyz;
   std::vector<LocalSize> node_size;
@@ -34,8 +35,8 @@ SymmetricTensor metric_of(const LocalSize& size);
 /// Nearly equal lengths are one; a direction of any length.
 LocalSize uniaxial(const LocalSize& s);
 
-/// Takes the smallest length in all directions, and no metric; the number of nodes that had a longer one.
-std::int64_t remove_stretch(BackgroundMesh& mesh);
+/// Forgets the metrics where node_size tells all of each: no node has more than one long length.
+void forget_plain_metrics(BackgroundMesh& mesh);
 
 /// No length below `least` (model unit); the number of nodes that had one.
 std::int64_t raise_lengths(double least, BackgroundMesh& mesh);
@@ -54,12 +55,13 @@ void keep_only(const std::vector<std::int32_t>& kept, std::vector<Value>& values
   for (const std::int32_t n : kept) values.push_back(all[n]);
 }
 
-/// Appends the nodes and cells of another mesh. Precondition: neither has metrics.
+/// Appends the nodes and cells of another mesh; has metrics if one of them has.
 void append(const BackgroundMesh& other, BackgroundMesh& mesh);
 
 /// In the mesh the smallest of what the tetrahedra there ask for, to rounding; flat ones are passed over. Elsewhere the
 /// lengths of its border, growing by the slope; likewise along the direction of what is closest on the border.
-/// Precondition: limit_growth() of sizing/growth_limit.h.
+/// Metrics are kept in space, cut by the plane that is asked for. Precondition: limit_growth() of
+/// sizing/growth_limit.h.
 std::unique_ptr<SizeSource> make_background(BackgroundMesh mesh, double slope);
 
 }  // namespace st

@@ -261,10 +261,11 @@ class CellWeigher {
     for (const auto& [x, weight] : on_plane) {
       Vec3 gradient;
       std::int32_t cause = kNone;
-      const double h = asked.size_and_gradient(x, hint_, gradient, cause);
+      double h = asked.size_and_gradient(x, hint_, gradient, cause);
       double share = 1, g = norm(gradient - dot(gradient, normal) * normal);
       if (asked.is_stretched()) {
-        const LocalSize local = asked.OctreeField::local(x, hint_);
+        const LocalSize local = asked.OctreeField::local_on(x, normal, hint_);
+        h = local.length;
         share = area_share(local, normal);
         g *= local.length / local.along;  // rows need no more triangles where their heights change
       }

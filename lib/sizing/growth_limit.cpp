@@ -2,9 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "base/threads.h"
 #include "sizing/mean_stretch.h"
+#include "sizing/multiscale_metric.h"
+#include "sizing/space_metric.h"
 #include "sizing/tet_frame.h"
 
 namespace st {
@@ -96,6 +101,24 @@ class GrowthLimiter {
     });
   }
 
+  /// All lengths of metrics.
+  void limit_metrics() {
+    std::vector<std::uint8_t> is_waiting(mesh_.tets.size(), 0);
+    constexpr std::size_t kPerPiece = 4096;
+    parallel_for(mesh_.tets.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t)
+        for_longer_metrics(mesh_.tets[t], [&](std::int32_t, const SymmetricTensor&) { is_waiting[t] = 1; });
+    });
+    lower(std::move(is_waiting), [&](const std::array<std::int32_t, 4>& tet, const auto& lowered) {
+      for_longer_metrics(tet, [&](std::int32_t node, const SymmetricTensor& bound) {
+        SymmetricTensor& metric = mesh_.node_metric[node];
+        metric = intersection(metric, bound);
+        mesh_.node_size[node] = size_of_metric(metric);
+        lowered(node);
+      });
+    });
+  }
+
   std::int64_t n_lowered() const { return std::count(is_lowered_.begin(), is_lowered_.end(), 1); }
 
  private:
@@ -118,12 +141,32 @@ class GrowthLimiter {
     }
   }
 
-  /// Calls limit(tet, lowered) until no tetrahedron lowers a node any more.
+  /// Calls found(node, bound) for nodes whose metric is longer than that of another one allows.
+  template <class Found>
+  void for_longer_metrics(const std::array<std::int32_t, 4>& tet, const Found& found) const {
+    constexpr double kMetricSlack = 0.01;  // of a length
+    for (const std::int32_t from : tet) {
+      std::optional<GrowingMetric> growing;
+      for (const std::int32_t node : tet) {
+        const double rise = slope_ * distance(mesh_.node_xyz[from], mesh_.node_xyz[node]);
+        if (node == from || mesh_.node_size[node].along <= mesh_.node_size[from].length + rise) continue;
+        if (!growing) growing.emplace(mesh_.node_metric[from]);
+        const SymmetricTensor bound = growing->after(rise);
+        if (is_longer(mesh_.node_metric[node], bound, kMetricSlack)) found(node, bound);
+      }
+    }
+  }
+
   template <class Limit>
   void lower_all(const Limit& limit) {
-    std::vector<std::uint8_t> is_waiting(mesh_.tets.size(), 1);
-    std::vector<std::int32_t> waiting(mesh_.tets.size()), next;
-    for (std::size_t t = 0; t < waiting.size(); ++t) waiting[t] = static_cast<std::int32_t>(t);
+    lower(std::vector<std::uint8_t>(mesh_.tets.size(), 1), limit);
+  }
+  /// Calls limit(tet, lowered) until no tetrahedron lowers a node any more, first of those that wait.
+  template <class Limit>
+  void lower(std::vector<std::uint8_t> is_waiting, const Limit& limit) {
+    std::vector<std::int32_t> waiting, next;
+    for (std::size_t t = 0; t < is_waiting.size(); ++t)
+      if (is_waiting[t]) waiting.push_back(static_cast<std::int32_t>(t));
     const auto lowered = [&](std::int32_t node) {
       is_lowered_[node] = 1;
       for (std::int32_t i = tets_of_.first[node]; i < tets_of_.first[node + 1]; ++i)
@@ -154,8 +197,9 @@ std::int64_t limit_growth(double slope, BackgroundMesh& mesh) {
   return limiter.n_lowered();
 }
 
-std::int64_t limit_shortest(double slope, BackgroundMesh& mesh) {
+std::int64_t limit_metrics(double slope, BackgroundMesh& mesh) {
   GrowthLimiter limiter(slope, mesh);
+  limiter.limit_metrics();
   limiter.limit_lengths();
   return limiter.n_lowered();
 }

@@ -11,7 +11,8 @@ namespace st {
 /// the lengths along the direction that its nodes share, and along that of each of them. The smallest length of a
 /// tetrahedron stays. The number of nodes that were lowered.
 std::int64_t limit_growth(double slope, BackgroundMesh& mesh);
-/// Likewise the smallest lengths alone.
-std::int64_t limit_shortest(double slope, BackgroundMesh& mesh);
+/// Likewise of a mesh with metrics: along edges of tetrahedra each metric is intersected with those of its neighbours,
+/// grown by the slope in all directions, to 1 % of a length; then the smallest lengths are limited as above.
+std::int64_t limit_metrics(double slope, BackgroundMesh& mesh);
 
 }  // namespace st

@@ -4,13 +4,13 @@
 
 namespace st {
 
-LocalSize MovedOctreeField::local(Vec3 xyz, int& hint) const {
-  const LocalSize own = OctreeField::local(to_octree_(xyz), hint);
+LocalSize MovedOctreeField::local_on(Vec3 xyz, Vec3 normal, int& hint) const {
+  const LocalSize own = OctreeField::local_on(to_octree_(xyz), to_octree_.rotated(normal), hint);
   return {frame_.scale * own.length, frame_.scale * own.along, frame_.rotated(own.direction)};
 }
 
-SizeExplanation MovedOctreeField::explain(Vec3 xyz) const {
-  SizeExplanation e = OctreeField::explain(to_octree_(xyz));
+SizeExplanation MovedOctreeField::explain(Vec3 xyz, Vec3 normal) const {
+  SizeExplanation e = OctreeField::explain(to_octree_(xyz), to_octree_.rotated(normal));
   e.cell_edge *= frame_.scale;
   e.length *= frame_.scale;
   e.along *= frame_.scale;

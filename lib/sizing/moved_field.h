@@ -17,10 +17,11 @@ class MovedOctreeField : public OctreeField {
 
   using OctreeField::size;
   double size(Vec3 xyz, int& hint) const override { return frame_.scale * OctreeField::size(to_octree_(xyz), hint); }
-  LocalSize local(Vec3 xyz, int& hint) const override;
+  LocalSize local(Vec3 xyz, int& hint) const override { return local_on(xyz, {}, hint); }
+  LocalSize local_on(Vec3 xyz, Vec3 normal, int& hint) const override;
   double min_size() const override { return frame_.scale * OctreeField::min_size(); }
   Similarity frame() const override { return frame_; }
-  SizeExplanation explain(Vec3 xyz) const override;
+  SizeExplanation explain(Vec3 xyz, Vec3 normal = {}) const override;
 
  private:
   Similarity frame_, to_octree_;

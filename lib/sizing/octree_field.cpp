@@ -168,7 +168,7 @@ LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
   return {length, length, {}};
 }
 
-LocalSize OctreeField::local(Vec3 xyz, int& hint) const {
+LocalSize OctreeField::local_on(Vec3 xyz, Vec3 normal, int& hint) const {
   if (!OctreeField::is_stretched()) {
     const double length = OctreeField::size(xyz, hint);
     return {length, length, {}};
@@ -176,8 +176,10 @@ LocalSize OctreeField::local(Vec3 xyz, int& hint) const {
   const Place x = locate(xyz, hint);
   const LocalSize own = local_in(find_site(hint, x), x);
   if (!data_.sources || (is_inside(x) && sources_near(hint).are_none())) return own;
-  const LocalSize least =
-      data_.sources->local_below(xyz, {own.length / data_.scale, own.along / data_.scale, own.direction});
+  const LocalSize upper{own.length / data_.scale, own.along / data_.scale, own.direction};
+  const LocalSize least = OctreeField::has_metrics() && !(normal == Vec3{})
+                              ? data_.sources->local_on_below(xyz, normal, upper)
+                              : data_.sources->local_below(xyz, upper);
   return {scaled(least.length), scaled(least.along), least.direction};
 }
 
@@ -247,7 +249,7 @@ ProlongedLengths lengths_at_centers(const OctreeFieldData& data, std::span<const
   return at;
 }
 
-SizeExplanation OctreeField::explain(Vec3 xyz) const {
+SizeExplanation OctreeField::explain(Vec3 xyz, Vec3 normal) const {
   int leaf = 0;
   const Place x = locate(xyz, leaf);
   const std::int32_t site = find_site(leaf, x);
@@ -255,7 +257,7 @@ SizeExplanation OctreeField::explain(Vec3 xyz) const {
   const Answer answer = answer_at(site, x);
   result.gradient = answer.gradient;
   result.cause = answer.cause;
-  const LocalSize local = OctreeField::local(xyz, leaf);
+  const LocalSize local = OctreeField::local_on(xyz, normal, leaf);
   result.length = local.length;
   result.along = local.along;
   result.direction = local.direction;

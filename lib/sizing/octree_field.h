@@ -64,8 +64,8 @@ struct SizeExplanation {
   std::int32_t leaf = 0;
   int level = 0;
   double cell_edge = 0;  ///< model unit
-  double length = 0;     ///< as size() answers
-  double along = 0;      ///< as local() answers, likewise the direction
+  double length = 0;     ///< likewise
+  double along = 0;      ///< as local_on() answers, likewise the direction
   Vec3 direction;
   Vec3 gradient;
   std::int32_t cause = kNone;  ///< see pack_cause
@@ -92,7 +92,9 @@ class OctreeField : public SizeField {
 
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override;
-  LocalSize local(Vec3 xyz, int& hint) const override;
+  LocalSize local(Vec3 xyz, int& hint) const override { return local_on(xyz, {}, hint); }
+  LocalSize local_on(Vec3 xyz, Vec3 normal, int& hint) const override;
+  bool has_metrics() const override { return data_.sources && data_.sources->has_metrics(); }
   bool is_stretched() const override {
     return octree_is_stretched() || (data_.sources && data_.sources->max_aspect() > 1);
   }
@@ -102,7 +104,8 @@ class OctreeField : public SizeField {
   /// Where the octree lies: its point x (leaves, split planes) at frame()(x) of the model, in which all questions are
   /// asked.
   virtual Similarity frame() const { return {}; }
-  virtual SizeExplanation explain(Vec3 xyz) const;
+  /// `normal`: as for local_on().
+  virtual SizeExplanation explain(Vec3 xyz, Vec3 normal = {}) const;
   /// The sources that may tell a length somewhere in a leaf.
   FewSources sources_in(std::int32_t leaf) const { return data_.sources ? sources_near(leaf) : FewSources(nullptr, 0); }
   /// Likewise size() in the octree's own frame, its gradient and its cause.

@@ -21,12 +21,12 @@ PairedField::PairedField(const SizeField& base, std::vector<PairedRegion> region
   }
 }
 
-LocalSize PairedField::local(Vec3 xyz, int& hint) const {
+LocalSize PairedField::local_on(Vec3 xyz, Vec3 normal, int& hint) const {
   struct Image {
     Vec3 x;
     Similarity motion;  // from xyz
   };
-  LocalSize least = base_.local(xyz, hint);
+  LocalSize least = base_.local_on(xyz, normal, hint);
   std::array<Image, kMostImages> images;
   images[0].x = xyz;
   std::size_t n = 1;
@@ -39,7 +39,7 @@ LocalSize PairedField::local(Vec3 xyz, int& hint) const {
         continue;
       images[n++] = image;
       int away = 0;
-      const LocalSize there = base_.local(image.x, away);
+      const LocalSize there = base_.local_on(image.x, image.motion.rotated(normal), away);
       if (there.length < least.length || (there.length == least.length && there.along < least.along))
         least = {there.length, there.along, image.motion.inverse().rotated(there.direction)};
     }

@@ -25,7 +25,9 @@ class PairedField : public SizeField {
   PairedField(const SizeField& base, std::vector<PairedRegion> regions, double tolerance);
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override { return local(xyz, hint).length; }
-  LocalSize local(Vec3 xyz, int& hint) const override;
+  LocalSize local(Vec3 xyz, int& hint) const override { return local_on(xyz, {}, hint); }
+  LocalSize local_on(Vec3 xyz, Vec3 normal, int& hint) const override;
+  bool has_metrics() const override { return base_.has_metrics(); }
   bool is_stretched() const override { return base_.is_stretched(); }
   double min_size() const override { return base_.min_size(); }
   double slope() const override { return base_.slope(); }

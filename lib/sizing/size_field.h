@@ -25,6 +25,13 @@ class SizeField {
     const double length = size(xyz, hint);
     return {length, length, {}};
   }
+  /// Likewise on a surface with this unit normal: of a metric in space what its tangent plane cuts, both lengths of
+  /// which may be longer than size(). Normal zero: as local().
+  virtual LocalSize local_on(Vec3 xyz, Vec3 /*normal*/, int& hint) const { return local(xyz, hint); }
+  /// Requested length of an edge along `way`.
+  double length_along(Vec3 xyz, Vec3 way, int& hint) const { return local_on(xyz, a_normal_to(way), hint).in(way); }
+  /// Whether local_on() ever differs from local().
+  virtual bool has_metrics() const { return false; }
   /// Whether local() ever differs from size().
   virtual bool is_stretched() const { return false; }
   /// Smallest length anywhere.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "sizing/space_metric.h"
+
 namespace st {
 namespace {
 
@@ -42,6 +44,7 @@ SourceTree::SourceTree(std::vector<Entry> entries) : entries_(std::move(entries)
     min_size_ = std::min(min_size_, e.source->min_size());
     max_aspect_ = std::max(max_aspect_, e.source->max_aspect());
     slope_ = std::max(slope_, e.source->slope());
+    has_metrics_ = has_metrics_ || e.source->has_metrics();
   }
   for (const BoxTree::Node& node : tree_.nodes()) {
     SourceSpacing least = entries_[tree_.items()[node.begin]].source->growth().spacing;
@@ -97,6 +100,15 @@ LocalSize SourceTree::local_below(Vec3 x, const LocalSize& upper) const {
       });
   least.length = length;
   least.along = std::max(least.along, length);
+  return least;
+}
+
+LocalSize SourceTree::local_on_below(Vec3 x, Vec3 normal, const LocalSize& upper) const {
+  LocalSize least = upper;
+  int hint = 0;
+  tree_.visit_near(
+      x, [&](std::int32_t node, double d2) { return reaches(node, d2, upper.along); },
+      [&](std::int32_t i) { least = least_in_plane(least, entries_[i].source->local_on(x, normal, hint), normal); });
   return least;
 }
 

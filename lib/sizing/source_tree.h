@@ -75,6 +75,8 @@ class SourceTree {
   /// As size_below, of what is requested in each direction: the smallest length; along its direction, where it is
   /// stretched, no more than any source and `upper` allow.
   LocalSize local_below(Vec3 x, const LocalSize& upper) const;
+  /// Likewise in the plane with this unit normal: the intersection of `upper` and of what any source asks for there.
+  LocalSize local_on_below(Vec3 x, Vec3 normal, const LocalSize& upper) const;
   /// A bound: no source asks for less than it, or `upper`, within `radius` of x.
   double least_near(Vec3 x, double radius, double upper) const;
   /// Those that may ask for less than `upper`, and than all others, within `radius` of x.
@@ -87,6 +89,7 @@ class SourceTree {
   Vec3 origin(std::int32_t source, Vec3 x) const;
   double min_size() const { return min_size_; }
   double max_aspect() const { return max_aspect_; }
+  bool has_metrics() const { return has_metrics_; }
   /// Of the steepest source.
   double slope() const { return slope_; }
 
@@ -98,6 +101,7 @@ class SourceTree {
   BoxTree tree_;
   std::vector<SourceSpacing> least_;  // [nodes of the tree] smallest length, largest radius, slowest growth below
   double slope_ = 0, min_size_ = 0, max_aspect_ = 1;
+  bool has_metrics_ = false;
 };
 
 }  // namespace st

@@ -27,6 +27,7 @@
 #include "stages/check_json.h"
 #include "stages/check_report.h"
 #include "stages/check_thresholds.h"
+#include "stages/field_on_mesh.h"
 #include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
 #include "stages/layers_check.h"
@@ -185,7 +186,8 @@ void measure(const CheckedMesh& checked, const TriangleCorners& corners, Progres
   jobs.emplace_back([&] { f.quality = measure_quality(mesh, edges, corners); });
   if (field)
     jobs.emplace_back([&] {
-      f.conformity = measure_conformity(mesh, edges, [&](Vec3 p, int& hint) { return field->local(p, hint); });
+      f.conformity = measure_conformity(
+          mesh, edges, [&](Vec3 p, int& hint) { return field->local(p, hint); }, lengths_along(*field));
     });
   jobs.emplace_back([&] { f.shape = check_shape(mesh, edges); });
   jobs.emplace_back([&] { f.topology = check_topology(mesh, edges, cad ? cad->edges() : CadEdges{}); });
@@ -288,18 +290,6 @@ CheckedMesh read_checked_mesh(const CheckStageOptions& o) {
   artifact.header.geometry_hash = hash;
   read_sizes(o, result);
   return result;
-}
-
-/// [n_nodes]; empty where sizes are the same length in all directions, or unknown.
-std::vector<Vec3> squeeze_of_nodes(const SurfaceMesh& mesh, const SizeField* field) {
-  if (!field || !field->is_stretched()) return {};
-  constexpr std::size_t kPerPiece = 16'384;
-  std::vector<Vec3> squeeze(mesh.node_xyz.size());
-  parallel_for(squeeze.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-    int hint = 0;
-    for (std::size_t n = begin; n < end; ++n) squeeze[n] = field->local(mesh.node_xyz[n], hint).squeeze();
-  });
-  return squeeze;
 }
 
 /// How far lifting surfaces are from the CAD, in shares of the chord, where that was measured.

@@ -69,7 +69,7 @@ std::vector<double> face_weights_on(const SurfaceMesh& mesh, const SizeField& fi
   for (TriangleId t = 0; t < mesh.n_triangles(); t += step) {
     const NodeId* n = mesh.triangles[t].n;
     const Vec3 a = mesh.node_xyz[n[0]], b = mesh.node_xyz[n[1]], c = mesh.node_xyz[n[2]];
-    const LocalSize size = field.local((a + b + c) / 3, hint);
+    const LocalSize size = field.local_on((a + b + c) / 3, normalized(cross(b - a, c - a)), hint);
     const double area = 0.5 * norm(cross(squeezed(b - a, size.squeeze()), squeezed(c - a, size.squeeze())));
     weight[mesh.triangle_face[t]] += static_cast<double>(step) * area / (size.length * size.length);
   }

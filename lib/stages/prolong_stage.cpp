@@ -270,11 +270,10 @@ void raise_background(double least, const SizingArtifact& sizing, BackgroundMesh
 /// Adds the sources of `o`, and all that depends on them and on the scale, to the octree's lengths.
 ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Progress& progress,
                            SizingArtifact&& sizing) {
-  const ModelPlanes planes{sizing.faces, sizing.shape.view()};
   SourceInput input = read_sources(
       o.sources, o.background, parse_similarity(o.transform, "--transform").then(sizing.frame.inverse()),
       octree_options["slope"].get<double>(), {sizing.numbers.diagonal * sizing.frame.scale, sizing.header.unit_in_m},
-      sizing.numbers.max_aspect > 1 ? &planes : nullptr);
+      sizing.faces, sizing.shape.view());
   if (octree_options.contains(kOnly))
     raise_background(octree_options[kOnly].get<double>(), sizing, input.set.background);
   input.set.background.triangles = telling_triangles(input.set.background, input.set.slope);

@@ -15,6 +15,8 @@
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
+#include "io/hdf5/sizing_artifact.h"
+#include "sizing/near_faces.h"
 #include "sizing/size_origin.h"
 #include "stages/size_tally.h"
 
@@ -102,9 +104,16 @@ struct PointSize {
   double slope;
 };
 
+/// Of the nearest face, where lengths depend on it.
+Vec3 normal_at(const std::string& artifact, const OctreeField& field, Vec3 x) {
+  if (!field.has_metrics()) return {};
+  const SizingArtifact sizing = read_sizing(artifact);
+  return sizing.frame.rotated(normal_near(sizing.faces, sizing.shape.view(), sizing.frame.inverse()(x)));
+}
+
 PointSize find_size(const std::string& artifact, const OctreeField& field, Vec3 x) {
-  PointSize p{x, field.explain(x), {}, "", false, field.slope()};
   const Similarity frame = field.frame();
+  PointSize p{x, field.explain(x, normal_at(artifact, field, x)), {}, "", false, field.slope()};
   if (p.why.has_origin) {
     p.origin.xyz = p.why.origin;
     p.origin.length = p.why.origin_length;

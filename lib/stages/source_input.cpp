@@ -15,14 +15,15 @@
 #include "io/file/text_file.h"
 #include "io/foreign/size_mesh.h"
 #include "sizing/growth_limit.h"
+#include "sizing/near_faces.h"
 
 namespace st {
 namespace {
 
 /// Reference to a file that is no artifact: name and hash of its bytes.
 InputRef file_ref(const std::string& role, const std::string& path) {
-  const std::string text = read_text_file(path);
-  return {role, std::filesystem::path(path).filename().string(), hash_hex(text.data(), text.size())};
+  const MappedBytes file(path);
+  return {role, std::filesystem::path(path).filename().string(), hash_hex(file.bytes().data(), file.bytes().size())};
 }
 
 std::vector<std::string> names_of(const std::vector<SourceSpec>& sources) {
@@ -53,21 +54,18 @@ void merge(std::vector<SourceSpec>& all, const SourceFile& file, const std::stri
   }
 }
 
-/// Lowered to the slope. Lengths along of metrics that a face cuts are as they are: where it turns, so do they.
-void add_background(BackgroundMesh&& mesh, const Similarity& motion, const ModelPlanes* planes, SourceInput& input) {
-  if (const std::int64_t n = planes ? 0 : remove_stretch(mesh))
-    log_warning(
-        fmt::format("{} nodes of the background mesh are anisotropic, and their smallest spacing is used; give "
-                    "st-raster --max-aspect to keep the others",
-                    n));
+/// Lowered to the slope.
+void add_background(BackgroundMesh&& mesh, const Similarity& motion, const FaceCells& faces, const OctreeView& raster,
+                    SourceInput& input) {
   transform(motion, mesh);
+  forget_plain_metrics(mesh);
   const double slope = input.set.slope;
-  const bool is_cut = planes && project_metrics(*planes, mesh);
-  if (const std::int64_t n = is_cut ? limit_shortest(slope, mesh) : limit_growth(slope, mesh))
+  const bool has_metrics = !mesh.node_metric.empty();
+  if (const std::int64_t n = has_metrics ? limit_metrics(slope, mesh) : limit_growth(slope, mesh))
     log_warning(
         fmt::format("the background mesh grows faster than the slope {:g}: lengths of {} of its {} nodes are lowered",
                     slope, n, mesh.node_xyz.size()));
-  mesh.node_metric.clear();
+  if (has_metrics) keep_near_tets(faces, raster, mesh);
   if (input.set.background.is_empty())
     input.set.background = std::move(mesh);
   else
@@ -164,13 +162,13 @@ void warn_of_outside(const BackgroundMesh& background, const FaceCells& faces, c
 }
 
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
-                         double slope, const ModelScale& scale, const ModelPlanes* planes) {
+                         double slope, const ModelScale& scale, const FaceCells& faces, const OctreeView& raster) {
   SourceInput input;
   input.set.slope = slope;
   std::vector<SourceSpec>& specs = input.set.sources;
   const auto take = [&](SourceFile&& file, const std::string& path, const std::string& role) {
     merge(specs, file, path);
-    add_background(std::move(file.background), motion, planes, input);
+    add_background(std::move(file.background), motion, faces, raster, input);
     if (is_size_mesh(path))
       for (const std::string& part : files_of_size_mesh(path)) input.files.push_back(file_ref(role, part));
     else

@@ -6,9 +6,9 @@
 
 #include "io/hdf5/artifact.h"
 #include "io/toml/source_file.h"
+#include "sizing/face_cells.h"
 #include "sizing/octree.h"
 #include "sizing/source_set.h"
-#include "sizing/surface_metrics.h"
 
 namespace st {
 
@@ -20,12 +20,11 @@ struct SourceInput {
 };
 
 /// Reads files in order. Sources are told apart by name; a later one replaces an earlier one; nameless ones add up.
-/// `motion` brings everything into the octree's frame. `planes`: an anisotropic background keeps its directions, those
-/// in these; null: it is taken by its smallest spacings, with a warning. So is a line without length, or a triangle
-/// without area, as a point or a line, and a background that grows faster than `slope`, which is lowered. Throws
-/// Error(kInput), Error(kUsage).
+/// `motion` brings everything into the octree's frame. A line without length, or a triangle without area, is taken as a
+/// point or a line, and a background that grows faster than `slope` is lowered, with a warning. Of a background with
+/// metrics only what is near `faces` stays, cells of `raster`. Throws Error(kInput), Error(kUsage).
 SourceInput read_sources(const std::vector<std::string>& files, const std::string& background, const Similarity& motion,
-                         double slope, const ModelScale& scale, const ModelPlanes* planes);
+                         double slope, const ModelScale& scale, const FaceCells& faces, const OctreeView& raster);
 
 /// Warns of each source whose core lies outside the root cube of the octree, and of a background mesh that does: there
 /// is nothing to mesh. `far_length`: longer lengths are of no interest; `unit` of all lengths, as messages have it.

@@ -156,6 +156,11 @@ class Shock(ToolTest):
         told = must("st-info", self.folder / "s.hdf", "--at", place, "--json").json()
         return told["length"], told["along"]
 
+    def mesh(self):
+        must("st-mesh", self.box / "geometry.hdf", self.folder / "s.hdf", "-o", self.folder / "p.hdf")
+        must("st-merge", self.folder / "p.hdf", "-o", self.folder / "m.hdf")
+        return content_hash(self.folder / "m.hdf")
+
     def test_each_face_has_the_two_lengths_that_it_cuts(self):
         self.sizes("--max-aspect", 16)
         for place, short, axis in (("30,20,0", self.TRACE, 1), ("0,20,10", self.TRACE, 1), ("30,0,10", self.SHORT, 0)):
@@ -166,8 +171,7 @@ class Shock(ToolTest):
 
     def test_the_mesh_of_a_face_has_both_lengths(self):
         self.sizes("--max-aspect", 16)
-        must("st-mesh", self.box / "geometry.hdf", self.folder / "s.hdf", "-o", self.folder / "p.hdf")
-        must("st-merge", self.folder / "p.hdf", "-o", self.folder / "m.hdf")
+        self.mesh()
         must("st-export", self.folder / "m.hdf", "-o", self.folder / "m.mesh")
         nodes, triangles = read_mesh(self.folder / "m.mesh")
         inside = [10 < x < 50 and 10 < y < 30 and abs(z) < 1e-9 for x, y, z in nodes]
@@ -204,11 +208,53 @@ class Shock(ToolTest):
             hashes += [content_hash(f / "m.hdf"), content_hash(f / "redone.hdf")]
         self.assertEqual(len(set(hashes)), 3)
 
-    def test_without_aspect_the_shortest_counts(self):
-        self.assertIn("nodes of the background mesh are anisotropic", self.sizes().err)
+    def test_the_aspect_of_the_raster_does_not_matter(self):
+        hashes = []
+        for options in ((), ("--max-aspect", 16)):
+            self.assertNotIn("anisotropic", self.sizes(*options).err)
+            hashes.append(self.mesh())
+        self.assertEqual(*hashes)
         length, along = self.at("30,20,0")
-        self.assertAlmostEqual(length, self.SHORT, delta=1e-6)
-        self.assertAlmostEqual(along["length"], self.SHORT, delta=1e-6)
+        self.assertAlmostEqual(length, self.TRACE, delta=0.01)
+        self.assertAlmostEqual(along["length"], self.LONG, delta=0.01)
+
+
+class ShockOnASphere(ToolTest):
+    """A background of two tetrahedra's size with one metric: of what it asks for, each plane of a sphere cuts two."""
+    SHORT, LONG = 0.4, 1.6
+
+    def write(self, name, values):
+        (self.folder / name).write_text("\n".join(["MeshVersionFormatted 2", "Dimension 3", *values, "End", ""]))
+
+    def setUp(self):
+        super().setUp()
+        self.sphere = artifacts_of("sphere")  # radius 10
+        corners = [(x, y, z) for z in (-15, 15) for y in (-15, 15) for x in (-15, 15)]
+        self.write("one.mesh", ["Vertices", "8", *(f"{x} {y} {z} 0" for x, y, z in corners), "Hexahedra", "1",
+                                "1 2 4 3 5 6 8 7 0"])
+        most, least = self.SHORT**-2, self.LONG**-2
+        self.write("one.sol", ["SolAtVertices", "8", "1 3", *[f"{most} 0 {least} 0 0 {least}"] * 8])
+
+    def test_edges_have_the_lengths_of_the_metric_in_every_plane(self):
+        f, geometry = self.folder, self.sphere / "geometry.hdf"
+        must("st-raster", geometry, "-o", f / "r.hdf", "--lmin", 0.2, "--lmax", 4)
+        hashes = []
+        for how in (("--threads", 1), ("--threads", 2), ("--np", 3)):
+            must("st-prolong", f / "r.hdf", "-o", f / "s.hdf", "--only", "--background", f / "one.sol")
+            must("st-mesh", geometry, f / "s.hdf", "-o", f / "p.hdf", *how)
+            must("st-merge", f / "p.hdf", "-o", f / "m.hdf")
+            hashes.append(content_hash(f / "m.hdf"))
+        self.assertEqual(len(set(hashes)), 1)
+        must("st-export", f / "m.hdf", "-o", f / "m.mesh")
+        nodes, triangles = read_mesh(f / "m.mesh")
+        # with x in units of SHORT, y and z in units of LONG, all edges are 1
+        scaled = [(x / self.SHORT, y / self.LONG, z / self.LONG) for x, y, z in nodes]
+        edges = {(min(a, b), max(a, b)) for t in triangles for a, b in zip(t, t[1:] + t[:1])}
+        lengths = sorted(math.dist(scaled[a], scaled[b]) for a, b in edges)
+        self.assertGreater(sum(0.7 <= length <= 1.42 for length in lengths), 0.9 * len(lengths))
+        self.assertAlmostEqual(lengths[len(lengths) // 2], 1, delta=0.05)
+        check = must("st-check", f / "m.hdf", "--geometry", geometry, "--sizing", f / "s.hdf", "--json").json()
+        self.assertGreater(check["quality"]["mean"], 0.85)
 
 
 if __name__ == "__main__":

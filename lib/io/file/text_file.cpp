@@ -1,10 +1,14 @@
 #include "io/file/text_file.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "base/error.h"
+#include "base/mapped_file.h"
 #include "io/file/temporary_file.h"
 
 namespace st {
@@ -40,6 +44,20 @@ std::string read_text_file(const std::string& path) {
   text.append(std::istreambuf_iterator<char>(file), {});  // what the size does not count
   if (file.bad()) throw Error(ExitCode::kInput, path + kUnreadable);
   return text;
+}
+
+MappedBytes::MappedBytes(const std::string& path) {
+  open_to_read(path);
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  if (const int file = none || size == 0 ? -1 : open(path.c_str(), O_RDONLY | O_CLOEXEC); file >= 0) {
+    mapping_ = map_file(file, 0, size, path);
+    close(file);
+  }
+  if (mapping_)
+    bytes_ = {static_cast<const char*>(mapping_.get()), static_cast<std::size_t>(size)};
+  else
+    bytes_ = copy_ = read_text_file(path);
 }
 
 void write_text_file(const std::string& path, const std::string& text) {

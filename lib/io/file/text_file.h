@@ -2,7 +2,9 @@
 #pragma once
 
 #include <fstream>
+#include <memory>
 #include <string>
+#include <string_view>
 
 namespace st {
 
@@ -14,6 +16,20 @@ std::ifstream open_to_read(const std::string& path);
 
 /// The bytes of the file. Throws as open_to_read().
 std::string read_text_file(const std::string& path);
+
+/// Bytes of a file without a copy of them, while an object of it lives. Precondition: the file stays as it is
+/// meanwhile.
+class MappedBytes {
+ public:
+  /// Throws as open_to_read().
+  explicit MappedBytes(const std::string& path);
+  std::string_view bytes() const { return bytes_; }
+
+ private:
+  std::shared_ptr<const void> mapping_;
+  std::string copy_;  // where a file cannot be mapped
+  std::string_view bytes_;
+};
 
 /// Writes `text` to `path` by way of a temporary name. Throws Error(kOutput).
 void write_text_file(const std::string& path, const std::string& text);

@@ -38,6 +38,7 @@ constexpr int kStretchedSizingVersion = 5;  // of one whose cells tell the lengt
 constexpr int kConeSizingVersion = 6;       // of one without faces and sources
 constexpr int kFacesSizingVersion = 7;      // of one whose cones have the same length in all directions
 constexpr int kStretchedConesVersion = 8;   // of one without lengths on surfaces
+constexpr int kSurfaceSizesVersion = 9;     // of one without metrics
 constexpr const char* kFrame = "/st/octree/frame";
 constexpr const char* kDirection = "/st/octree/direction";
 constexpr const char* kCell = "/st/octree/cell";
@@ -247,7 +248,8 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   const bool has_faces = sizing.faces.n_faces() > 0;
   if (has_faces) header.schema_version = kFacesSizingVersion;
   if (!sizing.cones.stretch.empty()) header.schema_version = kStretchedConesVersion;
-  if (!sizing.sources.background.triangles.empty()) header.schema_version = kSizingVersion;
+  if (!sizing.sources.background.triangles.empty()) header.schema_version = kSurfaceSizesVersion;
+  if (!sizing.sources.background.node_metric.empty()) header.schema_version = kSizingVersion;
   Hdf5Writer file(path, header);
   write_numbers(file, sizing.numbers);
   double smallest = sizing.numbers.far_length;

@@ -18,7 +18,7 @@
 namespace st {
 
 /// Schema versions that this build writes and reads.
-inline constexpr int kRasterVersion = 8, kSizingVersion = 9;
+inline constexpr int kRasterVersion = 8, kSizingVersion = 10;
 
 /// Resolved numbers of the sampling, model unit.
 struct SizingNumbers {

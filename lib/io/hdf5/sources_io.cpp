@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ constexpr const char* kSourceNumbers = "/st/source/numbers";
 constexpr const char* kSourceSlope = "source_slope";
 constexpr const char* kBackgroundNode = "/st/background/node";
 constexpr const char* kBackgroundSize = "/st/background/size";
+constexpr const char* kBackgroundMetric = "/st/background/metric";
 constexpr const char* kBackgroundTet = "/st/background/tet";
 constexpr const char* kBackgroundTriangle = "/st/background/triangle";
 
@@ -60,6 +62,18 @@ SourceSpec source_of(SourceKind kind, const double* in) {
   return s;
 }
 
+std::vector<SymmetricTensor> read_metrics(const Hdf5Reader& file, std::size_t n_nodes) {
+  const std::vector<double> numbers = file.read_rows<double>(kBackgroundMetric, n_nodes, 6);
+  require_finite(file, kBackgroundMetric, numbers);
+  std::vector<SymmetricTensor> metrics(n_nodes);
+  for (std::size_t i = 0; i < n_nodes; ++i) {
+    std::copy_n(numbers.begin() + static_cast<std::ptrdiff_t>(6 * i), 6, metrics[i].begin());
+    if (!(size_of_metric(metrics[i]).length > 0))
+      file.fail(kBackgroundMetric, fmt::format("row {} is no metric that is positive definite", i));
+  }
+  return metrics;
+}
+
 BackgroundMesh read_background(const Hdf5Reader& file) {
   BackgroundMesh mesh;
   mesh.node_xyz = file.read<Vec3>(kBackgroundNode);
@@ -73,6 +87,7 @@ BackgroundMesh read_background(const Hdf5Reader& file) {
     if (!(s[0] > 0 && s[1] >= s[0])) file.fail(kBackgroundSize, fmt::format("row {} is no length > 0", i));
     mesh.node_size.push_back({s[0], s[1], {s[2], s[3], s[4]}});
   }
+  if (file.has(kBackgroundMetric)) mesh.node_metric = read_metrics(file, mesh.node_xyz.size());
   for (std::size_t t = 0; t + 4 <= tets.size(); t += 4)
     mesh.tets.push_back({tets[t], tets[t + 1], tets[t + 2], tets[t + 3]});
   if (!file.has(kBackgroundTriangle)) return mesh;
@@ -106,6 +121,11 @@ void write_sources(Hdf5Writer& file, const SourceSet& set) {
   for (const auto& tet : set.background.tets) tets.insert(tets.end(), tet.begin(), tet.end());
   file.write<Vec3>(kBackgroundNode, set.background.node_xyz);
   file.write<double>(kBackgroundSize, sizes, 5);
+  if (!set.background.node_metric.empty()) {
+    std::vector<double> metrics;
+    for (const SymmetricTensor& m : set.background.node_metric) metrics.insert(metrics.end(), m.begin(), m.end());
+    file.write<double>(kBackgroundMetric, metrics, 6);
+  }
   file.write<std::int32_t>(kBackgroundTet, tets, 4);
   if (set.background.triangles.empty()) return;
   std::vector<std::int32_t> corners;

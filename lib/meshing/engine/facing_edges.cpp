@@ -81,7 +81,7 @@ class Roles {
 bool is_stretched(const Curve& curve, const SizeField& field) {
   const CurvePoint middle = curve.evaluate(0.5 * (curve.t_min() + curve.t_max()));
   int hint = 0;
-  const LocalSize local = field.local(middle.x, hint);
+  const LocalSize local = field.local_on(middle.x, a_normal_to(middle.d1), hint);
   return local.in(middle.d1) > kStretched * local.length;
 }
 

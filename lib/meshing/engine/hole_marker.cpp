@@ -7,6 +7,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/share.h"
+#include "mesh/node_normals.h"
 
 namespace st {
 
@@ -47,9 +48,11 @@ void HoleMarker::request_lengths(const SizeField& field) {
   char was_stretched = is_stretched_ || (executor_.is_root() && has_long_edges());
   share(executor_, was_stretched);
   options_.was_stretched = was_stretched != 0;
+  std::vector<Vec3> normal;
+  if (field.has_metrics()) normal = node_normals(mesh_.mesh.node_xyz, mesh_.mesh.triangles);
   int hint = 0;
   for (NodeId n = 0; n < n_nodes; ++n)
-    if (is_needed[n]) wanted_[n] = field.local(mesh_.mesh.node_xyz[n], hint);
+    if (is_needed[n]) wanted_[n] = field.local_on(mesh_.mesh.node_xyz[n], normal.empty() ? Vec3{} : normal[n], hint);
   std::vector<LocalSize> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
   share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());

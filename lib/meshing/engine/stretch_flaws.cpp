@@ -87,7 +87,8 @@ class FlawFinder {
         std::max({distance(x(r, 0), x(r, 1)), distance(x(r, 1), x(r, 2)), distance(x(r, 2), x(r, 0))});
     RefinementPoint place{(x(r, 0) + x(r, 1) + x(r, 2)) / 3};
     int hint = 0;
-    const LocalSize local = present_.local(place.x, hint);
+    const Vec3 normal = normalized(cross(x(r, 1) - x(r, 0), x(r, 2) - x(r, 0)));
+    const LocalSize local = present_.local_on(place.x, normal, hint);
     is_long = local.along > kAlike * local.length;
     const double factor = is_obtuse_[t] ? std::min(kShorter, factor_[t]) : factor_[t];
     const double shorter = factor * std::min(local.along, longest);

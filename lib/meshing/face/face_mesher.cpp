@@ -50,7 +50,9 @@ class FaceMesher {
     if (field.is_stretched())
       for (std::int32_t i = 0; i < work_.mesh.n_boundary; ++i) {
         MeshNode& n = work_.mesh.nodes[i];
-        n.squeeze = squeeze_of(field.local(n.x, work_.hint), n.normal);
+        const LocalSize local = field.local_on(n.x, n.normal, work_.hint);
+        n.squeeze = squeeze_of(local, n.normal);
+        if (field.has_metrics()) n.h = n.request = local.length;  // another face at the edge may ask for less
       }
     work_.max_turning = radians(options.max_turning_deg);
     work_.max_nodes = expected_nodes();

@@ -47,6 +47,7 @@ class TileCutter {
   /// At a node of the loops or a place inside.
   bool is_stretched() const {
     if (!field_.is_stretched()) return false;
+    if (field_.has_metrics()) return true;  // cuts do not know their plane
     int hint = 0;
     const auto is_long_at = [&](Vec3 x) {
       const LocalSize size = field_.local(x, hint);

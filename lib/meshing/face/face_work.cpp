@@ -15,7 +15,7 @@ Vec3 squeeze_of(const LocalSize& local, Vec3 normal) {
 }
 
 void FaceWork::ask_sizes(MeshNode& n) {
-  const LocalSize local = field->local(n.x, hint);
+  const LocalSize local = field->local_on(n.x, n.normal, hint);
   n.request = n.h = local.length;
   n.squeeze = squeeze_of(local, n.normal);
 }

@@ -114,8 +114,8 @@ RefinedField::RefinedField(const SizeField& base, const std::vector<Refinement>&
 
 double RefinedField::size(Vec3 xyz, int& hint) const { return all_.least(xyz, base_.size(xyz, hint)); }
 
-LocalSize RefinedField::local(Vec3 xyz, int& hint) const {
-  LocalSize local = base_.local(xyz, hint);
+LocalSize RefinedField::local_on(Vec3 xyz, Vec3 normal, int& hint) const {
+  LocalSize local = base_.local_on(xyz, normal, hint);
   if (local.along > local.length) local.along = std::max(local.length, along_.least(xyz, local.along));
   local.along = all_.least(xyz, local.along);
   if (local.along > local.length) return local;

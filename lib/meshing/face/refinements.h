@@ -84,7 +84,9 @@ class RefinedField : public SizeField {
   RefinedField(const SizeField& base, const std::vector<Refinement>& places);
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override;
-  LocalSize local(Vec3 xyz, int& hint) const override;
+  LocalSize local(Vec3 xyz, int& hint) const override { return local_on(xyz, {}, hint); }
+  LocalSize local_on(Vec3 xyz, Vec3 normal, int& hint) const override;
+  bool has_metrics() const override { return base_.has_metrics(); }
   bool is_stretched() const override { return base_.is_stretched(); }
   double min_size() const override;
   double slope() const override;

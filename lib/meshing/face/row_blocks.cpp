@@ -111,7 +111,8 @@ class RowBlock {
       ++n;
       const Vec3 c = next.columns[i].node.x, d = next.columns[i + 1].node.x;
       const double height = 0.5 * (distance(x(line_.nodes[i]), c) + distance(x(line_.nodes[i + 1]), d));
-      n_fit += distance(c, d) < kFlat * height && w_.field->local(c, hint_).in(d - c) > kMuchLonger * distance(c, d);
+      n_fit +=
+          distance(c, d) < kFlat * height && w_.field->length_along(c, d - c, hint_) > kMuchLonger * distance(c, d);
     }
     return n >= kLeastMerged && static_cast<double>(n_fit) > kMostFit * static_cast<double>(n);
   }

@@ -90,7 +90,7 @@ class Ladder {
       p.p = a + static_cast<double>(k) / kSteps * (b - a);
       w_.evaluate(p);
       const Vec3 way = p.x - last;
-      rows.push_back(rows.back() + norm(way) / w_.field->local(0.5 * (p.x + last), w_.hint).in(way));
+      rows.push_back(rows.back() + norm(way) / w_.field->length_along(0.5 * (p.x + last), way, w_.hint));
       last = p.x;
     }
     const double n_rows = std::max(1.0, std::round(std::min(rows.back(), kMostRows)));

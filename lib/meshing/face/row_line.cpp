@@ -91,8 +91,8 @@ class LineMaker {
       const Vec3 back = normalized(a.x - node(from).x), ahead = normalized(node(to).x - a.x);
       along_[i] = normalized(back + ahead - dot(back + ahead, a.normal) * a.normal);
       across_[i] = cross(a.normal, along_[i]);
-      const double own = w_.field->local(a.x, w_.hint).in(across_[i]);
-      const double there = w_.field->local(a.x + own * across_[i], w_.hint).in(across_[i]);
+      const double own = w_.field->length_along(a.x, across_[i], w_.hint);
+      const double there = w_.field->length_along(a.x + own * across_[i], across_[i], w_.hint);
       height_[i] = 0.5 * (own + std::min(there, kGrowth * own));
     }
   }
@@ -220,7 +220,7 @@ class LineMaker {
   /// For the length asked for at its far side.
   bool is_too_long(std::size_t i) const {
     const Vec3 a = next_.columns[i].node.x, b = next_.columns[i + 1].node.x;
-    const LocalSize local = w_.field->local(0.5 * (a + b), w_.hint);
+    const LocalSize local = w_.field->local_on(0.5 * (a + b), next_.columns[i].node.normal, w_.hint);
     const bool is_along = std::abs(dot(local.direction, b - a)) > kAlong * distance(a, b);
     return distance(a, b) > kTooLong * (is_along ? local.along : local.in(b - a));
   }

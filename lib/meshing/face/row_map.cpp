@@ -120,7 +120,7 @@ class Mapping {
   /// Whether its mean length and height are what the field asks for at its middle.
   bool is_asked(const MeshNode& a, const MeshNode& b, const MeshNode& c, const MeshNode& d, double length,
                 double height) {
-    const LocalSize local = w_.field->local(0.25 * (a.x + b.x + c.x + d.x), w_.hint);
+    const LocalSize local = w_.field->local_on(0.25 * (a.x + b.x + c.x + d.x), a.normal, w_.hint);
     const auto fits = [&](double own, Vec3 way) {
       const double asked = local.in(way);
       return own >= kShortest * asked && own <= kLongest * asked;

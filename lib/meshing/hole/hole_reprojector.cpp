@@ -319,8 +319,12 @@ class Mover {
   /// Of nodes that triangles [begin, end) have, at their new places.
   void find_squeeze(TriangleId begin, TriangleId end) {
     int hint = 0;
-    for (TriangleId t = begin; t < end && !squeeze_.empty(); ++t)
-      for (const NodeId n : old_.triangles[t].n) squeeze_[n] = sizes_->local(result_.mesh.node_xyz[n], hint).squeeze();
+    for (TriangleId t = begin; t < end && !squeeze_.empty(); ++t) {
+      const NodeId* nodes = old_.triangles[t].n;
+      const std::vector<Vec3>& x = result_.mesh.node_xyz;
+      const Vec3 normal = normalized(cross(x[nodes[1]] - x[nodes[0]], x[nodes[2]] - x[nodes[0]]));
+      for (const NodeId n : old_.triangles[t].n) squeeze_[n] = sizes_->local_on(x[n], normal, hint).squeeze();
+    }
   }
 
   /// `side`: -1 where areas in (u,v) change their signs.

@@ -42,7 +42,7 @@ class Discretiser {
  private:
   Sample at(double t) {
     const CurvePoint p = curve_.evaluate(t);
-    const LocalSize local = field_.local(p.x, hint_);
+    const LocalSize local = has_metrics_ ? field_.local_on(p.x, a_normal_to(p.d1), hint_) : field_.local(p.x, hint_);
     return {t, p.x, p.d1, local.in(p.d1), local.length};
   }
 
@@ -172,6 +172,7 @@ class Discretiser {
   const SizeField& field_;
   double max_turning_;
   int hint_ = 0;
+  const bool has_metrics_ = field_.has_metrics();
   std::vector<Sample> samples_;
   std::vector<double> share_;       // segments up to each sample
   std::vector<double> lengths_;     // requested lengths up to each sample

@@ -134,6 +134,7 @@ SizingArtifact sample_sizing() {
   s.sources.sources.resize(2);
   s.sources.background.node_xyz.resize(4);
   s.sources.background.node_size.resize(4);
+  s.sources.background.node_metric.resize(4);
   s.sources.background.tets.resize(6);
   s.sources.background.triangles.resize(5);
   s.faces = sample_raster().faces;

@@ -88,7 +88,7 @@ TEST_F(SizingArtifacts, lengths_on_surfaces_are_kept_and_count) {
   sizing.sources.background.triangles = {{0, 1, 2}};
   const std::string hash = write_sizing(file("a.hdf"), sizing);
   const SizingArtifact read = read_sizing(file("a.hdf"));
-  EXPECT_EQ(read.header.schema_version, kSizingVersion);
+  EXPECT_EQ(read.header.schema_version, 9);
   EXPECT_EQ(read.sources.background.triangles, sizing.sources.background.triangles);
   EXPECT_EQ(write_sizing(file("b.hdf"), read), hash);
   int hint = 0;
@@ -96,6 +96,33 @@ TEST_F(SizingArtifacts, lengths_on_surfaces_are_kept_and_count) {
   sizing.sources.background.triangles[0][2] = 3;
   write_sizing(file("c.hdf"), sizing);
   EXPECT_ERROR(read_sizing(file("c.hdf")), kInput, "/st/background/triangle: row 2 names entity 3 of");
+}
+
+TEST_F(SizingArtifacts, metrics_of_a_background_are_kept_and_mapped) {
+  SizingArtifact sizing = sizing_of_stretched_cones();
+  sizing.faces = sample_raster().faces;
+  sizing.face_lmin = sample_raster().face_lmin;
+  sizing.labels = sample_raster().labels;
+  BackgroundMesh& background = sizing.sources.background;
+  background.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  background.node_metric.assign(4, {1e6, 1, 4, 0, 0, 0});
+  background.node_size.assign(4, size_of_metric(background.node_metric[0]));
+  background.tets = {{0, 1, 2, 3}};
+  sizing.sources.slope = 0.2;
+  const std::string hash = write_sizing(file("a.hdf"), sizing);
+  const SizingArtifact read = read_sizing(file("a.hdf"));
+  EXPECT_EQ(read.header.schema_version, kSizingVersion);
+  EXPECT_EQ(read.sources.background.node_metric, background.node_metric);
+  EXPECT_EQ(write_sizing(file("b.hdf"), read), hash);
+  const MappedSizing mapped = map_sizing(file("a.hdf"));
+  EXPECT_TRUE(mapped.field->has_metrics());
+  int hint = 0;
+  const LocalSize floor = mapped.field->local_on({0.1, 0.1, 0.1}, {0, 0, 1}, hint);
+  EXPECT_NEAR(floor.length, 1e-3 * sizing.scale, 1e-9);
+  EXPECT_GT(floor.along, 50 * floor.length);
+  background.node_metric[2] = {1, 1, -1, 0, 0, 0};
+  write_sizing(file("c.hdf"), sizing);
+  EXPECT_ERROR(read_sizing(file("c.hdf")), kInput, "/st/background/metric: row 2 is no metric");
 }
 
 TEST_F(SizingArtifacts, stretched_cones_that_do_not_fit_are_refused) {

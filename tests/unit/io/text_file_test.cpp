@@ -18,6 +18,17 @@ TEST(TextFile, has_the_bytes_that_were_written) {
   EXPECT_EQ(dir.files(), std::vector<std::string>{"t"}) << "no temporary is left";
 }
 
+TEST(TextFile, is_mapped_with_all_its_bytes) {
+  const TemporaryDirectory dir;
+  const std::string bytes = std::string(10000, 'a') + std::string("a\0b", 3);
+  write_text_file(dir / "t", bytes);
+  EXPECT_EQ(MappedBytes(dir / "t").bytes(), bytes);
+  write_text_file(dir / "t", "");
+  EXPECT_EQ(MappedBytes(dir / "t").bytes(), "");
+  EXPECT_NE(MappedBytes("/proc/self/status").bytes().find("VmPeak"), std::string_view::npos);
+  EXPECT_ERROR(MappedBytes(dir / "none"), kInput, "cannot be read");
+}
+
 TEST(TextFile, has_more_bytes_than_the_system_tells) {
   EXPECT_NE(read_text_file("/proc/self/status").find("VmPeak"), std::string::npos) << "its size is 0 there";
 }

@@ -7,6 +7,7 @@
 
 #include "sizing/growth_limit.h"
 #include "unit/sizing/background_meshes.h"
+#include "unit/sizing/shock_metric.h"
 
 namespace st {
 namespace {
@@ -37,8 +38,56 @@ TEST(BackgroundMesh, of_metrics_is_stretched_along_what_its_nodes_share) {
   EXPECT_NEAR(middle.in(t), (0.8 + 0.4 + 0.2 + 0.6) / 4, 1e-9);
   EXPECT_NEAR(middle.length, 0.125, 1e-12);
   EXPECT_NEAR(field->max_aspect(), 8, 1e-9);
-  EXPECT_EQ(remove_stretch(mesh), 3);
-  EXPECT_EQ(make_background(mesh, kSteep)->local({0, 0, 0}, hint).in(t), 0.1);
+}
+
+TEST(BackgroundMesh, of_metrics_in_space_has_what_each_plane_cuts) {
+  BackgroundMesh mesh = one_tet({});
+  mesh.node_size.clear();
+  for (int i = 0; i < 4; ++i) {
+    mesh.node_metric.push_back(test::metric_of_shock({1, 0, 0}, 0.1 + 0.1 * i, 2));
+    mesh.node_size.push_back(size_of_metric(mesh.node_metric.back()));
+  }
+  const auto field = make_background(mesh, kSteep);
+  EXPECT_TRUE(field->has_metrics());
+  int hint = 0;
+  for (const Vec3 x : {Vec3{0, 0, 0}, Vec3{0.25, 0.25, 0.25}, Vec3{0.1, 0.2, 0.5}}) {
+    const double across = field->size(x);
+    EXPECT_NEAR(across, 0.1 + 0.1 * (x.x + 2 * x.y + 3 * x.z), 1e-12) << "linear";
+    EXPECT_NEAR(field->local(x, hint).length, across, 1e-12);
+    const LocalSize floor = field->local_on(x, {0, 0, 1}, hint), wall = field->local_on(x, {1, 0, 0}, hint);
+    EXPECT_NEAR(floor.length, across, 1e-12);
+    EXPECT_NEAR(std::abs(floor.direction.y), 1, 1e-9);
+    EXPECT_GE(floor.along, 2 - 1e-9);
+    EXPECT_NEAR(wall.length, floor.along, 1e-9) << "a plane that the shock lies on";
+    EXPECT_NEAR(field->length_along(x, {0, 2, 2}, hint), wall.length, 1e-9);
+  }
+  // outside all lengths grow
+  const LocalSize out = field->local_on({-0.01, 0, 0}, {0, 0, 1}, hint);
+  EXPECT_NEAR(out.length, 0.2, 1e-9);
+  EXPECT_NEAR(out.along, 2.1, 1e-9);
+}
+
+TEST(BackgroundMesh, keeps_metrics_when_another_mesh_without_them_is_appended) {
+  BackgroundMesh with = one_tet({}), without = one_tet({0.3, 0.3, 0.3, 0.3});
+  with.node_size.clear();
+  for (int i = 0; i < 4; ++i) {
+    with.node_metric.push_back(test::metric_of_shock({1, 0, 0}, 0.1, 2));
+    with.node_size.push_back(size_of_metric(with.node_metric.back()));
+  }
+  for (const bool comes_first : {true, false}) {
+    BackgroundMesh both = comes_first ? with : without;
+    append(comes_first ? without : with, both);
+    ASSERT_EQ(both.node_metric.size(), 8U);
+    int hint = 0;  // both are at one place: their intersection
+    const LocalSize size = make_background(both, kSteep)->local_on({0.2, 0.2, 0.2}, {0, 0, 1}, hint);
+    EXPECT_NEAR(size.length, 0.1, 1e-9);
+    EXPECT_NEAR(size.along, 0.3, 1e-9);
+  }
+  forget_plain_metrics(with);
+  EXPECT_EQ(with.node_metric.size(), 4U);
+  with.node_metric.assign(4, metric_of({0.1, 2, {0, 1, 0}}));
+  forget_plain_metrics(with);
+  EXPECT_TRUE(with.node_metric.empty());
 }
 
 TEST(BackgroundMesh, asks_for_no_less_around_a_place_than_its_bound_which_knows_how_flat_it_is) {

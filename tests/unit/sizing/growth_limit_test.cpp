@@ -6,6 +6,7 @@
 #include <random>
 
 #include "unit/sizing/background_meshes.h"
+#include "unit/sizing/shock_metric.h"
 
 namespace st {
 namespace {
@@ -81,6 +82,22 @@ TEST(GrowthLimit, leaves_no_jump_where_the_direction_of_metrics_turns) {
   BackgroundMesh mesh = stretched_cube(random, around);
   limit_growth(kGrowthSlope, mesh);
   EXPECT_LE(steepest_along(*make_background(mesh, kGrowthSlope), around({0.5, 0.5, 0.5}), random), 1.6);
+}
+
+TEST(GrowthLimit, holds_in_all_directions_of_metrics_and_leaves_those_that_do_not_grow) {
+  BackgroundMesh mesh = cube_of_tets(4, [](Vec3) { return 1; });
+  for (std::size_t i = 0; i < mesh.node_xyz.size(); ++i) {  // a plane of short lengths in the middle
+    const bool is_middle = std::abs(mesh.node_xyz[i].x - 0.5) < 0.01;
+    mesh.node_metric.push_back(test::metric_of_shock({1, 0, 0}, is_middle ? 0.1 : 1, 1));
+    mesh.node_size[i] = size_of_metric(mesh.node_metric[i]);
+  }
+  EXPECT_EQ(limit_metrics(kGrowthSlope, mesh), 4 * 25);
+  for (std::size_t i = 0; i < mesh.node_xyz.size(); ++i) {
+    const double away = std::abs(mesh.node_xyz[i].x - 0.5);
+    EXPECT_NEAR(size_of_metric(mesh.node_metric[i]).length, 0.1 + kGrowthSlope * away, 0.01);
+    EXPECT_NEAR(mesh.node_metric[i][1], 1, 1e-6) << "along the plane nothing grows";
+  }
+  EXPECT_EQ(limit_metrics(kGrowthSlope, mesh), 0);
 }
 
 }  // namespace
