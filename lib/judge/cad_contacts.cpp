@@ -24,6 +24,7 @@ const std::vector<FaceContact>& CadContacts::contacts(FaceId a, FaceId b) {
 }
 
 bool CadContacts::is_near(const TrianglePair& pair, bool passes_through) {
+  if (!model_.facets().empty()) return passes_through && is_near_facets(pair);
   const FaceId a = mesh_.triangle_face[pair.a], b = mesh_.triangle_face[pair.b];
   if (a == b) return false;
   double reach = 0;
@@ -38,6 +39,19 @@ bool CadContacts::is_near(const TrianglePair& pair, bool passes_through) {
   return std::any_of(all.begin(), all.end(), [&](const FaceContact& c) {
     return c.passes_through == passes_through && distance_to(c, middle) <= reach;
   });
+}
+
+bool CadContacts::is_near_facets(const TrianglePair& pair) {
+  if (!of_facets_) of_facets_ = std::make_unique<FacetCrossings>(model_.facets());
+  double reach = 0;
+  Box3 box;
+  for (const TriangleId t : {pair.a, pair.b})
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 p = mesh_.node_xyz[mesh_.triangles[t].n[k]], q = mesh_.node_xyz[mesh_.triangles[t].n[(k + 1) % 3]];
+      reach = std::max(reach, distance(p, q));
+      box.add(p);
+    }
+  return of_facets_->is_near({box.center(), box.center()}, reach);
 }
 
 bool CadContacts::touches(const TrianglePair& pair) { return is_near(pair, false); }

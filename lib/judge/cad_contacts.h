@@ -2,16 +2,19 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "geometry/model/model.h"
+#include "judge/facet_crossings.h"
 #include "mesh/crossing.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
 
-/// Answers by the intersection of the CAD faces themselves, found once per pair of faces. One object serves one mesh,
+/// Answers by the intersection of the CAD faces themselves, found once per pair of faces; of a model of facets, by the
+/// facets, which never touch but cross. One object serves one mesh,
 /// one thread.
 class CadContacts {
  public:
@@ -26,11 +29,13 @@ class CadContacts {
  private:
   static constexpr std::size_t kMaxFacePairs = 1000;  // some ten milliseconds each
   bool is_near(const TrianglePair& pair, bool passes_through);
+  bool is_near_facets(const TrianglePair& pair);
   const std::vector<FaceContact>& contacts(FaceId a, FaceId b);
 
   const Model& model_;
   const SurfaceMesh& mesh_;
   std::map<std::pair<FaceId, FaceId>, std::vector<FaceContact>> found_;
+  std::unique_ptr<FacetCrossings> of_facets_;  // found when first needed
 };
 
 }  // namespace st

@@ -197,6 +197,15 @@ std::string passed_as(const Findings& f) {
       n, said_of_sizes(f));
 }
 
+/// What is no fault of the mesh, for who reads the last line alone; empty: nothing.
+std::string fault_of_model(const Findings& f) {
+  if (f.n_model_crossings == 0) return "";
+  return fmt::format("{} of {} pairs of triangles cross where {}; ", f.n_model_crossings,
+                     f.crossings.crossings.count + f.crossings.overlapping_neighbours.count,
+                     f.is_of_facets ? "facets of the file do, so repair the file"
+                                    : "the CAD crosses itself, so repair it in the CAD system");
+}
+
 std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
   std::string failed;
   for (const Check& c : f.checks) {
@@ -205,7 +214,7 @@ std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const
     failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what,
                           has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
   }
-  const std::string verdict = failed.empty() ? passed_as(f) : "FAILS: " + failed;
+  const std::string verdict = failed.empty() ? passed_as(f) : "FAILS: " + fault_of_model(f) + failed;
   const std::string genus = f.genus() ? fmt::format(", genus {}", *f.genus()) : "";
   return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", path, verdict, mesh.n_triangles(),
                      f.topology.n_used_nodes, f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts",
@@ -213,6 +222,12 @@ std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const
 }
 
 }  // namespace
+
+std::string crossing_note(const Findings& f) {
+  return f.n_model_crossings == 0 ? ""
+                                  : fmt::format("{} crossing or overlapping where {}", f.n_model_crossings,
+                                                f.is_of_facets ? "facets of the file cross" : "the CAD crosses itself");
+}
 
 std::string length_text(double length, const std::string& unit) {
   return fmt::format("{:.3g}{}", length, in_unit(unit));

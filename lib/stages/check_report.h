@@ -34,7 +34,8 @@ struct Findings {
   TopologyReport topology;
   ShapeReport shape;
   CrossingReport crossings;
-  std::string crossing_note;  ///< whose crossings they are, empty when nothing is known
+  std::int64_t n_model_crossings = 0;  ///< crossings and overlapping neighbours where the model crosses itself
+  bool is_of_facets = false;           ///< the model is a file of facets, no CAD
   MeshMeasure measure;
   QualityReport quality;
   bool is_stretched = false;  ///< quality, growth and smallest angles are those that stretched sizes see
@@ -61,6 +62,9 @@ struct Findings {
 
 /// "face 17 "WING_UPPER"", 1-based.
 std::string face_label(const SurfaceMesh& mesh, FaceId f);
+
+/// Whose the crossings are; empty where nothing is known.
+std::string crossing_note(const Findings& f);
 
 /// "0.25 mm"; `unit` may be empty.
 std::string length_text(double length, const std::string& unit);

@@ -98,17 +98,16 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
   }
   CadContacts contacts(cad->model, mesh);
   WallsApart walls(cad->model, mesh);
-  std::int64_t n_cad = 0;
   const auto touches_itself = [&](const TrianglePair& pair) {
     if (contacts.touches(pair)) return true;
-    n_cad += contacts.crosses(pair);
+    f.n_model_crossings += contacts.crosses(pair);
     return false;
   };
   CadOfPairs pairs{touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); }};
   pairs.is_of_sheet = [&](const TrianglePair& pair) { return walls.are_of_body_and_sheet(pair); };
   if (!has_flow_domain(mesh)) pairs.is_one_body = [&](const TrianglePair& pair) { return walls.are_of_one_body(pair); };
   f.crossings = check_crossings(mesh, pairs);
-  if (n_cad > 0) f.crossing_note = fmt::format("{} crossing or overlapping where the CAD crosses itself", n_cad);
+  f.is_of_facets = !cad->model.facets().empty();
 }
 
 std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThresholds& allow, bool is_filled_outside,
@@ -132,7 +131,7 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
       {"duplicate-triangles", "triangles that occur twice", f.topology.duplicate_triangles, true, ""},
       {"duplicate-nodes", "nodes at the same place as another node", f.shape.duplicate_nodes, true, ""},
       {"folds", "folds: neighbouring triangles turned back on each other", f.shape.folds, true, "", allow.max_folds},
-      {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, f.crossing_note, allow.max_crossings},
+      {"crossings", "crossing pairs of triangles", f.crossings.crossings, true, crossing_note(f), allow.max_crossings},
       {"overlaps", "neighbouring triangles that overlap or cross", f.crossings.overlapping_neighbours, true, "",
        left_of(f.crossings.crossings.count)},
       {"cad-contacts", "crossing or overlapping pairs of triangles where the CAD touches itself",

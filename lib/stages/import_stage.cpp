@@ -397,13 +397,12 @@ void report_crossing(const std::string& path, const SurfaceMesh& mesh, const std
                      bool was_ended, ImportResult& r) {
   if (pairs.empty()) return;
   const Vec3 x = mesh.node_xyz[mesh.triangles[pairs[0].a].n[0]];
-  const std::string what =
-      fmt::format("facets cross each other: {}{} pairs", pairs.size(), was_ended ? " or more" : "");
+  const std::string n_pairs = fmt::format("{}{} pairs", pairs.size(), was_ended ? " or more" : "");
+  r.findings.push_back({FindingKind::kCrossingFacets, "", x, 0, false, n_pairs});
   log_warning(
       fmt::format("{}: {}, the first one near ({:.6g}, {:.6g}, {:.6g}); triangles will cross there, so repair "
                   "the file",
-                  path, what, x.x, x.y, x.z));
-  r.findings.push_back({FindingKind::kOther, "", x, 0, false, what});
+                  path, r.findings.back().what(), x.x, x.y, x.z));
 }
 
 ImportResult import_triangles(const std::string& path, const ImportOptions& options) {

@@ -18,6 +18,7 @@
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
 #include "io/foreign/size_mesh.h"
+#include "io/hdf5/artifact.h"
 #include "io/toml/groups_file.h"
 #include "io/toml/pair_file.h"
 #include "io/toml/size_rule_file.h"
@@ -174,9 +175,18 @@ class Run {
     log_step(fmt::format("{:<11}{}", tool, s.line.starts_with(own) ? s.line.substr(own.size()) : s.line));
     const bool may_go_on = part != RunPart::kMesh || o_.merge.allow_incomplete;
     if (s.code != ExitCode::kOk && (part != RunPart::kMesh || !may_go_on))
-      throw Error(s.code, tool +
-                              ": not everything could be done, see above; --allow-incomplete goes on without it, "
-                              "--keep FOLDER keeps what there is");
+      throw Error(s.code, tool + ": not everything could be done, " + cause_in_file(part) +
+                              "; --allow-incomplete goes on without it, --keep FOLDER keeps what there is");
+  }
+
+  /// Faces of facets that cross each other may have no mesh.
+  std::string cause_in_file(RunPart part) const {
+    if (part == RunPart::kMesh)
+      for (const ImportFinding& f : read_geometry(geometry_).findings)
+        if (f.kind == FindingKind::kCrossingFacets)
+          return fmt::format("and in the file {}, the first one near ({:.6g}, {:.6g}, {:.6g}): repair it", f.what(),
+                             f.xyz.x, f.xyz.y, f.xyz.z);
+    return "see above";
   }
 
   StageSummary summarize() {

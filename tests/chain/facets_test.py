@@ -7,7 +7,8 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import GEOMETRY, INPUT, USAGE, Run, ToolTest, artifacts_of, content_hash, make_chain, must  # noqa: E402
+from chain import (  # noqa: E402
+    GEOMETRY, INCOMPLETE, INPUT, USAGE, Run, ToolTest, artifacts_of, content_hash, make_chain, must)
 
 
 def grid(n_u, n_v, point):
@@ -147,6 +148,13 @@ class Facets(ToolTest):
         run = must("st-import", write_stl(self.folder / "two.stl", sphere(10) + sphere(10, 0.9, 0.7)), "--unit", "m",
                    "--check")
         self.assertIn("facets cross each other", run.err)
+
+    def test_who_reads_the_last_line_alone_learns_that_the_file_crosses_itself(self):
+        folded = [tuple((0.4, 0.6, -0.5) if x == (1.0, 1.0, 1.0) else x for x in t) for t in cube()]
+        path, mesh = write_stl(self.folder / "folded.stl", folded), self.folder / "folded.hdf"
+        run = Run("st-run", path, "--unit", "m", "--preset", "preview", "-o", mesh, "--quiet")
+        self.assertEqual(run.code, INCOMPLETE, run)
+        self.assertRegex(run.out, r"FAILS: (\d+) of \1 pairs of triangles cross where facets of the file do, so repair")
 
     def test_refuses_what_facets_do_not_do(self):
         path, out = write_stl(self.folder / "cube.stl", cube()), self.folder / "g.hdf"

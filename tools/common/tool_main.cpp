@@ -399,7 +399,8 @@ void ToolMain::watch_time(const std::function<void(ExitCode, const std::string&)
 
 void ToolMain::print_summary(const StageSummary& summary) const {
   const std::string text = without_hidden_folders(json_ ? summary.json : printable(summary.line));
-  if (!text.empty() && (json_ || kind_ == Kind::kReport || !quiet_)) {
+  const bool is_said = json_ || kind_ == Kind::kReport || !quiet_ || summary.code != ExitCode::kOk;
+  if (!text.empty() && is_said) {
     std::fputs(text.c_str(), stdout);
     if (text.back() != '\n') std::fputc('\n', stdout);
   }

@@ -77,7 +77,7 @@ class FacetRepair {
     if (join_free_nodes()) drop_duplicates();
     join_short_sides();
     drop_unused_nodes();
-    if (in_.corners.empty()) throw Error(ExitCode::kGeometry, "no facet has an area; export the model again");
+    if (!has_area()) throw Error(ExitCode::kGeometry, "no facet has an area; export the model again");
     orient();
     turn_caps();
     return std::move(findings_);
@@ -86,6 +86,11 @@ class FacetRepair {
  private:
   void add(FindingKind kind, Vec3 x, double size, std::size_t n) {
     findings_.push_back({kind, "", x, size, true, std::to_string(n)});
+  }
+
+  bool has_area() const {
+    return std::any_of(in_.corners.begin(), in_.corners.end(),
+                       [&](const Corners& c) { return flatness(c) > kSinglePrecision; });
   }
 
   void drop_duplicates() {

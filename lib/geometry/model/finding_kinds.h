@@ -78,3 +78,4 @@ KIND(kDuplicateFacets, "duplicated facets, removed", "duplicated facets, removed
 KIND(kJoinedNodes, "nodes at gaps between facets joined", "nodes at gaps between facets joined: {}")
 KIND(kTurnedFacets, "facets turned", "facets turned to agree which side is outside: {}")
 KIND(kMirrored, "one half made the image of the other", "one half made the image of the other: {}")
+KIND(kCrossingFacets, "facets cross each other", "facets cross each other: {}")

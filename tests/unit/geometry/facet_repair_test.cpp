@@ -116,6 +116,11 @@ TEST(FacetRepair, refuses_one_side_alone_and_nothing) {
   nothing.corners = {{0, 1, 1}};
   nothing.part = {0};
   EXPECT_ERROR(repair_facets(nothing), kGeometry, "no facet");
+  FacetInput flat;
+  flat.x = {{10, 10, 10}, {4, 4, 4}, {5, 5, 5}};
+  flat.corners = {{0, 1, 2}};
+  flat.part = {0};
+  EXPECT_ERROR(repair_facets(flat), kGeometry, "no facet has an area");
 }
 
 }  // namespace
