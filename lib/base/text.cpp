@@ -32,6 +32,10 @@ std::string one_line(std::string_view text) {
   return printable(line);
 }
 
+std::string counted(std::int64_t n, const std::string& one, const std::string& more) {
+  return std::to_string(n) + " " + (n == 1 ? one : more.empty() ? one + "s" : more);
+}
+
 std::optional<std::pair<std::int64_t, std::int64_t>> as_range(const std::string& text) {
   const char *const begin = text.data(), *const end = begin + text.size();
   std::int64_t first = 0, last = 0;

@@ -20,6 +20,9 @@ std::string printable(std::string_view text);
 /// bytes is left out.
 std::string one_line(std::string_view text);
 
+/// "1 face", "2 faces"; `more`: the word for several, empty: with an s.
+std::string counted(std::int64_t n, const std::string& one, const std::string& more = "");
+
 /// "17" is 17 to 17, "17-20" is 17 to 20; nullopt: a name.
 std::optional<std::pair<std::int64_t, std::int64_t>> as_range(const std::string& text);
 

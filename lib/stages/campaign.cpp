@@ -16,6 +16,7 @@
 
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/text.h"
 #include "io/file/text_file.h"
 
 namespace st {
@@ -246,7 +247,7 @@ std::string campaign_summary(std::span<const CampaignRow> rows) {
       if (!reason.empty())
         why += fmt::format("{}{}{}", why.empty() ? "" : ", ", count > 1 ? fmt::format("{} ", count) : "", reason);
     }
-    return n == 0 ? "" : fmt::format("{} {}{}", n, n == 1 ? one : more, why.empty() ? "" : " (" + why + ")");
+    return n == 0 ? "" : counted(n, one, more) + (why.empty() ? "" : " (" + why + ")");
   };
   std::string text;
   for (const std::string& p :

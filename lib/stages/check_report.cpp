@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/length.h"
+#include "base/text.h"
 #include "stages/text_table.h"
 #include "stages/wing_table.h"
 
@@ -175,8 +176,7 @@ std::string cause_lines(const SurfaceMesh& mesh, const ShapeCauses& c, bool has_
 std::string said_of_sizes(const Findings& f) {
   constexpr double kWorthSaying = 0.01;
   std::string text;
-  if (const std::int64_t n = f.count("below-sizes"))
-    text += fmt::format(", {} {} below the sizes", n, n == 1 ? "face" : "faces");
+  if (const std::int64_t n = f.count("below-sizes")) text += fmt::format(", {} below the sizes", counted(n, "face"));
   const auto add = [&](const char* what, const std::optional<double>& difference) {
     if (difference && std::fabs(*difference) > kWorthSaying)
       text += fmt::format(", {} {:.1f} % {} the CAD's", what, 100 * std::fabs(*difference),
@@ -216,9 +216,9 @@ std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const
   }
   const std::string verdict = failed.empty() ? passed_as(f) : "FAILS: " + fault_of_model(f) + failed;
   const std::string genus = f.genus() ? fmt::format(", genus {}", *f.genus()) : "";
-  return fmt::format("{}: {}; {} triangles, {} nodes, {} {}{}, {:.1f} s", path, verdict, mesh.n_triangles(),
-                     f.topology.n_used_nodes, f.topology.n_components, f.topology.n_components == 1 ? "part" : "parts",
-                     genus, seconds);
+  return fmt::format("{}: {}; {}, {}, {}{}, {:.1f} s", path, verdict, counted(mesh.n_triangles(), "triangle"),
+                     counted(f.topology.n_used_nodes, "node"), counted(f.topology.n_components, "part"), genus,
+                     seconds);
 }
 
 }  // namespace

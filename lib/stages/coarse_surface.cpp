@@ -7,6 +7,7 @@
 
 #include "base/log.h"
 #include "base/share.h"
+#include "base/text.h"
 #include "geometry/model/model_state.h"
 #include "mesh/merge.h"
 #include "meshing/engine/mesh_regions.h"
@@ -22,8 +23,8 @@ constexpr double kCoarser = 3;  // than the raster's lengths: a ninth of the tri
 void warn_of_holes(std::vector<FaceFailure> failures) {
   std::erase_if(failures, [](const FaceFailure& f) { return f.is_closed; });
   if (failures.empty()) return;
-  log_warning(fmt::format("{} faces, {} the first, have no coarse mesh: sizes may pass through the solid there",
-                          failures.size(), failures.front().face + 1));
+  log_warning(fmt::format("{} no coarse mesh, first face {}: sizes may pass through the solid there",
+                          counted(failures.size(), "face has", "faces have"), failures.front().face + 1));
 }
 
 /// Collective. Rank 0's cells on every rank; their lengths are constant in each, so that one number says all of a cell.

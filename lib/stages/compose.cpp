@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "features/ridge_edges.h"
 #include "features/smooth_edges.h"
 #include "geometry/model/joined_tables.h"
@@ -189,7 +190,7 @@ std::string said(const GeometryArtifact& geometry, const std::vector<std::string
   std::string text = c.empty() ? "no faces joined"
                                : fmt::format("{} faces and {} edges after joining ({} faces became {})", left.faces,
                                              left.edges, c.member.size(), c.size());
-  for (const auto& [why, n] : reasons) text += fmt::format(", {} {} refused: {}", n, n == 1 ? "union" : "unions", why);
+  for (const auto& [why, n] : reasons) text += fmt::format(", {} refused: {}", counted(n, "union"), why);
   return text;
 }
 

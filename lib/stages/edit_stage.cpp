@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/similarity.h"
+#include "base/text.h"
 #include "geometry/import/import.h"
 #include "geometry/model/bodies.h"
 #include "geometry/model/edit_model.h"
@@ -391,11 +392,11 @@ StageSummary summarize(const EditStageOptions& o, const EditInputs& inputs, cons
   const auto n_moved =
       std::count_if(e.motion.begin(), e.motion.end(), [](const Similarity& m) { return m != Similarity(); });
   StageSummary s;
-  s.line =
-      fmt::format("{}: {} faces of {} geometr{}, {} moved, {} edges, {}, area {:.6g}{}{}, {:.2f} s", o.output,
-                  t.n_faces(), inputs.files.size(), inputs.files.size() == 1 ? "y" : "ies", n_moved, t.n_edges(),
-                  r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.uses.n_free), area, in_unit(t.unit, 2),
-                  t.volume ? fmt::format(", volume {:.6g}{}", *t.volume, in_unit(t.unit, 3)) : "", seconds);
+  s.line = fmt::format(
+      "{}: {} of {}, {} moved, {}, {}, area {:.6g}{}{}, {:.2f} s", o.output, counted(t.n_faces(), "face"),
+      counted(inputs.files.size(), "geometry", "geometries"), n_moved, counted(t.n_edges(), "edge"),
+      r.is_closed ? "closed" : fmt::format("open ({})", counted(r.uses.n_free, "free edge")), area, in_unit(t.unit, 2),
+      t.volume ? fmt::format(", volume {:.6g}{}", *t.volume, in_unit(t.unit, 3)) : "", seconds);
   const nlohmann::ordered_json json = {
       {"tool", "st-edit"},
       {"output", o.output},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "base/text.h"
 #include "features/base_strips.h"
 #include "features/bodies.h"
 #include "features/round_tails.h"
@@ -47,8 +48,7 @@ std::string groups_file_text(const std::vector<SuggestedGroup>& groups, const Mo
       "# with the same options otherwise, since other options may give faces other numbers.\n",
       model);
   for (const SuggestedGroup& g : groups) {
-    text += fmt::format("\n[[group]]  # {} {}: {}\nname = \"{}\"\n", g.faces.size(),
-                        g.faces.size() == 1 ? "face" : "faces", g.why, g.name);
+    text += fmt::format("\n[[group]]  # {}: {}\nname = \"{}\"\n", counted(g.faces.size(), "face"), g.why, g.name);
     std::vector<std::int32_t> ids;
     for (const FaceId f : g.faces) ids.push_back(f + 1);
     text += fmt::format("faces = [{}]\n", id_ranges(ids, '"'));
@@ -77,22 +77,19 @@ std::string groups_in_words(const std::vector<SuggestedGroup>& groups, const Mod
 
 std::string groups_in_words(const FaceLabels& labels) {
   constexpr std::size_t kMost = 16;
-  const auto counted = [](std::size_t n, const char* one, const char* more) {
-    return fmt::format("{} {}", n, n == 1 ? one : more);
-  };
   std::vector<std::size_t> n_faces(labels.group_name.size(), 0);
   for (const std::int32_t g : labels.face_group)
     if (g != kNone) ++n_faces[static_cast<std::size_t>(g)];
   std::vector<std::string> words;
   for (std::size_t g = 0; g < n_faces.size(); ++g) {
     const std::string role = g < labels.group_role.size() ? labels.group_role[g] : "wall";
-    words.push_back(fmt::format("{} {}{}", labels.group_name[g], counted(n_faces[g], "face", "faces"),
+    words.push_back(fmt::format("{} {}{}", labels.group_name[g], counted(n_faces[g], "face"),
                                 role == "wall" ? "" : " (" + role + ")"));
   }
   for (const GroupTable& table : labels.tables)
-    words.push_back(fmt::format("table {} of {}", table.name, counted(table.group_name.size(), "group", "groups")));
+    words.push_back(fmt::format("table {} of {}", table.name, counted(table.group_name.size(), "group")));
   for (const EntityGroup& g : labels.edge_groups)
-    words.push_back(fmt::format("{} {}", g.name, counted(g.ids.size(), "edge", "edges")));
+    words.push_back(fmt::format("{} {}", g.name, counted(g.ids.size(), "edge")));
   for (const EntityGroup& g : labels.vertex_groups)
     words.push_back(fmt::format("{} {}", g.name, counted(g.ids.size(), "vertex", "vertices")));
   const std::size_t n = std::min(words.size(), kMost);

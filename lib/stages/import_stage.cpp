@@ -12,6 +12,7 @@
 #include "base/length.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "features/wing_edges.h"
 #include "geometry/import/facet_import.h"
@@ -470,10 +471,10 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   if (!o.groups.empty()) log_report(fmt::format("  {}: {}", o.groups, groups_in_words(r.tables.labels)));
   const ModelTables& t = r.tables;
   StageSummary s;
-  s.line =
-      fmt::format("{}: {} faces, {} edges, {}, {}, {} findings, {} repairs", o.check ? o.model : o.output, t.n_faces(),
-                  t.n_edges(), r.is_closed ? "closed" : fmt::format("open ({} free edges)", r.n_free_edges), extent(r),
-                  r.findings.size() - r.n_repairs, r.n_repairs);
+  s.line = fmt::format("{}: {}, {}, {}, {}, {}, {}", o.check ? o.model : o.output, counted(t.n_faces(), "face"),
+                       counted(t.n_edges(), "edge"),
+                       r.is_closed ? "closed" : fmt::format("open ({})", counted(r.n_free_edges, "free edge")),
+                       extent(r), counted(r.findings.size() - r.n_repairs, "finding"), counted(r.n_repairs, "repair"));
   if (const std::string faults = faults_in_words(r); !faults.empty()) s.line += "; " + faults;
   if (!o.check) {
     GeometryArtifact g;

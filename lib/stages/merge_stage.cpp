@@ -13,6 +13,7 @@
 #include "base/limits.h"
 #include "base/log.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "io/export/export.h"
 #include "io/file/json_text.h"
 #include "io/file/output_files.h"
@@ -104,9 +105,9 @@ void require_complete(const MergeParts& parts, const MergeStageOptions& options)
       hole == rest.failures.end() ? "" : fmt::format(" (face {}: {})", hole->face + 1, hole->cause);
   throw Error(
       ExitCode::kIncomplete,
-      fmt::format(
-          "{}: incomplete, {} faces have no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete",
-          options.patches[0], missing.size(), missing.empty() ? "" : ": ", list_faces(missing), cause));
+      fmt::format("{}: incomplete, {} no complete mesh{}{}{}; mesh them, or merge the rest with --allow-incomplete",
+                  options.patches[0], counted(missing.size(), "face has", "faces have"), missing.empty() ? "" : ": ",
+                  list_faces(missing), cause));
 }
 
 /// Without triangles, and of nodes those on boundaries.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/log.h"
+#include "base/text.h"
 
 namespace st {
 
@@ -18,14 +19,17 @@ std::string list_faces(std::span<const FaceId> faces) {
 
 void warn_of_changes(const OrientationReport& report) {
   if (!report.turned_faces.empty())
-    log_warning(fmt::format("{} faces were turned to agree with their neighbours: {}", report.turned_faces.size(),
-                            list_faces(report.turned_faces)));
+    log_warning(fmt::format(
+        "{} turned to agree with {}: {}", counted(report.turned_faces.size(), "face was", "faces were"),
+        report.turned_faces.size() == 1 ? "its neighbours" : "their neighbours", list_faces(report.turned_faces)));
   if (report.turned_components)
-    log_warning(fmt::format("{} parts were inside out and are turned: faces {}", report.turned_components,
-                            list_faces(report.inside_out_faces)));
-  if (report.n_one_sided)
     log_warning(
-        fmt::format("{} parts are one-sided (like a Moebius strip) and cannot be oriented", report.n_one_sided));
+        fmt::format("{} turned: faces {}",
+                    counted(report.turned_components, "part was inside out and is", "parts were inside out and are"),
+                    list_faces(report.inside_out_faces)));
+  if (report.n_one_sided)
+    log_warning(fmt::format("{} one-sided (like a Moebius strip) and cannot be oriented",
+                            counted(report.n_one_sided, "part is", "parts are")));
 }
 
 }  // namespace st

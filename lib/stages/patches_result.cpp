@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/share.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "geometry/model/joined_tables.h"
 #include "io/file/json_text.h"
@@ -208,9 +209,10 @@ StageSummary summary_of(const std::string& path, const ModelTables& t, const Art
   const bool is_sound = std::all_of(result.failures.begin(), result.failures.end(),
                                     [](const FaceFailure& f) { return f.is_closed && f.is_near; });
   s.code = is_sound ? ExitCode::kOk : ExitCode::kIncomplete;
-  s.line = fmt::format("{}: {} triangles on {} of {} faces, {} rounds, {:.2f} s ({} ranks, {:.0f} triangles/s)", path,
-                       w.n_triangles, w.n_patches, count_left(t).faces, result.n_rounds, seconds, facts.n_ranks,
-                       seconds > 0 ? static_cast<double>(w.n_triangles) / seconds : 0.0);
+  s.line =
+      fmt::format("{}: {} on {} of {}, {}, {:.2f} s ({}, {:.0f} triangles/s)", path, counted(w.n_triangles, "triangle"),
+                  w.n_patches, counted(count_left(t).faces, "face"), counted(result.n_rounds, "round"), seconds,
+                  counted(facts.n_ranks, "rank"), seconds > 0 ? static_cast<double>(w.n_triangles) / seconds : 0.0);
   nlohmann::json json = result_json(t, result);
   json.update({{"tool", header.tool},
                {"output", path},

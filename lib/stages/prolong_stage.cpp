@@ -107,8 +107,8 @@ double scale_to(int target_triangles, const std::vector<FaceWeight>& weights) {
 
 void require_complete(const ProlongStageOptions& o, const RasterArtifact& raster) {
   if (raster.n_not_sampled == 0) return;
-  const std::string what =
-      fmt::format("{}: incomplete, {} parts of the model could not be sampled", o.raster, raster.n_not_sampled);
+  const std::string what = fmt::format("{}: incomplete, {} of the model could not be sampled", o.raster,
+                                       counted(raster.n_not_sampled, "part"));
   if (!o.allow_incomplete)
     throw Error(
         ExitCode::kIncomplete,
@@ -367,8 +367,7 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   const double lo = scale * std::min<double>(smallest->at_centre(), sizing.sources.min_size()),
                hi = scale * largest->at_centre(), n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
-  const std::string sources =
-      sizing.names.source.empty() ? "" : fmt::format(", {} sources", sizing.names.source.size());
+  const std::string sources = sizing.names.source.empty() ? "" : ", " + counted(sizing.names.source.size(), "source");
   const std::vector<CellColour>& colour = sizing.blanking.colour;
   const auto n_blanked = std::count(colour.begin(), colour.end(), CellColour::kBlanked);
   const auto n_cut = std::count(colour.begin(), colour.end(), CellColour::kCut);

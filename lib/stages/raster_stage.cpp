@@ -21,6 +21,7 @@
 #include "base/progress.h"
 #include "base/required_unit.h"
 #include "base/share.h"
+#include "base/text.h"
 #include "features/base_strips.h"
 #include "features/passages.h"
 #include "features/rotor_blades.h"
@@ -761,9 +762,10 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
   StageSummary summary;
   summary.code = code_of(o, counts);
   summary.line = fmt::format(
-      "{}: {} samples, {} cells{}, {} lifting surfaces{}, {:.2f} s", o.output, counts.n_boxes, n_cells,
-      range_text(groups, a.header.unit), wings.aircraft.wings.size(),
-      counts.n_failures ? fmt::format(", INCOMPLETE: {} parts not sampled", counts.n_failures) : "", seconds);
+      "{}: {}, {}{}, {}{}, {:.2f} s", o.output, counted(counts.n_boxes, "sample"), counted(n_cells, "cell"),
+      range_text(groups, a.header.unit), counted(wings.aircraft.wings.size(), "lifting surface"),
+      counts.n_failures ? fmt::format(", INCOMPLETE: {} not sampled", counted(counts.n_failures, "part")) : "",
+      seconds);
   summary.json = json_text(nlohmann::ordered_json{{"tool", "st-raster"},
                                                   {"output", o.output},
                                                   {"samples", counts.n_boxes},
@@ -853,7 +855,9 @@ class RasterRun {
  private:
   void say_interfaces() const {
     const auto n = std::ranges::count(roles_.role, FaceRole::kInterface);
-    if (n > 0) log_report(fmt::format("  {} faces have the role interface: they ask for no lengths", n));
+    if (n > 0)
+      log_report(
+          fmt::format("  {} the role interface: no lengths are asked for there", counted(n, "face has", "faces have")));
   }
 
   Model same_model(const Communicator& comm) {

@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/required_unit.h"
+#include "base/text.h"
 #include "io/export/displacement_export.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
@@ -311,8 +312,8 @@ StageSummary write_merged(const RemeshStageOptions& o, const RemeshInput& in, co
   const std::string hash = write_mesh_with(o.merged, artifact, values);
   const double write_seconds = timer.seconds(), seconds = facts.timer.seconds();
   StageSummary s;
-  s.line = fmt::format("{}: {} triangles, {} nodes, {:.2f} s ({} ranks)", o.merged, artifact.mesh.n_triangles(),
-                       artifact.mesh.n_nodes(), seconds, facts.n_ranks);
+  s.line = fmt::format("{}: {}, {}, {:.2f} s ({})", o.merged, counted(artifact.mesh.n_triangles(), "triangle"),
+                       counted(artifact.mesh.n_nodes(), "node"), seconds, counted(facts.n_ranks, "rank"));
   nlohmann::json json = {{"tool", "st-remesh"},
                          {"output", o.merged},
                          {"hash", hash},

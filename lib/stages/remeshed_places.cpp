@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/disjoint_sets.h"
+#include "base/text.h"
 
 namespace st {
 namespace {
@@ -60,8 +61,8 @@ std::string places_text(const SurfaceMesh& mesh, const std::vector<RemeshedPlace
   std::string text;
   for (std::size_t i = 0; i < std::min(places.size(), kMost); ++i) {
     const RemeshedPlace& p = places[i];
-    text += fmt::format("{}group {}: {} triangles at ({:.6g} {:.6g} {:.6g})", i ? "; " : "", group_name(mesh, p.group),
-                        p.n_triangles, p.xyz.x, p.xyz.y, p.xyz.z);
+    text += fmt::format("{}group {}: {} at ({:.6g} {:.6g} {:.6g})", i ? "; " : "", group_name(mesh, p.group),
+                        counted(p.n_triangles, "triangle"), p.xyz.x, p.xyz.y, p.xyz.z);
   }
   if (places.size() > kMost) text += fmt::format("; and {} more, see --json", places.size() - kMost);
   return text;

@@ -15,6 +15,7 @@
 #include "base/packer.h"
 #include "base/share.h"
 #include "base/supervised_program.h"
+#include "base/text.h"
 #include "io/file/temporary_file.h"
 
 namespace st {
@@ -89,8 +90,8 @@ void Resumption::read(const WorkKey& run_key, const ResumeOptions& options) {
     return;
   }
   if (earlier_->n_done() > 0)
-    log_report(fmt::format("goes on where an earlier run ended: {} parts are finished, in {} (--no-resume begins anew)",
-                           earlier_->n_done(), folder));
+    log_report(fmt::format("goes on where an earlier run ended: {} finished, in {} (--no-resume begins anew)",
+                           counted(earlier_->n_done(), "part is", "parts are"), folder));
 }
 
 void Resumption::end() {

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/length.h"
 #include "base/near_face_name.h"
+#include "base/text.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/file/text_file.h"
@@ -182,9 +183,8 @@ StageSummary run_size_why(const std::string& artifact, const std::string& group,
   const GroupSizes sizes = sizes_of_faces(group, is_in, raster, *sizing.field);
   const std::string unit = in_unit(sizing.header.unit);
   StageSummary summary;
-  summary.line =
-      fmt::format("{}, \"{}\": {} face{}, about {:.0f} triangles, least length {:.4g}{}, median {:.4g}{}", artifact,
-                  group, n_faces, n_faces == 1 ? "" : "s", sizes.triangles, sizes.least, unit, sizes.median, unit);
+  summary.line = fmt::format("{}, \"{}\": {}, about {:.0f} triangles, least length {:.4g}{}, median {:.4g}{}", artifact,
+                             group, counted(n_faces, "face"), sizes.triangles, sizes.least, unit, sizes.median, unit);
   for (const std::string& line : cause_lines(sizes, names, kMostCauses)) summary.line += "\n" + line;
   const Json json = {{"tool", "st-info"},
                      {"artifact", artifact},

@@ -202,7 +202,7 @@ class LocalChange(ToolTest):
         return self.folder / "again.hdf"
 
     def test_a_geometry_of_other_topology_is_no_moved_one(self):
-        for model, expected in (("box.step", "6 faces"), ("plate_with_hole.brep", "1 faces")):
+        for model, expected in (("box.step", "6 faces"), ("plate_with_hole.brep", "1 face")):
             other = make_chain(MODELS / model, self.folder / model)
             run = Run("st-remesh", self.chain / "mesh.hdf", other / "geometry.hdf", other / "sizing.hdf", "--moved",
                       "--merged", self.folder / "m.hdf")

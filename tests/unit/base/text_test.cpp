@@ -25,5 +25,11 @@ TEST(Text, is_a_number_as_a_whole_or_none) {
   for (const char* other : {"", "dpw", "1.5x", " 1", "inf", "nan"}) EXPECT_EQ(as_number(other), std::nullopt) << other;
 }
 
+TEST(Text, things_are_counted_in_words) {
+  EXPECT_EQ(counted(1, "face"), "1 face");
+  EXPECT_EQ(counted(0, "face"), "0 faces");
+  EXPECT_EQ(counted(2, "vertex", "vertices"), "2 vertices");
+}
+
 }  // namespace
 }  // namespace st

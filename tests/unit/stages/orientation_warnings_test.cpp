@@ -31,8 +31,8 @@ TEST(OrientationWarnings, say_what_was_turned_and_what_cannot_be) {
   report.inside_out_faces = {0, 1};
   report.n_one_sided = 2;
   EXPECT_EQ(said(report),
-            "warning: 1 faces were turned to agree with their neighbours: 5\n"
-            "warning: 1 parts were inside out and are turned: faces 1, 2\n"
+            "warning: 1 face was turned to agree with its neighbours: 5\n"
+            "warning: 1 part was inside out and is turned: faces 1, 2\n"
             "warning: 2 parts are one-sided (like a Moebius strip) and cannot be oriented\n");
 }
 

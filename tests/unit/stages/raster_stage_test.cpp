@@ -77,7 +77,7 @@ TEST_F(RasterStage, of_a_model_with_a_face_that_cannot_be_sampled_is_incomplete_
   write_block_with_a_broken_face();
   const StageSummary summary = run_raster(options_, one_rank());
   EXPECT_EQ(summary.code, ExitCode::kIncomplete);
-  EXPECT_TRUE(mentions(summary.line, "INCOMPLETE: 1 parts not sampled")) << summary.line;
+  EXPECT_TRUE(mentions(summary.line, "INCOMPLETE: 1 part not sampled")) << summary.line;
   EXPECT_EQ(nlohmann::json::parse(summary.json)["not_sampled"], 1);
   EXPECT_EQ(read_raster(options_.output).n_not_sampled, 1);
 }
@@ -98,7 +98,7 @@ TEST_F(RasterStage, that_is_incomplete_is_refused_by_prolongation_unless_allowed
   prolong.raster = options_.output;
   prolong.output = dir_ / "sizing.hdf";
   const std::string refusal = error_of([&] { run_prolong(prolong); }, ExitCode::kIncomplete);
-  EXPECT_TRUE(mentions(refusal, "raster.hdf: incomplete, 1 parts") && mentions(refusal, "--allow-incomplete"))
+  EXPECT_TRUE(mentions(refusal, "raster.hdf: incomplete, 1 part") && mentions(refusal, "--allow-incomplete"))
       << refusal;
   prolong.allow_incomplete = true;
   EXPECT_EQ(run_prolong(prolong).code, ExitCode::kOk);

@@ -32,7 +32,7 @@ TEST(RemeshedPlaces, are_named_with_group_number_and_place) {
   const SurfaceMesh m = row_of_triangles();
   const auto places = find_remeshed_places(m, std::vector<char>{1, 0, 0, 0, 0, 1});
   EXPECT_EQ(places_text(m, places),
-            "group wing: 1 triangles at (0.5 0.333333 0); group flap: 1 triangles at (3 "
+            "group wing: 1 triangle at (0.5 0.333333 0); group flap: 1 triangle at (3 "
             "0.666667 0)");
   const auto json = places_json(m, places);
   EXPECT_EQ(json.size(), 2u);
