@@ -65,7 +65,7 @@ struct UnheldPlace {
   double radius;  ///< model unit
 };
 
-/// Of wings that are held on less than 98 % of their span, all stations that `mesh` has triangles at. It takes places,
+/// Of wings that are held on less than 99 % of their span, all stations that `mesh` has triangles at. It takes places,
 /// corners and faces alone. Local.
 std::vector<UnheldPlace> find_unheld(const SurfaceMesh& mesh, std::span<const WingRecord> wings);
 

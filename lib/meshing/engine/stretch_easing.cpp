@@ -71,13 +71,13 @@ StretchFlaws StretchEasing::find_flaws(int n_tries) const {
   const WeldedPatches welded = weld_patches(faces_.edges(), tables_.vertex_xyz, of_faces);
   const RefinedField present(field_, refinements_.all());
   StretchFlaws flaws = find_stretch_flaws(welded.points, welded.triangles, present, n_tries);
-  if (find_unheld_) add_unheld(patches, welded, present, flaws);
+  if (find_unheld_) add_unheld(patches, welded, present, n_tries, flaws);
   return flaws;
 }
 
 /// Places that are not stretched count, too: what is not held there is not for stretch.
 void StretchEasing::add_unheld(const Patches& patches, const WeldedPatches& welded, const SizeField& present,
-                               StretchFlaws& flaws) const {
+                               int n_tries, StretchFlaws& flaws) const {
   SurfaceMesh mesh;
   mesh.node_xyz = welded.points;
   mesh.triangles = welded.triangles;
@@ -86,7 +86,7 @@ void StretchEasing::add_unheld(const Patches& patches, const WeldedPatches& weld
   for (const RefinementPoint& place : find_unheld_(mesh)) {
     ++flaws.n_unheld;
     if (const LocalSize local = present.local(place.x, hint); local.along > local.length)
-      flaws.stretched.push_back(place);
+      flaws.stretched.push_back(eased_unheld(place, local, n_tries));
   }
 }
 

@@ -18,7 +18,7 @@
 namespace st {
 
 /// Rounds, once the others have ended: lengths along become shorter about obtuse triangles and large steps of size,
-/// down to those across, at once where these are not held, and what they reach is meshed again. The best mesh stays:
+/// down to those across, and what they reach is meshed again. The best mesh stays:
 /// one that folds or crosses no more than at the beginning. Collective.
 class StretchEasing {
  public:
@@ -53,7 +53,7 @@ class StretchEasing {
   std::vector<FaceId> all_faces() const;
   std::int64_t n_triangles(const std::vector<FaceId>& of) const;
   StretchFlaws find_flaws(int n_tries) const;
-  void add_unheld(const Patches& patches, const WeldedPatches& welded, const SizeField& present,
+  void add_unheld(const Patches& patches, const WeldedPatches& welded, const SizeField& present, int n_tries,
                   StretchFlaws& flaws) const;
   bool is_on_root(bool is_here) const;
   Count count_flaws() const;

@@ -116,4 +116,12 @@ StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Tr
   return FlawFinder(points, triangles, present, n_tries).run();
 }
 
+RefinementPoint eased_unheld(RefinementPoint place, const LocalSize& present, int n_tries) {
+  place.length = 0;
+  if (n_tries > kGentleTries) return place;
+  place.length = std::max(present.length, kShorter * present.along);
+  place.radius = std::max(place.radius, kAround * present.along);
+  return place;
+}
+
 }  // namespace st

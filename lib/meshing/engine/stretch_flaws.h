@@ -26,4 +26,8 @@ struct StretchFlaws {
 StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                 const SizeField& present, int n_tries);
 
+/// A place whose lengths across are not held: lengths along become shorter as about obtuse triangles, after a few tries
+/// those across.
+RefinementPoint eased_unheld(RefinementPoint place, const LocalSize& present, int n_tries);
+
 }  // namespace st

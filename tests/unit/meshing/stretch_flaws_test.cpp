@@ -69,6 +69,18 @@ TEST(StretchFlaws, take_all_of_the_stretch_after_some_tries_no_further_around) {
   EXPECT_NEAR(find_stretch_flaws(less, one, field, 5).stretched.at(0).length, 1.2, 1e-12) << "below 150 degrees";
 }
 
+TEST(StretchFlaws, take_stretch_from_unheld_places_bit_by_bit) {
+  const RefinementPoint place{.x = {1, 2, 3}, .radius = 0.3};
+  const LocalSize present{0.1, 4, {1, 0, 0}};
+  const RefinementPoint first = eased_unheld(place, present, 0), last = eased_unheld(place, present, 4);
+  EXPECT_EQ(first.x, place.x);
+  EXPECT_NEAR(first.length, 0.6 * 4, 1e-12);
+  EXPECT_NEAR(first.radius, 0.75 * 4, 1e-12);
+  EXPECT_EQ(eased_unheld(place, {0.1, 0.12, {1, 0, 0}}, 0).length, 0.1) << "no shorter than across";
+  EXPECT_EQ(last.length, 0) << "that across";
+  EXPECT_EQ(last.radius, place.radius);
+}
+
 TEST(StretchFlaws, above_150_degrees_are_counted_among_the_obtuse) {
   const test::StretchedField field({0.1, 4, {1, 0, 0}});
   const std::vector<Vec3> points{{0, 0, 0}, {2, 0, 0}, {1, 0.2, 0}, {0, 9, 0}, {2, 9, 0}, {1, 9 + kSlope140, 0}};

@@ -157,6 +157,21 @@ TEST(WingMeasure, finds_places_that_are_not_held) {
   EXPECT_NEAR(find_unheld(mesh, {&wing, 1}).at(0).radius, 0.09, 1e-12) << "however far the next ones are";
 }
 
+TEST(WingMeasure, finds_them_on_wings_held_on_less_than_99_percent) {
+  const SurfaceMesh mesh = plank();
+  for (const double share : {0.015, 0.005}) {
+    WingRecord wing = record(0.05);
+    wing.stations[15].asked = 0.03;
+    const double part = share * distance(wing.stations.front().trailing, wing.stations.back().trailing);
+    for (const int step : {-1, 1})
+      for (const auto place : {&WingRecord::Station::nose, &WingRecord::Station::trailing})
+        wing.stations[15 + step].*place = wing.stations[15].*place + step * Vec3{0, part, 0};
+    if (wing.stations[16].nose.y < wing.stations[14].nose.y) std::swap(wing.stations[14], wing.stations[16]);
+    EXPECT_NEAR(measure_wings(mesh, {&wing, 1})[0].held, 1 - share, 1e-6);
+    EXPECT_EQ(find_unheld(mesh, {&wing, 1}).empty(), share < 0.01) << share;
+  }
+}
+
 /// Cells of 0.05 along the chord and `n_around` around a ring of radius 2 about x, 0.1 thick: face 0 outside, 1 inside.
 SurfaceMesh ring_mesh(int n_around) {
   SurfaceMesh mesh;
