@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 
 #include "base/boxes.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/nearest_name.h"
 #include "base/progress.h"
+#include "base/text.h"
 #include "io/export/metric_export.h"
 #include "io/file/json_text.h"
 #include "io/file/output_files.h"
@@ -60,7 +63,9 @@ void scale_to_one(std::vector<double>& value) {
 /// The mesh of all fields, and the second derivatives of each.
 struct FieldSet {
   BackgroundMesh mesh;
-  std::vector<std::vector<SymmetricTensor>> hessian;  // [fields][nodes]
+  std::vector<std::int32_t> cell_group;                          // of the first field, see FieldMesh
+  std::vector<std::pair<std::string, std::int32_t>> group_name;  // likewise
+  std::vector<std::vector<SymmetricTensor>> hessian;             // [fields][nodes]
 };
 
 FieldSet read_fields(const std::vector<std::string>& files, Progress& progress) {
@@ -70,6 +75,8 @@ FieldSet read_fields(const std::vector<std::string>& files, Progress& progress) 
     FieldMesh field = read_field_mesh(files[i]);
     if (i == 0) {
       set.mesh = std::move(field.mesh);
+      set.cell_group = std::move(field.cell_group);
+      set.group_name = std::move(field.group_name);
     } else if (field.mesh.node_xyz != set.mesh.node_xyz || field.mesh.tets != set.mesh.tets ||
                field.mesh.triangles != set.mesh.triangles) {
       throw Error(ExitCode::kInput,
@@ -85,16 +92,46 @@ FieldSet read_fields(const std::vector<std::string>& files, Progress& progress) 
   return set;
 }
 
-/// Leaves the cells that have a node in the box. Throws Error(kUsage) where there is none.
-void restrict_to(const Box3& box, const std::string& text, FieldSet& set) {
+/// Asked in order, once each.
+template <class Cell, class IsOutside>
+void keep_unless(const IsOutside& is_outside, std::vector<Cell>& cells) {
+  std::vector<Cell> kept;
+  for (const Cell& cell : cells)
+    if (!is_outside(cell)) kept.push_back(cell);
+  cells = std::move(kept);
+}
+
+/// The number of a group. Throws Error(kUsage) where no cell is in one of this name or number.
+std::int32_t number_of_group(const MetricStageOptions& o, const FieldSet& set) {
+  std::optional<double> number = as_number(o.group);
+  std::vector<std::string> names;
+  for (const auto& [name, of_name] : set.group_name) {
+    names.push_back(name);
+    if (name == o.group) number = of_name;
+  }
+  const auto found = std::find_if(set.cell_group.begin(), set.cell_group.end(),
+                                  [&](std::int32_t g) { return number && g == *number; });
+  if (found != set.cell_group.end()) return *found;
+  const std::string why = set.cell_group.empty() ? "it has no groups: references of Medit, or an array 'group' of VTK"
+                                                 : "no cell is in it" + did_you_mean(o.group, names);
+  throw Error(ExitCode::kUsage, fmt::format("--group {}: not in {}: {}", o.group, o.fields[0], why));
+}
+
+/// Leaves the cells that are in the group and have a node in the box. Throws Error(kUsage) where there is none.
+void restrict_to(const std::optional<Box3>& box, const MetricStageOptions& o, FieldSet& set) {
+  std::size_t at = 0;  // among all cells: volumes have no triangles
+  const bool has_group = !o.group.empty();
+  const std::int32_t group = has_group ? number_of_group(o, set) : 0;
   const auto is_outside = [&](const auto& cell) {
-    return std::none_of(cell.begin(), cell.end(),
-                        [&](std::int32_t n) { return distance2(set.mesh.node_xyz[n], box) == 0; });
+    if (has_group && set.cell_group[at++] != group) return true;
+    return box && std::none_of(cell.begin(), cell.end(),
+                               [&](std::int32_t n) { return distance2(set.mesh.node_xyz[n], *box) == 0; });
   };
-  std::erase_if(set.mesh.tets, is_outside);
-  std::erase_if(set.mesh.triangles, is_outside);
+  keep_unless(is_outside, set.mesh.tets);
+  keep_unless(is_outside, set.mesh.triangles);
   if (set.mesh.is_empty())
-    throw Error(ExitCode::kUsage, fmt::format("--box '{}': no node of the mesh is in it; is it in its unit?", text));
+    throw Error(ExitCode::kUsage, fmt::format("--box '{}': no node of the {} is in it; is it in its unit?", o.box,
+                                              has_group ? "group" : "mesh"));
   const std::vector<std::int32_t> kept = number_used_nodes(set.mesh);
   keep_only(kept, set.mesh.node_xyz);
   for (std::vector<SymmetricTensor>& hessian : set.hessian) keep_only(kept, hessian);
@@ -139,7 +176,7 @@ StageSummary run_metric(const MetricStageOptions& o) {
   for (const std::string& file : files) require_writable(file);
   Progress progress("metric", 1);
   FieldSet set = read_fields(o.fields, progress);
-  if (box) restrict_to(*box, o.box, set);
+  if (box || !o.group.empty()) restrict_to(box, o, set);
   const MetricOptions options = options_for(o, set.mesh);
   MultiscaleMetric metric(set.mesh, options);
   bool has_any = false;

@@ -27,7 +27,8 @@ struct MetricStageOptions {
                                        "no length is below it, in the unit of the mesh; default: no bound"};
   static constexpr NumberOption kGreatest{
       "--lmax", "L", "(0, 1e300]", "no length is above it, in the unit of the mesh; default: the diagonal of the mesh"};
-  std::string box;  ///< "X Y Z X Y Z", two corners: sizes for the cells that have a node in it; empty: for all
+  std::string group;  ///< name or number: sizes for its cells; empty: for all
+  std::string box;    ///< "X Y Z X Y Z", two corners: sizes for the cells that have a node in it; empty: for all
 };
 
 /// Local. Throws Error.

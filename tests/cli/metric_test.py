@@ -77,6 +77,31 @@ class Metric(ToolTest):
         self.assertLess(part, whole)
         self.assertGreater(part, sum(p[0] <= 10 for p in self.points) - 1)
 
+    def test_a_group_gets_sizes_alone(self):
+        field = self.write("flow.sol", self.layer)
+        lines = (self.folder / "flow.mesh").read_text().split("\n")
+        at = lines.index("Triangles") + 2
+        n_left = 0
+        for i in range(at, at + int(lines[at - 1])):
+            corners = [int(n) - 1 for n in lines[i].split()[:3]]
+            is_left = all(self.points[n][0] < 20 for n in corners)
+            lines[i] = " ".join(str(n + 1) for n in corners) + f" {5 if is_left else 1}"
+            n_left += is_left
+        (self.folder / "flow.mesh").write_text("\n".join(lines))
+        whole, left = self.metric(field)["nodes"], self.metric(field, "--group", 5)["nodes"]
+        self.assertLess(left, 0.6 * whole)
+        self.assertGreater(left, n_left / 2)
+        both = self.metric(field, "--group", 5, "--box", "-1 -1 -1 10 41 21")["nodes"]
+        self.assertLess(both, 0.8 * left)
+        out, mesh = self.folder / "out.solb", self.folder / "mesh.hdf"
+        mesh.write_bytes((self.box / "mesh.hdf").read_bytes())
+        must("st-export", mesh, "-o", self.folder / "mesh.vtu")
+        for of_cells in (f"{mesh}:face", f"{self.folder / 'mesh.vtu'}:face"):
+            self.assertEqual(self.metric(of_cells, "--group", "default")["nodes"], len(self.points))
+            self.expect_error(USAGE, "st-metric", of_cells, "--group", "defalt", "-o", out,
+                              says="did you mean 'default'")
+        self.expect_error(USAGE, "st-metric", field, "--group", 7, "-o", out, says="no cell is in it")
+
     def test_several_fields_are_heeded_together(self):
         a = self.write("a.sol", self.layer)
         b = self.write("b.sol", lambda x, y, z: math.exp((x - 60) / 6))

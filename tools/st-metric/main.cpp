@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   tool.number(o.kMaxAspect, o.max_aspect);
   tool.number(o.kLeast, o.least);
   tool.number(o.kGreatest, o.greatest);
+  tool.text("--group", o.group, "NAME", "name or number of a group of cells: sizes for these alone");
   tool.text("--box", o.box, "CORNERS", "two corners, 'X Y Z X Y Z': sizes for the cells that have a node in this box");
   tool.threads();
   tool.examples(

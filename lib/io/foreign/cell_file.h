@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -18,10 +20,14 @@ struct CellFile {
   std::vector<std::int64_t> node;    ///< of all cells, from 0
   std::vector<double> value;         ///< [n_nodes][n_components]; components of tensors: xx yy zz xy yz xz, or rows
   std::vector<double> cell_value;    ///< the same at cells, where `value` is empty
+  std::vector<std::int32_t> group;   ///< [n_cells]; empty: the file has no groups
+  std::vector<std::pair<std::string, std::int32_t>> group_name;  ///< of groups that have one
 };
 
 /// Arrays of lengths that are looked for where none is named.
 inline constexpr const char* kUsualSizes[] = {"size", "metric"};
+/// The array of the cell data that holds their groups; `group:NAME` in the field data is the number of one with a name.
+inline constexpr const char* kGroups = "group";
 /// What a reader says where it finds none.
 inline std::string missing_sizes(const std::string& array) {
   return array.empty() ? "has neither 'size' nor 'metric' among its point data; name its array of lengths: FILE:ARRAY"
@@ -30,19 +36,19 @@ inline std::string missing_sizes(const std::string& array) {
 
 /// `array`: of the point data, else of the cell data; empty: one of kUsualSizes of the point data. All throw
 /// Error(kInput) naming file and place. `bytes`: the whole file.
-CellFile parse_vtu_cells(const std::string& path, const std::string& bytes, const std::string& array);
+CellFile parse_vtu_cells(const std::string& path, std::string_view bytes, const std::string& array);
 /// Gmsh's parsed views (.pos), the first one: scalars or tensors at the corners of triangles, quadrilaterals and
 /// volumes, by the first time step. Corners at one place are one node with the value that stands first.
-CellFile parse_pos_cells(const std::string& path, const std::string& text);
+CellFile parse_pos_cells(const std::string& path, std::string_view text);
 /// Gmsh's MSH 2.0 to 2.2 or 4.1, text or binary: the view named `view`, or the first: $NodeData, or the mean at nodes
 /// of $ElementData or $ElementNodeData. Nodes without a value have NaN.
-CellFile parse_msh_cells(const std::string& path, const std::string& bytes, const std::string& view);
+CellFile parse_msh_cells(const std::string& path, std::string_view bytes, const std::string& view);
 CellFile read_vtkhdf_cells(const std::string& path, const std::string& array);
 /// INRIA's Medit: nodes and cells of a .mesh or .meshb.
-CellFile parse_medit_mesh(const std::string& path, const std::string& bytes);
+CellFile parse_medit_mesh(const std::string& path, std::string_view bytes);
 /// Values of a .sol or .solb for the mesh in `file`: those of SolAtVertices, else those at cells. `number`: of the
 /// field, from 1; 0: the first that is no vector. With values at cells of volumes, cells of surfaces are left out.
-void parse_medit_solution(const std::string& path, const std::string& bytes, std::int64_t number, CellFile& file);
+void parse_medit_solution(const std::string& path, std::string_view bytes, std::int64_t number, CellFile& file);
 
 /// Corners of a cell of VTK's type `type`, curved ones without their nodes between: 3 for triangles, 4 for tetrahedra
 /// and quadrilaterals, 5 for pyramids, 6 for wedges, 8 for hexahedra; 0: vertices and lines, -1: any other.

@@ -77,7 +77,7 @@ std::int64_t type_of(Keyword keyword) {
 /// The numbers of a file, one after the other, whatever its form.
 class MeditReader {
  public:
-  MeditReader(const std::string& path, const std::string& bytes) : in_(path, bytes) {
+  MeditReader(const std::string& path, std::string_view bytes) : in_(path, bytes) {
     constexpr std::int32_t kNative = 1, kSwapped = 16777216;
     if (bytes.empty()) in_.fail("empty file; write it again");
     std::int32_t first = 0;
@@ -176,7 +176,7 @@ void read_cells(MeditReader& in, std::int64_t type, CellFile& file) {
   const std::size_t n = in.count(in.integer(), static_cast<std::size_t>(n_corners) + 1, "cells");
   for (std::size_t i = 0; i < n; ++i) {
     for (int k = 0; k < n_corners; ++k) file.node.push_back(in.integer() - 1);
-    in.integer();  // reference
+    file.group.push_back(static_cast<std::int32_t>(in.integer()));
     file.type.push_back(type);
     file.offset.push_back(static_cast<std::int64_t>(file.node.size()));
   }
@@ -236,10 +236,12 @@ void drop_borders(CellFile& file) {
   for (std::size_t c = 0; c < file.type.size(); ++c) {
     if (!is_volume(file.type[c])) continue;
     kept.type.push_back(file.type[c]);
+    kept.group.push_back(file.group[c]);
     kept.node.insert(kept.node.end(), file.node.begin() + file.offset[c], file.node.begin() + file.offset[c + 1]);
     kept.offset.push_back(static_cast<std::int64_t>(kept.node.size()));
   }
   file.type = std::move(kept.type), file.offset = std::move(kept.offset), file.node = std::move(kept.node);
+  file.group = std::move(kept.group);
 }
 
 /// `of_type`: values of all cells of a type, in their order in the mesh.
@@ -264,7 +266,7 @@ void place_cell_values(MeditReader& in, const std::map<std::int64_t, std::vector
 
 }  // namespace
 
-CellFile parse_medit_mesh(const std::string& path, const std::string& bytes) {
+CellFile parse_medit_mesh(const std::string& path, std::string_view bytes) {
   MeditReader in(path, bytes);
   CellFile file;
   file.offset.push_back(0);
@@ -276,7 +278,7 @@ CellFile parse_medit_mesh(const std::string& path, const std::string& bytes) {
   return file;
 }
 
-void parse_medit_solution(const std::string& path, const std::string& bytes, std::int64_t number, CellFile& file) {
+void parse_medit_solution(const std::string& path, std::string_view bytes, std::int64_t number, CellFile& file) {
   MeditReader in(path, bytes);
   std::map<std::int64_t, std::vector<double>> of_type;
   for (Keyword keyword = in.next(); keyword != kEnd; keyword = in.next()) {

@@ -36,7 +36,7 @@ std::int64_t vtk_type_of(int type) {
 /// The sections that all readers need. What becomes of elements and values is for them to say.
 class MshParser {
  public:
-  MshParser(const std::string& path, const std::string& bytes) : in_(path, bytes) {}
+  MshParser(const std::string& path, std::string_view bytes) : in_(path, bytes) {}
   MshParser(const MshParser&) = delete;
   MshParser& operator=(const MshParser&) = delete;
 
@@ -244,7 +244,7 @@ class TriangleParser final : public MshParser {
 /// Cells and one of the views at their nodes.
 class ViewParser final : public MshParser {
  public:
-  ViewParser(const std::string& path, const std::string& bytes, const std::string& view)
+  ViewParser(const std::string& path, std::string_view bytes, const std::string& view)
       : MshParser(path, bytes), view_(view) {}
 
   CellFile run() {
@@ -357,7 +357,7 @@ TriangulationFile parse_msh(const std::string& path, const std::string& bytes) {
   return TriangleParser(path, bytes).run();
 }
 
-CellFile parse_msh_cells(const std::string& path, const std::string& bytes, const std::string& view) {
+CellFile parse_msh_cells(const std::string& path, std::string_view bytes, const std::string& view) {
   return ViewParser(path, bytes, view).run();
 }
 

@@ -35,7 +35,7 @@ std::int64_t type_of(char letter) {
 
 class PosReader {
  public:
-  PosReader(const std::string& path, const std::string& text) : path_(path), text_(text) {}
+  PosReader(const std::string& path, std::string_view text) : path_(path), text_(text) {}
 
   CellFile read() {
     if (word() != "View") fail("no parsed view of Gmsh: it does not begin with 'View'");
@@ -167,6 +167,6 @@ class PosReader {
 
 }  // namespace
 
-CellFile parse_pos_cells(const std::string& path, const std::string& text) { return PosReader(path, text).read(); }
+CellFile parse_pos_cells(const std::string& path, std::string_view text) { return PosReader(path, text).read(); }
 
 }  // namespace st

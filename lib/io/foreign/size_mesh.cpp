@@ -66,15 +66,17 @@ std::string beside(const std::string& path, std::initializer_list<const char*> s
 
 CellFile read_medit(const std::vector<std::string>& mesh_and_solution, std::int64_t number) {
   const std::string &mesh = mesh_and_solution[0], &solution = mesh_and_solution[1];
-  CellFile file = parse_medit_mesh(mesh, read_text_file(mesh));
-  parse_medit_solution(solution, read_text_file(solution), number, file);
+  CellFile file = parse_medit_mesh(mesh, MappedBytes(mesh).bytes());
+  parse_medit_solution(solution, MappedBytes(solution).bytes(), number, file);
   return file;
 }
 
-/// Cells as simplices whose nodes exist.
-void split_cells(const std::string& path, const CellFile& file, BackgroundMesh& mesh) {
+/// Cells as simplices whose nodes exist. `group`: of each, where cells have some.
+void split_cells(const std::string& path, const CellFile& file, BackgroundMesh& mesh,
+                 std::vector<std::int32_t>& group) {
   const auto n_nodes = static_cast<std::int64_t>(file.node_xyz.size());
   std::vector<std::array<std::int32_t, 3>> triangles;
+  std::vector<std::int32_t> of_triangle;
   for (std::size_t c = 0; c < file.type.size(); ++c) {
     const int n = n_corners_of(file.type[c]);
     if (n == 0) continue;
@@ -93,8 +95,14 @@ void split_cells(const std::string& path, const CellFile& file, BackgroundMesh& 
       split_volume(file.type[c], corner.data(), mesh.tets);
     else
       split_surface(file.type[c], corner.data(), triangles);
+    if (file.group.empty()) continue;
+    group.resize(mesh.tets.size(), file.group[c]);
+    of_triangle.resize(triangles.size(), file.group[c]);
   }
-  if (mesh.tets.empty()) mesh.triangles = std::move(triangles);
+  if (mesh.tets.empty()) {
+    mesh.triangles = std::move(triangles);
+    group = std::move(of_triangle);
+  }
   if (mesh.is_empty()) throw Error(ExitCode::kInput, path + ": has neither tetrahedra nor triangles");
 }
 
@@ -157,15 +165,15 @@ void read_sizes(const std::string& path, const CellFile& file, BackgroundMesh& m
                   n_components == 1 ? "length above 0" : "metric that is positive definite", first, x.x, x.y, x.z));
 }
 
-/// The file as it is, with values at nodes; its cells as simplices in `mesh`.
-CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
+/// The file as it is, with values at nodes; its cells as simplices in `mesh`, and their groups.
+CellFile read_cells(const std::string& file, BackgroundMesh& mesh, std::vector<std::int32_t>& group) {
   const FileName name = parse_name(file);
   const std::string &path = name.path, &array = name.array;
   const std::vector<std::string> files = files_of_size_mesh(file);
   CellFile cells = files.size() == 2            ? read_medit(files, field_number(name))
-                   : has_suffix(path, {".pos"}) ? parse_pos_cells(path, read_text_file(path))
-                   : is_msh(path)               ? parse_msh_cells(path, read_text_file(path), array)
-                   : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, read_text_file(path), array)
+                   : has_suffix(path, {".pos"}) ? parse_pos_cells(path, MappedBytes(path).bytes())
+                   : is_msh(path)               ? parse_msh_cells(path, MappedBytes(path).bytes(), array)
+                   : has_suffix(path, {".vtu"}) ? parse_vtu_cells(path, MappedBytes(path).bytes(), array)
                                                 : read_vtkhdf_cells(path, array);
   if (cells.node_xyz.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw Error(ExitCode::kInput, path + ": has more nodes than 2147483647");
@@ -173,7 +181,7 @@ CellFile read_cells(const std::string& file, BackgroundMesh& mesh) {
     if (const Vec3 x = cells.node_xyz[i]; !std::isfinite(x.x + x.y + x.z))
       throw Error(ExitCode::kInput, fmt::format("{}: node {} has no place", path, i));
   mesh.node_xyz = cells.node_xyz;
-  split_cells(path, cells, mesh);
+  split_cells(path, cells, mesh, group);
   if (!cells.cell_value.empty()) average_cells(path, cells);
   cells.type = cells.offset = cells.node = {};  // larger than all the rest
   return cells;
@@ -197,7 +205,8 @@ std::vector<std::string> files_of_size_mesh(const std::string& file) {
 
 BackgroundMesh read_size_mesh(const std::string& file) {
   BackgroundMesh mesh;
-  const CellFile cells = read_cells(file, mesh);
+  std::vector<std::int32_t> group;
+  const CellFile cells = read_cells(file, mesh, group);
   read_sizes(parse_name(file).path, cells, mesh);
   const std::vector<std::int32_t> kept = number_used_nodes(mesh);
   keep_only(kept, mesh.node_xyz);
@@ -209,7 +218,8 @@ BackgroundMesh read_size_mesh(const std::string& file) {
 FieldMesh read_field_mesh(const std::string& file) {
   const std::string path = parse_name(file).path;
   FieldMesh field;
-  CellFile cells = read_cells(file, field.mesh);
+  CellFile cells = read_cells(file, field.mesh, field.cell_group);
+  field.group_name = std::move(cells.group_name);
   if (cells.value.size() != cells.node_xyz.size())
     throw Error(ExitCode::kInput, fmt::format("{}: has {} values for {} nodes; a field of one number each is expected",
                                               file, cells.value.size(), cells.node_xyz.size()));

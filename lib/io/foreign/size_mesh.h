@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "sizing/background.h"
@@ -29,12 +30,14 @@ BackgroundMesh read_size_mesh(const std::string& file);
 
 /// A number at each node of a mesh without lengths.
 struct FieldMesh {
-  BackgroundMesh mesh;        ///< node_size is empty
-  std::vector<double> value;  ///< [n_nodes]
+  BackgroundMesh mesh;                   ///< node_size is empty
+  std::vector<double> value;             ///< [n_nodes]
+  std::vector<std::int32_t> cell_group;  ///< [tets, or triangles where there are none]; empty: the file has no groups
+  std::vector<std::pair<std::string, std::int32_t>> group_name;
 };
 
-/// A scalar field from the same files. Throws Error(kInput) as
-/// read_size_mesh(), and for values that are no numbers, with the number of such nodes and the first.
+/// A scalar field from the same files. Groups of cells are references of Medit, or the array `group` of VTK. Throws
+/// Error(kInput) as read_size_mesh(), and for values that are no numbers, with the number of such nodes and the first.
 FieldMesh read_field_mesh(const std::string& file);
 
 }  // namespace st

@@ -50,17 +50,48 @@ class VtkhdfParser {
       auto values = read<double>("PointData/" + (array.empty() ? usual : array), H5T_NATIVE_DOUBLE);
       if (!values) continue;
       cells.value = std::move(*values);
+      add_groups(cells);
       return cells;
     }
     if (!array.empty())
       if (auto values = read<double>("CellData/" + array, H5T_NATIVE_DOUBLE)) {
         cells.cell_value = std::move(*values);
+        add_groups(cells);
         return cells;
       }
     fail(missing_sizes(array));
   }
 
  private:
+  void add_groups(CellFile& cells) const {
+    if (auto group = read<std::int32_t>(std::string("CellData/") + kGroups, H5T_NATIVE_INT32);
+        group && group->size() == cells.type.size())
+      cells.group = std::move(*group);
+    const std::vector<std::string> names = strings("/VTKHDF/FieldData/group_name");
+    for (std::size_t i = 0; i < names.size(); ++i)
+      cells.group_name.emplace_back(names[i], static_cast<std::int32_t>(i) + 1);
+  }
+  /// Of a dataset of strings of variable length, as VTK writes and reads them; empty: it is none.
+  std::vector<std::string> strings(const std::string& path) const {
+    const std::string folder = path.substr(0, path.rfind('/'));
+    if (H5Lexists(file_, folder.c_str(), H5P_DEFAULT) <= 0 || H5Lexists(file_, path.c_str(), H5P_DEFAULT) <= 0)
+      return {};
+    const hid_t dataset = H5Dopen2(file_, path.c_str(), H5P_DEFAULT);
+    if (dataset < 0) return {};
+    const hid_t type = H5Dget_type(dataset), space = H5Dget_space(dataset);
+    const hssize_t n = H5Sget_simple_extent_npoints(space);
+    std::vector<std::string> result;
+    if (H5Tis_variable_str(type) > 0 && n > 0 && static_cast<std::uint64_t>(n) <= bytes_) {
+      std::vector<char*> text(static_cast<std::size_t>(n), nullptr);
+      if (H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0)
+        for (const char* t : text) result.emplace_back(t ? t : "");
+      H5Dvlen_reclaim(type, space, H5P_DEFAULT, text.data());
+    }
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Dclose(dataset);
+    return result;
+  }
   CellFile read_cells() const {
     const auto xyz = require<double>("Points", H5T_NATIVE_DOUBLE);
     const auto n_cells = require<std::int64_t>("NumberOfCells", H5T_NATIVE_INT64);  // of each part

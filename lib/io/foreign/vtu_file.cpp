@@ -51,7 +51,7 @@ std::string decode_base64(std::string_view text, std::size_t n_wanted) {
 
 class VtuParser {
  public:
-  VtuParser(const std::string& path, const std::string& bytes) : path_(path), bytes_(bytes) {}
+  VtuParser(const std::string& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
 
   TriangulationFile run() {
     TriangulationFile result = read_nodes();
@@ -74,6 +74,8 @@ class VtuParser {
         fail("cell " + std::to_string(c) + " has offsets that do not fit");
     const auto of_cells = array.empty() || find("PointData", array) ? std::nullopt : find("CellData", array);
     (of_cells ? result.cell_value : result.value) = all_values<double>(of_cells ? *of_cells : size_array(array));
+    if (const auto group = find("CellData", kGroups)) result.group = values<std::int32_t>(*group, n_cells_);
+    add_group_names(result);
     return result;
   }
 
@@ -95,13 +97,13 @@ class VtuParser {
     const std::size_t at = bytes_.find("<VTKFile");
     const std::size_t end = at == std::string::npos ? at : bytes_.find('>', at);
     if (end == std::string::npos) fail("an XML file, but none of VTK's; give a .vtu file");
-    head_ = std::string_view(bytes_).substr(at, end - at);
+    head_ = bytes_.substr(at, end - at);
     if (attribute(head_, "type") != "UnstructuredGrid")
       fail("holds VTK's " + attribute(head_, "type") + "; an UnstructuredGrid (.vtu) is expected");
     header_bytes_ = attribute(head_, "header_type") == "UInt64" ? 8 : 4;
     compressor_ = attribute(head_, "compressor");
     const std::size_t appended = bytes_.find("<AppendedData", end);
-    xml_ = std::string_view(bytes_).substr(0, appended);
+    xml_ = bytes_.substr(0, appended);
     if (appended == std::string::npos) {
       if (bytes_.find("</VTKFile", end) == std::string::npos)
         fail("cut off: </VTKFile> is missing; write the file again");
@@ -110,8 +112,8 @@ class VtuParser {
     const std::size_t open = bytes_.find('>', appended),
                       start = open == std::string::npos ? open : bytes_.find('_', open);
     if (start == std::string::npos) fail("cut off: its appended data are missing; write the file again");
-    appended_is_base64_ = attribute(std::string_view(bytes_).substr(appended, open - appended), "encoding") == "base64";
-    appended_ = std::string_view(bytes_).substr(start + 1);
+    appended_is_base64_ = attribute(bytes_.substr(appended, open - appended), "encoding") == "base64";
+    appended_ = bytes_.substr(start + 1);
   }
 
   std::string_view find_piece() const {
@@ -287,6 +289,16 @@ class VtuParser {
     return result;
   }
 
+  /// As st-export writes them: an array in the field data for each.
+  void add_group_names(CellFile& result) const {
+    const std::string before = std::string("Name=\"") + kGroups + ":";
+    for (std::size_t at = xml_.find(before); at != std::string_view::npos; at = xml_.find(before, at)) {
+      at += before.size();
+      const std::string name(xml_.substr(at, xml_.find('"', at) - at));
+      if (const auto array = find("FieldData", std::string(kGroups) + ":" + name))
+        result.group_name.emplace_back(name, values<std::int32_t>(*array, 1)[0]);
+    }
+  }
   /// The array of lengths or metrics: of this name, or one of the usual.
   Array size_array(const std::string& name) const {
     std::optional<Array> array;
@@ -319,7 +331,7 @@ class VtuParser {
   }
 
   const std::string& path_;
-  const std::string& bytes_;
+  const std::string_view bytes_;
   std::string_view head_, xml_, appended_;
   std::string compressor_;
   std::size_t header_bytes_ = 4, n_nodes_ = 0, n_cells_ = 0;
@@ -330,7 +342,7 @@ class VtuParser {
 
 TriangulationFile parse_vtu(const std::string& path, const std::string& bytes) { return VtuParser(path, bytes).run(); }
 
-CellFile parse_vtu_cells(const std::string& path, const std::string& bytes, const std::string& array) {
+CellFile parse_vtu_cells(const std::string& path, std::string_view bytes, const std::string& array) {
   return VtuParser(path, bytes).cells(array);
 }
 
