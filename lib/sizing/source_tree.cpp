@@ -104,11 +104,14 @@ LocalSize SourceTree::local_below(Vec3 x, const LocalSize& upper) const {
 }
 
 LocalSize SourceTree::local_on_below(Vec3 x, Vec3 normal, const LocalSize& upper) const {
-  LocalSize least = upper;
+  const auto in_plane = [&](const LocalSize& s) { return s.along > s.length ? cut_by_plane(metric_of(s), normal) : s; };
+  LocalSize least = in_plane(upper);
   int hint = 0;
   tree_.visit_near(
       x, [&](std::int32_t node, double d2) { return reaches(node, d2, upper.along); },
-      [&](std::int32_t i) { least = least_in_plane(least, entries_[i].source->local_on(x, normal, hint), normal); });
+      [&](std::int32_t i) {
+        least = least_in_plane(least, in_plane(entries_[i].source->local_on(x, normal, hint)), normal);
+      });
   return least;
 }
 

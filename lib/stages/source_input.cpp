@@ -107,6 +107,18 @@ std::string outside_text(double away, double least_inside, double far_length, co
           : "it has no effect");
 }
 
+/// Of another unit, for instance.
+void warn_of_long(const BackgroundMesh& background, double far_length, const std::string& unit) {
+  double least = background.node_size[0].length;
+  for (const LocalSize& s : background.node_size) least = std::min(least, s.length);
+  const std::string in_unit = unit.empty() ? "" : " " + unit;
+  if (least >= far_length)
+    log_warning(
+        fmt::format("the background mesh asks for {:.4g}{} or more, above the largest length {:.4g}{}: it has "
+                    "no effect; is it in the model's unit (--transform)?",
+                    least, in_unit, far_length, in_unit));
+}
+
 }  // namespace
 
 void warn_of_places(const SourceInput& input, const OctreeView& octree, double far_length, const std::string& unit) {
@@ -132,7 +144,8 @@ void warn_of_places(const SourceInput& input, const OctreeView& octree, double f
   }
   Box3 background;
   for (const Vec3 x : input.set.background.node_xyz) background.add(x);
-  if (background.is_empty() || distance_between(background, lo, hi) == 0) return;
+  if (background.is_empty()) return;
+  if (distance_between(background, lo, hi) == 0) return warn_of_long(input.set.background, far_length, unit);
   const double away = distance_between(background, lo, hi);
   log_warning("the background mesh " +
               outside_text(away, least_inside(*make_background(input.set.background, input.set.slope), background),

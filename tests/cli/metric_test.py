@@ -102,6 +102,12 @@ class Metric(ToolTest):
                               says="did you mean 'default'")
         self.expect_error(USAGE, "st-metric", field, "--group", 7, "-o", out, says="no cell is in it")
 
+    def test_a_background_in_another_unit_is_said(self):
+        self.metric(self.write("flow.sol", self.layer), "--lmin", 50, "--lmax", 60)
+        run = must("st-prolong", self.box / "raster.hdf", "-o", self.folder / "s.hdf", "--background",
+                   self.folder / "sizes.solb")
+        self.assertIn("it has no effect; is it in the model's unit", run.err)
+
     def test_several_fields_are_heeded_together(self):
         a = self.write("a.sol", self.layer)
         b = self.write("b.sol", lambda x, y, z: math.exp((x - 60) / 6))

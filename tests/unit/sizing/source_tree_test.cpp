@@ -204,6 +204,43 @@ TEST(SourceTree, allows_longer_edges_where_all_do) {
   EXPECT_EQ(both.max_aspect(), 5);
 }
 
+TEST(SourceTree, intersects_metrics_stretched_sources_and_the_raster_in_any_plane) {
+  SourceSpec box;
+  box.kind = SourceKind::kBox;
+  box.point[0] = {0.2, 0.2, 0.2};
+  box.half_axis = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  box.spacing[0].length = 0.03;
+  box.aspect = 8;
+  box.direction = normalized(Vec3{1, 1, 0});
+  BackgroundMesh mesh;
+  mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  mesh.node_metric.assign(4, {1 / 0.0004, 1 / 0.04, 1, 0, 0, 0});  // lengths 0.02, 0.2, 1
+  mesh.node_size.assign(4, size_of_metric(mesh.node_metric[0]));
+  mesh.tets = {{0, 1, 2, 3}};
+  std::vector<SourceTree::Entry> entries;
+  entries.push_back({make_source(box, kTreeSlope), 0});
+  entries.push_back({make_background(mesh, kTreeSlope), 1});
+  const SourceTree tree(std::move(entries));
+  ASSERT_TRUE(tree.has_metrics());
+  const Vec3 x{0.2, 0.2, 0.2};
+  const LocalSize upper{0.05, 0.3, {0, 0, 1}};
+  std::mt19937 random(4);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 normal = normalized(random_place(random, -1, 1)), u = a_normal_to(normal), v = cross(normal, u);
+    const LocalSize all = tree.local_on_below(x, normal, upper);
+    double most = 0;
+    for (double angle = 0; angle < 3.1; angle += 0.1) {
+      const Vec3 way = std::cos(angle) * u + std::sin(angle) * v;
+      int hint = 0;
+      double least = upper.in(way);
+      for (const std::int32_t s : {0, 1}) least = std::min(least, tree.entry(s).source->length_along(x, way, hint));
+      ASSERT_LE(all.in(way), (1 + 1e-6) * least) << i << " " << angle;
+      most = std::max(most, all.in(way) / least);
+    }
+    EXPECT_GT(most, 0.6) << "no shorter than it has to be: two intersections take a root of two each";
+  }
+}
+
 TEST(SourceTree, knows_where_a_length_comes_from) {
   SourceSpec point;
   point.point[0] = {0.3, 0.4, 0.5};
