@@ -169,7 +169,7 @@ void warn_of_outside(const BackgroundMesh& background, const FaceCells& faces, c
   }
   if (outside > 0)
     log_warning(
-        fmt::format("{:.2g} % of the model's area lies outside the background mesh, up to {:.4g}{}: lengths "
+        fmt::format("{:.3g} % of the model's area lies outside the background mesh, up to {:.4g}{}: lengths "
                     "grow there from its border",
                     100 * outside / area, most, in_unit(unit)));
 }
