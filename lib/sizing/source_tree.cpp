@@ -110,7 +110,9 @@ LocalSize SourceTree::local_on_below(Vec3 x, Vec3 normal, const LocalSize& upper
   tree_.visit_near(
       x, [&](std::int32_t node, double d2) { return reaches(node, d2, upper.along); },
       [&](std::int32_t i) {
-        least = least_in_plane(least, in_plane(entries_[i].source->local_on(x, normal, hint)), normal);
+        const SizeSource& source = *entries_[i].source;
+        const LocalSize own = source.local_on(x, normal, hint);
+        least = least_in_plane(least, source.has_metrics() ? own : in_plane(own), normal);
       });
   return least;
 }
