@@ -1,5 +1,6 @@
 #include "base/progress.h"
 
+#include <pthread.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -84,17 +85,15 @@ void write_line(const std::string& text) {
 }  // namespace
 
 /// A thread that lets the innermost piece of work speak while it says nothing itself: in steps that cannot tell how far
-/// they are. Starts with the first piece in a log; a forked process has its own.
+/// they are. Starts with the first piece in a log. A forked process has another one: what a thread of its parent waits
+/// for, or holds, is stuck there.
 class Heartbeat {
  public:
-  static Heartbeat& one() {
-    static auto& heartbeat = *new Heartbeat;  // never destroyed: the thread may look at it while the program ends
-    return heartbeat;
-  }
+  static Heartbeat& one() { return *current(); }
   void add(Progress* work) {
     const std::lock_guard lock(mutex_);
     works_.push_back(work);
-    if (process_ != getpid()) start();
+    if (!is_started_) start();
     changed_.notify_one();
   }
   void remove(Progress* work) {
@@ -103,9 +102,17 @@ class Heartbeat {
   }
 
  private:
+  /// Never destroyed: the thread may look at it while the program ends.
+  static Heartbeat*& current() {
+    static Heartbeat* heartbeat = [] {
+      pthread_atfork(nullptr, nullptr, [] { current() = new Heartbeat; });
+      return new Heartbeat;
+    }();
+    return heartbeat;
+  }
   /// The thread gets no signals: they are for those that work.
   void start() {
-    process_ = getpid();
+    is_started_ = true;
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -124,7 +131,7 @@ class Heartbeat {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<Progress*> works_;
-  pid_t process_ = 0;  // that has the thread
+  bool is_started_ = false;
 };
 
 std::string progress_text(const std::string& label, double done, double total, const std::string& unit,

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -78,6 +79,25 @@ TEST(Progress, advances_from_several_threads) {
     for (std::thread& t : threads) t.join();
   };
   EXPECT_EQ(said_at(Verbosity::kNormal, work), "");
+}
+
+TEST(Progress, is_told_in_processes_that_fork_while_it_is_told) {
+  const Progress outer("importing", 1);
+  for (int i = 0; i < 20; ++i) {
+    { const Progress before("reading", 1); }
+    const pid_t child = fork();
+    if (child == 0) {
+      alarm(10);
+      for (int k = 0; k < 20; ++k) {
+        const Progress inner("joining", 1);
+        usleep(500);
+      }
+      _exit(0);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    ASSERT_EQ(status, 0) << "fork " << i;
+  }
 }
 
 TEST(Progress, verbose_tells_how_long_it_took) {
