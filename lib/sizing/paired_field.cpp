@@ -13,7 +13,7 @@ constexpr std::size_t kMostImages = 8;  // of a point, with itself: a corner of 
 
 }  // namespace
 
-PairedField::PairedField(const SizeField& base, std::vector<PairedRegion> regions, double tolerance)
+PairedField::PairedField(const SizeField& base, const std::vector<PairedRegion>& regions, double tolerance)
     : base_(base), tolerance_(tolerance) {
   for (const PairedRegion& r : regions) {
     ways_.push_back({r.a, r.motion});

@@ -22,7 +22,7 @@ struct PairedRegion {
 class PairedField : public SizeField {
  public:
   /// `base` outlives the object. Boxes are enlarged by `tolerance`, model unit.
-  PairedField(const SizeField& base, std::vector<PairedRegion> regions, double tolerance);
+  PairedField(const SizeField& base, const std::vector<PairedRegion>& regions, double tolerance);
   using SizeField::size;
   double size(Vec3 xyz, int& hint) const override { return local(xyz, hint).length; }
   LocalSize local(Vec3 xyz, int& hint) const override { return local_on(xyz, {}, hint); }
