@@ -26,6 +26,12 @@ inline bool meet(const Box3& a, const Box3& b, double tolerance = 0) {
          b.lo.y <= a.hi.y + tolerance && a.lo.z <= b.hi.z + tolerance && b.lo.z <= a.hi.z + tolerance;
 }
 
+/// What two boxes have in common; of two that do not meet, a box with lo > hi along some axis.
+inline Box3 common_box(const Box3& a, const Box3& b) {
+  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
+          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
+}
+
 /// Whether `inner` is nowhere farther outside than `tolerance` along each axis; boundaries may be common.
 inline bool contains(const Box3& outer, const Box3& inner, double tolerance = 0) {
   return inner.lo.x >= outer.lo.x - tolerance && inner.lo.y >= outer.lo.y - tolerance &&

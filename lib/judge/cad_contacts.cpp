@@ -51,7 +51,7 @@ bool CadContacts::is_near_facets(const TrianglePair& pair) {
       reach = std::max(reach, distance(p, q));
       box.add(p);
     }
-  return of_facets_->is_near({box.center(), box.center()}, reach);
+  return of_facets_->is_near(box.center(), reach);
 }
 
 bool CadContacts::touches(const TrianglePair& pair) { return is_near(pair, false); }

@@ -14,8 +14,7 @@
 namespace st {
 
 /// Answers by the intersection of the CAD faces themselves, found once per pair of faces; of a model of facets, by the
-/// facets, which never touch but cross. One object serves one mesh,
-/// one thread.
+/// facets, which never touch but cross. One object serves one mesh, one thread.
 class CadContacts {
  public:
   CadContacts(const Model& model, const SurfaceMesh& mesh) : model_(model), mesh_(mesh) {}

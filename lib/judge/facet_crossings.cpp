@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "base/boxes.h"
 #include "mesh/crossing.h"
 
 namespace st {
@@ -54,16 +55,10 @@ Box3 passages(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
   return box;
 }
 
-/// What two boxes have in common. Precondition: they meet.
-Box3 common_of(const Box3& a, const Box3& b) {
-  return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
-          {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
-}
-
 /// Of facets that cross: along the line of both planes; of those in one plane, where their boxes meet.
 Box3 place_of(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) {
   const Box3 of_a = passages(a, b), of_b = passages(b, a);
-  return meet(of_a, of_b) ? common_of(of_a, of_b) : common_of(box_of(a), box_of(b));
+  return meet(of_a, of_b) ? common_box(of_a, of_b) : common_box(box_of(a), box_of(b));
 }
 
 }  // namespace
@@ -76,10 +71,11 @@ FacetCrossings::FacetCrossings(const FacetShape& shape) {
   tree_ = BoxTree(places_);
 }
 
-bool FacetCrossings::is_near(const Box3& box, double reach) const {
+bool FacetCrossings::is_near(Vec3 x, double reach) const {
+  const Box3 box{x, x};
   bool is_found = false;
   tree_.visit_near(
-      box.center(),
+      x,
       [&](std::int32_t node, double) {
         return !is_found && meet(tree_.nodes()[static_cast<std::size_t>(node)].box, box, reach);
       },

@@ -12,9 +12,9 @@ namespace st {
 class FacetCrossings {
  public:
   explicit FacetCrossings(const FacetShape& shape);
-  /// Two facets have more in common than the nodes they share, at a place in the box or no farther from it than `reach`
-  /// along each axis.
-  bool is_near(const Box3& box, double reach) const;
+  /// Two facets have more in common than the nodes they share, at a place no farther from x than `reach` along each
+  /// axis.
+  bool is_near(Vec3 x, double reach) const;
 
  private:
   std::vector<Box3> places_;

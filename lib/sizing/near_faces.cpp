@@ -5,20 +5,22 @@
 #include <utility>
 
 #include "base/box_tree.h"
+#include "base/sort_once.h"
 #include "base/threads.h"
 
 namespace st {
 namespace {
 
+Box3 box_of_leaf(const OctreeView& octree, std::int32_t leaf) {
+  const Vec3 middle = octree.leaf_center(leaf), half = 0.5 * octree.cell_edge(octree.leaf_levels[leaf]) * Vec3{1, 1, 1};
+  return {middle - half, middle + half};
+}
+
 std::vector<Box3> boxes_of(const FaceCells& cells, const OctreeView& raster) {
   std::vector<std::int32_t> leaves = cells.leaf;
-  std::sort(leaves.begin(), leaves.end());
-  leaves.erase(std::unique(leaves.begin(), leaves.end()), leaves.end());
+  sort_once(leaves);
   std::vector<Box3> boxes;
-  for (const std::int32_t leaf : leaves) {
-    const Vec3 half = 0.5 * raster.cell_edge(raster.leaf_levels[leaf]) * Vec3{1, 1, 1};
-    boxes.push_back({raster.leaf_center(leaf) - half, raster.leaf_center(leaf) + half});
-  }
+  for (const std::int32_t leaf : leaves) boxes.push_back(box_of_leaf(raster, leaf));
   return boxes;
 }
 
@@ -69,9 +71,7 @@ Vec3 normal_near(const FaceCells& cells, const OctreeView& raster, Vec3 x) {
     const Vec3 normal = normalized(Vec3{n[0], n[1], n[2]});
     if (normal == Vec3{}) continue;
     const Vec3 from_plane = dot(x - cells.origin - Vec3{c[0], c[1], c[2]}, normal) * normal, foot = x - from_plane;
-    const Vec3 middle = raster.leaf_center(cells.leaf[i]),
-               half = 0.5 * raster.cell_edge(raster.leaf_levels[cells.leaf[i]]) * Vec3{1, 1, 1};
-    const double d2 = norm2(from_plane) + distance2(foot, Box3{middle - half, middle + half});
+    const double d2 = norm2(from_plane) + distance2(foot, box_of_leaf(raster, cells.leaf[i]));
     if (!(d2 < least)) continue;
     least = d2;
     nearest = normal;

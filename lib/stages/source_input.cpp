@@ -111,12 +111,11 @@ std::string outside_text(double away, double least_inside, double far_length, co
 void warn_of_long(const BackgroundMesh& background, double far_length, const std::string& unit) {
   double least = background.node_size[0].length;
   for (const LocalSize& s : background.node_size) least = std::min(least, s.length);
-  const std::string in_unit = unit.empty() ? "" : " " + unit;
   if (least >= far_length)
     log_warning(
         fmt::format("the background mesh asks for {:.4g}{} or more, above the largest length {:.4g}{}: it has "
                     "no effect; is it in the model's unit (--transform)?",
-                    least, in_unit, far_length, in_unit));
+                    least, in_unit(unit), far_length, in_unit(unit)));
 }
 
 }  // namespace

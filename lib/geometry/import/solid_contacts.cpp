@@ -31,15 +31,6 @@ constexpr std::size_t kMostSampled = 500;  // pairs of faces without a formula: 
 
 constexpr double Vec3::*kAxes[] = {&Vec3::x, &Vec3::y, &Vec3::z};
 
-Box3 common_box(const Box3& a, const Box3& b) {
-  Box3 box;
-  for (const auto axis : kAxes) {
-    box.lo.*axis = std::max(a.lo.*axis, b.lo.*axis);
-    box.hi.*axis = std::min(a.hi.*axis, b.hi.*axis);
-  }
-  return box;
-}
-
 /// Can two surfaces lie on each other in this box? Its second extent is more than a line's.
 bool has_room(const Box3& box, double tolerance) {
   int n = 0;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "base/boxes.h"
 #include "base/error.h"
 #include "base/threads.h"
 #include "geometry/brep/face_integral.h"
@@ -202,15 +203,10 @@ class TableWriter {
       }
     }
     m.width = rectangle_width(m.area, perimeter);
-    m.box = common_box(rough_box(f), sampled);
+    m.box = rough_box(f);
+    if (!m.box.is_empty() && !sampled.is_empty()) m.box = common_box(m.box, sampled);
     m.crossing = find_loop_crossing(domain, 2 * tolerance);
     return m;
-  }
-
-  static Box3 common_box(const Box3& a, const Box3& b) {
-    if (b.is_empty() || a.is_empty()) return a;
-    return {{std::max(a.lo.x, b.lo.x), std::max(a.lo.y, b.lo.y), std::max(a.lo.z, b.lo.z)},
-            {std::min(a.hi.x, b.hi.x), std::min(a.hi.y, b.hi.y), std::min(a.hi.z, b.hi.z)}};
   }
 
   void fill_shells_and_solids() {

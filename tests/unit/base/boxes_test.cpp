@@ -44,6 +44,13 @@ TEST(Boxes, contain_what_is_nowhere_outside_them) {
   }
 }
 
+TEST(Boxes, have_a_box_in_common) {
+  const Box3 common = common_box({{0, 0, 0}, {2, 3, 4}}, {{1, -1, 2}, {5, 1, 3}});
+  EXPECT_EQ(common.lo, (Vec3{1, 0, 2}));
+  EXPECT_EQ(common.hi, (Vec3{2, 1, 3}));
+  EXPECT_TRUE(common_box({{0, 0, 0}, {1, 1, 1}}, {{2, 0, 0}, {3, 1, 1}}).is_empty());
+}
+
 TEST(Boxes, are_as_far_from_a_point_as_their_nearest_point) {
   const Box3 box{{0, 0, 0}, {1, 2, 3}};
   EXPECT_EQ(distance2({0.5, 1, 2}, box), 0);

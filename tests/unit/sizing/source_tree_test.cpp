@@ -182,14 +182,19 @@ TEST(SourceTree, takes_a_source_of_another_type) {
   EXPECT_GT(n_walls, 50);
 }
 
-TEST(SourceTree, allows_longer_edges_where_all_do) {
+SourceSpec stretched_box(Vec3 middle, Vec3 half, double length, double aspect, Vec3 direction) {
   SourceSpec box;
   box.kind = SourceKind::kBox;
-  box.point[0] = {0.5, 0.5, 0.5};
-  box.half_axis = {{{0.3, 0, 0}, {0, 0.2, 0}, {0, 0, 0.2}}};
-  box.spacing[0].length = 0.02;
-  box.aspect = 5;
-  box.direction = {1, 0, 0};
+  box.point[0] = middle;
+  box.half_axis = {{{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}}};
+  box.spacing[0].length = length;
+  box.aspect = aspect;
+  box.direction = direction;
+  return box;
+}
+
+TEST(SourceTree, allows_longer_edges_where_all_do) {
+  const SourceSpec box = stretched_box({0.5, 0.5, 0.5}, {0.3, 0.2, 0.2}, 0.02, 5, {1, 0, 0});
   SourceSpec second = box;
   second.aspect = 1;
   second.spacing[0].length = 0.05;
@@ -205,13 +210,7 @@ TEST(SourceTree, allows_longer_edges_where_all_do) {
 }
 
 TEST(SourceTree, intersects_metrics_stretched_sources_and_the_raster_in_any_plane) {
-  SourceSpec box;
-  box.kind = SourceKind::kBox;
-  box.point[0] = {0.2, 0.2, 0.2};
-  box.half_axis = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  box.spacing[0].length = 0.03;
-  box.aspect = 8;
-  box.direction = normalized(Vec3{1, 1, 0});
+  const SourceSpec box = stretched_box({0.2, 0.2, 0.2}, {1, 1, 1}, 0.03, 8, normalized(Vec3{1, 1, 0}));
   BackgroundMesh mesh;
   mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.node_metric.assign(4, {1 / 0.0004, 1 / 0.04, 1, 0, 0, 0});  // lengths 0.02, 0.2, 1
