@@ -16,6 +16,8 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "base/share.h"
+#include "base/text.h"
 #include "base/threads.h"
 #include "geometry/model/sameness.h"
 #include "io/file/json_text.h"
@@ -217,6 +219,138 @@ MeshOptions make_options(const MeshStageOptions& o, const SizeField& field, cons
   return options;
 }
 
+/// A model as it was meshed.
+struct Meshed {
+  Composites composites;
+  MeshTopology topology;
+  MeshResult result;
+};
+
+/// Local, on rank 0. Faces without a mesh, triangles that fold, pairs that cross.
+std::int64_t n_wrong(const MeshResult& r) {
+  return static_cast<std::int64_t>(r.failures.size() + r.folds.size()) + r.n_crossing_pairs;
+}
+
+/// Local, on rank 0. Whether something is wrong with a face that was joined of several.
+bool is_joined_wrong(const Meshed& m) {
+  for (std::int32_t c = 0; c < m.composites.size(); ++c)
+    if (std::ranges::binary_search(m.result.bad_faces, m.composites.members(c).front())) return true;
+  return false;
+}
+
+/// One run of the stage on all ranks.
+class MeshRun {
+ public:
+  /// Collective. Reads and compares all inputs. `o` and `comm` outlive the object.
+  MeshRun(const MeshStageOptions& o, const Communicator& comm);
+  /// Collective.
+  StageSummary run();
+
+ private:
+  void read_sizes_and_model();
+  Meshed mesh(const Model& model, Composites composites, Resumption& resumption);
+  void mesh_apart(Meshed& joined, Resumption& resumption);
+
+  const MeshStageOptions& o_;
+  const Communicator& comm_;
+  const Timer timer_;
+  TaskTrace trace_;
+  Progress progress_{"st-mesh", 1};
+  GeometryArtifact geometry_;  // but for what model_ has
+  std::vector<FaceId> faces_;  // chosen; empty: all
+  std::optional<MappedSizing> sizing_;
+  std::optional<Model> model_;
+  EarlierPart earlier_;
+  PeriodicPairs pairs_;
+  double load_seconds_ = 0, tile_triangles_ = 0;
+};
+
+MeshRun::MeshRun(const MeshStageOptions& o, const Communicator& comm) : o_(o), comm_(comm), trace_(comm, o.trace) {
+  o.validate();
+  if (comm.is_root()) {
+    require_patches_outputs(o.output);
+    if (!o.trace.empty()) require_writable(o.trace);
+  }
+  progress_.step("reading", 0);
+  require_fitting({{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.edges, "patches"}});
+  geometry_ = read_geometry_for(o);
+  require_whole(o, geometry_.mirror);
+  faces_ = geometry_.mirror.empty()
+               ? whole_faces(select_faces(o, geometry_.tables), geometry_.composites, "--faces " + o.faces)
+               : faces_to_mesh(geometry_.mirror);
+  read_sizes_and_model();
+  earlier_ = read_earlier_part(o, geometry_.header);
+  pairs_ = read_pairs(o.pairs, *model_);
+  require_same_inputs(comm, {{o.edges, earlier_.content_hash}, {o.pairs, hash_of(pairs_.pairs())}});
+  tile_triangles_ = o.tile_triangles.value_or(usual_tile(expected_triangles(sizing_->face_weight)));
+}
+
+void MeshRun::read_sizes_and_model() {
+  const Composites composites = geometry_.composites;
+  run_jobs(
+      {[&] { model_.emplace(stored_model(geometry_, o_.geometry)); }, [&] { sizing_.emplace(map_sizing(o_.sizing)); }});
+  geometry_.composites = composites;
+  require_same_inputs(comm_, {{o_.geometry, geometry_.header.content_hash}, {o_.sizing, sizing_->header.content_hash}});
+  require_same_geometry(o_.geometry, geometry_.header, o_.sizing, sizing_->header);
+  require_countable_mesh(model_->tables(), sizing_->face_weight, faces_, o_.sizing,
+                         most_triangles_in(memory_of_all_hosts(comm_)));
+}
+
+Meshed MeshRun::mesh(const Model& model, Composites composites, Resumption& resumption) {
+  const auto common_field = make_common_field(*sizing_->field, geometry_.mirror, pairs_, model.tables());
+  const SizeField& field = common_field ? *common_field : *sizing_->field;
+  progress_.step("small features", 0.05);
+  MeshTopology topology = o_.edges.empty()
+                              ? make_topology(model, field, o_.merge_below, geometry_.mirror, pairs_, trace_)
+                              : MeshTopology(model.tables(), earlier_.merged);
+  if (load_seconds_ == 0) load_seconds_ = timer_.seconds();
+  progress_.step("meshing", 0.1);
+  MeshOptions options = make_options(o_, field, geometry_.mirror, tile_triangles_);
+  options.left_out = resumption.left_out();
+  options.pairs = &pairs_;
+  MeshPlan plan = make_plan(o_, topology, faces_, earlier_.edges, sizing_->face_weight);
+  MeshResult result = mesh_regions(model, topology, field, std::move(plan), options, resumption);
+  return {std::move(composites), std::move(topology), std::move(result)};
+}
+
+/// Collective. Where a joined face cannot be meshed: the faces of the CAD instead, unless more is wrong with them. A
+/// part has to fit other parts, so its faces stay joined.
+void MeshRun::mesh_apart(Meshed& joined, Resumption& resumption) {
+  char is_wrong = comm_.is_root() && faces_.empty() && o_.edges.empty() && is_joined_wrong(joined);
+  share(trace_, is_wrong);
+  if (!is_wrong) return;
+  log_info("joined faces fail, fold or cross: the faces of the CAD are meshed, apart");
+  GeometryArtifact geometry = read_geometry(o_.geometry);
+  const Model cad = stored_cad(geometry, o_.geometry);
+  Meshed apart = mesh(cad, {}, resumption);
+  char is_better = comm_.is_root() && n_wrong(apart.result) < n_wrong(joined.result);
+  share(trace_, is_better);
+  if (!is_better) return;
+  if (comm_.is_root())
+    log_report(fmt::format("  {} of joined faces could not be meshed: the faces of the CAD were, apart",
+                           counted(joined.composites.size(), "union")));
+  joined = std::move(apart);
+}
+
+StageSummary MeshRun::run() {
+  const ArtifactHeader header = output_header(o_, tile_triangles_, geometry_.header, sizing_->header);
+  Resumption resumption(trace_, o_.output, run_of(header, earlier_.edges, hash_of(pairs_.pairs())),
+                        {o_.journal_after, o_.begins_new});
+  Meshed meshed = mesh(*model_, geometry_.composites, resumption);
+  mesh_apart(meshed, resumption);
+  resumption.end();
+  trace_.begin_phase("write");
+  progress_.step("writing", 0.9);
+  StageSummary summary = write_result(o_.output, geometry_.mirror, meshed.topology.tables(), geometry_.header, header,
+                                      meshed.topology, std::move(meshed.result),
+                                      {timer_, load_seconds_, comm_.size(), resumption.n_tasks(),
+                                       resumption.n_resumed(), nlohmann::json::object(), meshed.composites},
+                                      trace_);
+  if (comm_.is_root()) resumption.remove();
+  trace_.write();
+  return summary;
+}
+
 }  // namespace
 
 void MeshStageOptions::validate() const {
@@ -233,64 +367,8 @@ void MeshStageOptions::validate() const {
 }
 
 StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
-  const Timer timer;
-  TaskTrace trace(comm, o.trace);
   keep_freed_memory();
-  o.validate();
-  if (comm.is_root()) {
-    require_patches_outputs(o.output);
-    if (!o.trace.empty()) require_writable(o.trace);
-  }
-  Progress progress("st-mesh", 1);
-  progress.step("reading", 0);
-  require_fitting({{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.edges, "patches"}});
-  GeometryArtifact geometry = read_geometry_for(o);
-  const Composites composites = geometry.composites;
-  const Mirror mirror = std::move(geometry.mirror);
-  require_whole(o, mirror);
-  std::vector<FaceId> faces = mirror.empty()
-                                  ? whole_faces(select_faces(o, geometry.tables), composites, "--faces " + o.faces)
-                                  : faces_to_mesh(mirror);
-  std::optional<MappedSizing> mapped;
-  std::optional<Model> stored;
-  run_jobs(
-      {[&] { stored.emplace(stored_model(geometry, o.geometry)); }, [&] { mapped.emplace(map_sizing(o.sizing)); }});
-  const MappedSizing& sizing = *mapped;
-  const Model& model = *stored;
-  require_same_inputs(comm, {{o.geometry, geometry.header.content_hash}, {o.sizing, sizing.header.content_hash}});
-  require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
-  require_countable_mesh(model.tables(), sizing.face_weight, faces, o.sizing,
-                         most_triangles_in(memory_of_all_hosts(comm)));
-  EarlierPart earlier = read_earlier_part(o, geometry.header);
-  const PeriodicPairs pairs = read_pairs(o.pairs, model);
-  const std::string pairs_hash = hash_of(pairs.pairs());
-  require_same_inputs(comm, {{o.edges, earlier.content_hash}, {o.pairs, pairs_hash}});
-  progress.step("small features", 0.05);
-  const auto common_field = make_common_field(*sizing.field, mirror, pairs, model.tables());
-  const SizeField& field = common_field ? *common_field : *sizing.field;
-  const MeshTopology topology = o.edges.empty() ? make_topology(model, field, o.merge_below, mirror, pairs, trace)
-                                                : MeshTopology(model.tables(), std::move(earlier.merged));
-  const double load_seconds = timer.seconds();
-  const double tile_triangles = o.tile_triangles.value_or(usual_tile(expected_triangles(sizing.face_weight)));
-  const ArtifactHeader header = output_header(o, tile_triangles, geometry.header, sizing.header);
-  progress.step("meshing", 0.1);
-  Resumption resumption(trace, o.output, run_of(header, earlier.edges, pairs_hash), {o.journal_after, o.begins_new});
-  MeshPlan plan = make_plan(o, topology, std::move(faces), std::move(earlier.edges), sizing.face_weight);
-  MeshOptions options = make_options(o, field, mirror, tile_triangles);
-  options.left_out = resumption.left_out();
-  options.pairs = &pairs;
-  MeshResult result = mesh_regions(model, topology, field, std::move(plan), options, resumption);
-  resumption.end();
-  trace.begin_phase("write");
-  progress.step("writing", 0.9);
-  StageSummary summary =
-      write_result(o.output, mirror, topology.tables(), geometry.header, header, topology, std::move(result),
-                   {timer, load_seconds, comm.size(), resumption.n_tasks(), resumption.n_resumed(),
-                    nlohmann::json::object(), composites},
-                   trace);
-  if (comm.is_root()) resumption.remove();
-  trace.write();
-  return summary;
+  return MeshRun(o, comm).run();
 }
 
 }  // namespace st

@@ -61,6 +61,7 @@ struct MeshResult {
   std::vector<FaceFailure> failures;  ///< by face
   std::vector<FailedFace> failed_faces;  ///< likewise: boundary and partial state of each
   std::vector<RefinementPoint> folds;    ///< places where a triangle is still turned against the surface
+  std::vector<FaceId> bad_faces;  ///< that failed, or have a triangle that is folded or crosses another; ascending
   int n_rounds = 0, n_refinements = 0;
   int n_crossing_pairs = 0;  ///< that are left; where holes were filled: of which one triangle at least is new
   int n_grown = 0;           ///< holes that had to grow

@@ -148,8 +148,10 @@ void MeshedFaces::keep_only(std::vector<PlacedFace> others) {
 
 void MeshedFaces::report(MeshResult& result) const {
   result.n_crossing_pairs = crossings_.n_pairs();
+  const std::vector<FaceId> sound = sound_faces();
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
+    if (!std::ranges::binary_search(sound, f)) result.bad_faces.push_back(f);
     result.folds.insert(result.folds.end(), o.fold_places.begin(), o.fold_places.end());
     if (o.cause == FailureCause::kNone) continue;
     result.failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause), o.cause_xyz,
