@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "features/ridge_edges.h"
 #include "features/smooth_edges.h"
+#include "features/strip.h"
 #include "geometry/model/joined_tables.h"
 #include "io/foreign/triangulation_reader.h"
 #include "stages/cad_view.h"
@@ -177,6 +178,15 @@ void keep_smooth(const ModelTables& t, JoinRequest& request, SmoothEdges& is_smo
                           std::ranges::all_of(sides(e), [&](FaceId f) { return is_wanted[f] != 0; }) && is_smooth(e);
 }
 
+/// Narrow faces between edges that stay are apart: their widths ask for lengths, and those of a union would not.
+void keep_strips(const ModelTables& t, JoinRequest& request) {
+  for (const StripSides& strip : find_strip_sides(t)) {
+    const auto stays = [&](const StripSides::Side& side) { return !request.may_join[side.edge]; };
+    if (request.may_join[strip.single] || !std::ranges::all_of(strip.across, stays)) continue;
+    for (const EdgeId e : t.edges_of(strip.face)) request.may_join[e] = 0;
+  }
+}
+
 /// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each refused union is
 /// logged.
 std::string said(const GeometryArtifact& geometry, const std::vector<std::string>& refused) {
@@ -211,6 +221,7 @@ JoinRequest join_request(const Model& cad, bool is_harm_only) {
   request.may_join = edges_inside(t);
   request.urgency = is_harm_only ? HarmFinder(cad, request.may_join, is_smooth).take() : t.edge_length;
   keep_smooth(t, request, is_smooth);
+  if (is_harm_only) keep_strips(t, request);
   if (std::ranges::count(request.may_join, 1) == 0) return request;
   for (const WingEdge& w : wing_edges_to_see(cad)) request.may_join[w.edge] = 0;
   const std::vector<std::uint8_t> is_ridge = find_ridge_edges(cad, request.may_join);

@@ -459,9 +459,27 @@ void require_composable(const ImportStageOptions& o) {
     throw Error(ExitCode::kUsage, "--composite joins faces across the plane of --mirror; give one of them");
 }
 
+/// What --composite asks for.
+std::string composite_word(const ImportStageOptions& o) {
+  if (!o.composite.empty()) return o.composite;
+  return o.check || !o.mirror.empty() || !triangulation_format(o.model).empty() ? "none" : "harm";
+}
+
+/// Unless it was asked for, nothing is said where no faces are joined.
+void join_faces(const ImportStageOptions& o, const std::string& word, GeometryArtifact& g, StageSummary& s,
+                nlohmann::json& used, nlohmann::json& json) {
+  const std::string said = compose(g, word == "harm");
+  if (o.composite.empty() && g.composites.empty()) return;
+  s.line += "; " + said;
+  used["composite"] = word;
+  const EntityCounts left = count_left(g.tables);
+  json["joined"] = {{"faces", left.faces}, {"edges", left.edges}, {"vertices", left.vertices}};
+}
+
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
-  const bool is_composed = asks_for_composites(o.composite, o.model);
+  const std::string composite = composite_word(o);
+  const bool is_composed = asks_for_composites(composite, o.model);
   if (is_composed) require_composable(o);
   ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
@@ -503,12 +521,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.mirror = std::move(r.mirror);
     g.tables = std::move(r.tables);
     std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
-    if (is_composed) {
-      s.line += "; " + compose(g, o.composite == "harm");
-      used["composite"] = o.composite;
-      const EntityCounts left = count_left(g.tables);
-      json["joined"] = {{"faces", left.faces}, {"edges", left.edges}, {"vertices", left.vertices}};
-    }
+    if (is_composed) join_faces(o, composite, g, s, used, json);
     g.header.options_json = json_text(used);
     json["hash"] = write_geometry(o.output, g);
     json["output"] = o.output;

@@ -25,14 +25,14 @@ struct ImportStageOptions {
   std::string symmetry, mirror, farfield, replace_farfield;  ///< of ImportOptions; empty: none
   std::string flow_domain = "auto";                          ///< of ImportOptions
   std::string groups;                                        ///< groups file (TOML); empty: the groups of the CAD file
-  std::string suggest_groups;      ///< groups file to write, as the shape suggests; empty: none
-  std::string composite = "none";  ///< faces that meet smoothly are one: "none", "harm" (where the mesh would suffer),
-                                   ///< "smooth" (all)
-  bool unite = false;              ///< of ImportOptions
-  bool join = false;               ///< solids that touch get common faces
-  bool cap = false;                ///< of ImportOptions
-  bool check = false;              ///< report only, write nothing
-  bool require_closed = false;     ///< an open model is an error (exit 4)
+  std::string suggest_groups;   ///< groups file to write, as the shape suggests; empty: none
+  std::string composite;        ///< faces that meet smoothly are one: "none", "harm" (where the mesh would suffer),
+                                ///< "smooth" (all); empty: harm where faces can be joined
+  bool unite = false;           ///< of ImportOptions
+  bool join = false;            ///< solids that touch get common faces
+  bool cap = false;             ///< of ImportOptions
+  bool check = false;           ///< report only, write nothing
+  bool require_closed = false;  ///< an open model is an error (exit 4)
 };
 
 /// Local; reads in a child process, so the caller must have no other threads. Throws Error, also where OpenCASCADE

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/log.h"
@@ -19,6 +20,25 @@ std::vector<std::string> numbers_of(const std::vector<std::int32_t>& ids) {
   std::vector<std::string> numbers;
   for (const std::int32_t id : ids) numbers.push_back(std::to_string(id + 1));
   return numbers;
+}
+
+/// What these `faces` and `edges` alone select.
+RuleTargets targets_of(const std::vector<std::string>& faces, const std::vector<std::string>& edges,
+                       const SizeRule& rule, const ModelTables& cad) {
+  if (faces.empty() && edges.empty()) return {};
+  SizeRule own;
+  own.where = rule.where;
+  own.faces = faces;
+  own.edges = edges;
+  return find_targets(own, cad);
+}
+
+/// Whether some but not all of `whole` are among `chosen` (ascending).
+template <class Whole, class Id>
+bool is_part(const Whole& whole, const std::vector<std::int32_t>& chosen, const Id& id_of) {
+  const auto n =
+      std::ranges::count_if(whole, [&](const auto& one) { return std::ranges::binary_search(chosen, id_of(one)); });
+  return n > 0 && static_cast<std::size_t>(n) < whole.size();
 }
 
 }  // namespace
@@ -42,6 +62,23 @@ std::vector<FaceId> whole_faces(const std::vector<FaceId>& faces, const Composit
   return whole;
 }
 
+bool select_parts(const std::vector<SizeRule>& rules, const GeometryArtifact& geometry) {
+  if (geometry.composites.empty()) return false;
+  const Composites& composites = geometry.composites;
+  const JoinedTables joined = join_tables(geometry.cad, composites);
+  for (const SizeRule& rule : rules) {
+    const std::vector<FaceId> faces = targets_of(rule.faces, {}, rule, geometry.cad).faces;
+    for (std::int32_t i = 0; i < composites.size(); ++i)
+      if (is_part(composites.members(i), faces, [](FaceId f) { return f; })) return true;
+    const std::vector<EdgeId> edges = targets_of({}, rule.edges, rule, geometry.cad).edges;
+    for (EdgeId e = 0; e < geometry.cad.n_edges(); ++e)
+      if (is_part(joined.pieces_of(e), edges, [](const EdgePiece& p) { return p.edge; })) return true;
+    if (std::ranges::any_of(edges, [&](EdgeId e) { return std::ranges::binary_search(composites.joined_edges, e); }))
+      return true;
+  }
+  return false;
+}
+
 std::vector<SizeRule> rules_on_joined(std::vector<SizeRule> rules, const GeometryArtifact& geometry) {
   if (geometry.composites.empty()) return rules;
   const JoinedTables joined = join_tables(geometry.cad, geometry.composites);
@@ -49,26 +86,41 @@ std::vector<SizeRule> rules_on_joined(std::vector<SizeRule> rules, const Geometr
   for (EdgeId e = 0; e < geometry.cad.n_edges(); ++e)
     for (const EdgePiece& p : joined.pieces_of(e)) whole_edge[static_cast<std::size_t>(p.edge)] = e;
   for (SizeRule& rule : rules) {
-    if (!rule.faces.empty()) {
-      SizeRule own;
-      own.where = rule.where;
-      own.faces = rule.faces;
-      rule.faces = numbers_of(whole_faces(find_targets(own, geometry.cad).faces, geometry.composites, rule.where));
-    }
+    if (!rule.faces.empty())
+      rule.faces = numbers_of(
+          whole_faces(targets_of(rule.faces, {}, rule, geometry.cad).faces, geometry.composites, rule.where));
     if (rule.edges.empty()) continue;
-    SizeRule own;
-    own.where = rule.where;
-    own.edges = rule.edges;
-    std::vector<EdgeId> edges;
-    for (const EdgeId e : find_targets(own, geometry.cad).edges)
-      if (whole_edge[static_cast<std::size_t>(e)] != kNone) edges.push_back(whole_edge[static_cast<std::size_t>(e)]);
-    if (edges.empty())
-      throw Error(ExitCode::kUsage,
-                  fmt::format("{}: edges: all of them lie between faces that are joined; {}", rule.where, kRemedy));
+    std::vector<EdgeId> edges = targets_of({}, rule.edges, rule, geometry.cad).edges;
+    for (EdgeId& e : edges) e = whole_edge[static_cast<std::size_t>(e)];
     sort_once(edges);
     rule.edges = numbers_of(edges);
   }
   return rules;
+}
+
+bool are_of_cad_faces(const std::vector<double>& face_weight, const Composites& composites) {
+  for (std::int32_t i = 0; i < composites.size(); ++i)
+    for (const FaceId f : composites.members(i).subspan(1))
+      if (static_cast<std::size_t>(f) < face_weight.size() && face_weight[static_cast<std::size_t>(f)] > 0) return true;
+  return false;
+}
+
+void require_same_unions(const std::string& mesh, const MeshArtifact& old, const std::string& moved,
+                         const GeometryArtifact& geometry) {
+  std::vector<FaceId> whole(static_cast<std::size_t>(geometry.tables.n_faces()));
+  std::iota(whole.begin(), whole.end(), 0);
+  for (std::int32_t i = 0; i < geometry.composites.size(); ++i)
+    for (const FaceId f : geometry.composites.members(i))
+      whole[static_cast<std::size_t>(f)] = geometry.composites.members(i)[0];
+  for (std::size_t t = 0; t < old.triangle_cad_face.size(); ++t) {
+    const FaceId cad = old.triangle_cad_face[t], face = old.mesh.triangle_face[t];
+    if (static_cast<std::size_t>(cad) >= whole.size() || whole[static_cast<std::size_t>(cad)] == face) continue;
+    const auto [low, high] = std::minmax({cad, cad == face ? whole[static_cast<std::size_t>(cad)] : face});
+    throw Error(ExitCode::kMismatch,
+                fmt::format("--moved: {} and {} are not alike: faces {} and {} are joined in one of them; mesh {} with "
+                            "st-mesh, or make both with st-import --composite none",
+                            mesh, moved, low + 1, high + 1, moved));
+  }
 }
 
 }  // namespace st

@@ -275,10 +275,12 @@ MeshRun::MeshRun(const MeshStageOptions& o, const Communicator& comm) : o_(o), c
   require_fitting({{o.geometry, "geometry"}, {o.sizing, "sizing"}, {o.edges, "patches"}});
   geometry_ = read_geometry_for(o);
   require_whole(o, geometry_.mirror);
-  faces_ = geometry_.mirror.empty()
-               ? whole_faces(select_faces(o, geometry_.tables), geometry_.composites, "--faces " + o.faces)
-               : faces_to_mesh(geometry_.mirror);
   read_sizes_and_model();
+  faces_ = geometry_.mirror.empty()
+               ? whole_faces(select_faces(o, model_->tables()), geometry_.composites, "--faces " + o.faces)
+               : faces_to_mesh(geometry_.mirror);
+  require_countable_mesh(model_->tables(), sizing_->face_weight, faces_, o.sizing,
+                         most_triangles_in(memory_of_all_hosts(comm)));
   earlier_ = read_earlier_part(o, geometry_.header);
   pairs_ = read_pairs(o.pairs, *model_);
   require_same_inputs(comm, {{o.edges, earlier_.content_hash}, {o.pairs, hash_of(pairs_.pairs())}});
@@ -290,10 +292,12 @@ void MeshRun::read_sizes_and_model() {
   run_jobs(
       {[&] { model_.emplace(stored_model(geometry_, o_.geometry)); }, [&] { sizing_.emplace(map_sizing(o_.sizing)); }});
   geometry_.composites = composites;
+  if (are_of_cad_faces(sizing_->face_weight, composites)) {
+    geometry_ = read_geometry(o_.geometry);
+    model_.emplace(stored_cad(geometry_, o_.geometry));
+  }
   require_same_inputs(comm_, {{o_.geometry, geometry_.header.content_hash}, {o_.sizing, sizing_->header.content_hash}});
   require_same_geometry(o_.geometry, geometry_.header, o_.sizing, sizing_->header);
-  require_countable_mesh(model_->tables(), sizing_->face_weight, faces_, o_.sizing,
-                         most_triangles_in(memory_of_all_hosts(comm_)));
 }
 
 Meshed MeshRun::mesh(const Model& model, Composites composites, Resumption& resumption) {

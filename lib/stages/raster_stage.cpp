@@ -797,6 +797,14 @@ void share_limits(const Executor& comm, ModelLimits& l) {
         l.wants_gaps, l.is_material_ahead, l.far_length, l.max_aspect);
 }
 
+/// Rules of sizes are for faces and edges of the CAD.
+GeometryArtifact read_geometry_for(const std::string& path, const std::vector<SizeRule>& rules) {
+  GeometryArtifact geometry = read_geometry(path);
+  if (select_parts(rules, geometry) && part_joined_faces(geometry))
+    log_report("  rules select parts of joined faces: all faces are apart, as the CAD has them");
+  return geometry;
+}
+
 /// The stage, step by step.
 class RasterRun {
  public:
@@ -805,8 +813,8 @@ class RasterRun {
         comm_(comm),
         trace_(comm, o.trace),
         progress_(progress),
-        geometry_(read_geometry(o.geometry)),
         sizes_(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
+        geometry_(read_geometry_for(o.geometry, sizes_.rules)),
         rules_(all_rules(o, {rules_on_joined(sizes_.rules, geometry_), sizes_.hash}, geometry_.tables)),
         model_(same_model(comm)),
         roles_(face_roles(model_, trace_)),
@@ -951,8 +959,8 @@ class RasterRun {
   TaskTrace trace_;
   Progress& progress_;
   PhaseTimes times_;
-  GeometryArtifact geometry_;  // without the model
   const SizeRuleFile sizes_;
+  GeometryArtifact geometry_;  // without the model
   const std::vector<SizeRule> rules_;
   const Model model_;
   FaceRoles roles_;

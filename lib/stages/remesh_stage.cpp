@@ -37,6 +37,7 @@
 #include "stages/expected_triangles.h"
 #include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
+#include "stages/joined_numbers.h"
 #include "stages/merge_columns.h"
 #include "stages/orientation_warnings.h"
 #include "stages/patches_result.h"
@@ -235,6 +236,7 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   if (!o.moved) require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   part_as_meshed(old, geometry);
+  if (o.moved) require_same_unions(o.mesh, old, o.geometry, geometry);
   ArtifactHeader header = geometry.header;
   Composites composites = geometry.composites;
   RemeshInput in{std::move(old), std::move(header), stored_model(geometry, o.geometry), std::move(sizing)};

@@ -5,7 +5,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
+from chain import MISMATCH, MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
 
 MODEL = MODELS / "wing_of_8.brep"
 AREAS = """
@@ -36,11 +36,14 @@ class Composite(ToolTest):
         return run.json()
 
     def test_both_numbers_of_faces_are_said(self):
-        plain = must("st-import", MODEL, "-o", self.folder / "plain.hdf", "--json").json()
+        plain = must("st-import", MODEL, "-o", self.folder / "plain.hdf", "--composite", "none", "--json").json()
+        usual = must("st-import", MODEL, "-o", self.folder / "usual.hdf", "--json").json()
         run = must("st-import", MODEL, "-o", self.folder / "g.hdf", "--composite", "smooth")
         said = self.joined()
         self.assertEqual(said["faces"], plain["faces"])
         self.assertLess(said["joined"]["faces"], said["faces"])
+        self.assertNotIn("joined", plain)
+        self.assertLess(usual["joined"]["faces"], usual["faces"])
         self.assertIn(f"{said['faces']} faces, ", run.out)
         self.assertIn(f"{said['joined']['faces']} faces and {said['joined']['edges']} edges after joining", run.out)
         info = must("st-info", self.folder / "g.hdf", "--json").json()
@@ -107,14 +110,21 @@ class Composite(ToolTest):
         faces = must("st-info", folder / "mesh.hdf", "--groups", "--json").json()["tables"][0]["groups"]
         self.assertEqual(sorted(f for g in faces for f in g["faces"]), list(range(1, info["counts"]["faces"] + 1)))
         rule = '[[size]]\nfaces = [{}]\nlmax = "1%"\n'
-        said = {}
+        hashes = {}
         for face in range(1, info["counts"]["faces"] + 1):
             (folder / "sizes.toml").write_text(rule.format(face))
-            run = must("st-raster", folder / "geometry.hdf", "-o", folder / "r.hdf", "--sizes", folder / "sizes.toml",
-                       "--json")
-            said.setdefault(("are joined" in run.err + run.out, run.json()["hash"]), []).append(face)
-        skins = [faces for (is_joined, _), faces in said.items() if is_joined]
-        self.assertEqual([len(faces) for faces in skins], [4, 4], said)  # each of a skin's 4 stands for all of it
+            run = must("st-raster", folder / "geometry.hdf", "-o", folder / f"r{face}.hdf", "--sizes",
+                       folder / "sizes.toml", "--json")
+            hashes.setdefault("are apart" in run.err + run.out, {})[face] = run.json()["hash"]
+        self.assertEqual(len(hashes[True]), 8, hashes)  # each of two skins' four
+        self.assertGreater(len(set(hashes[True].values())), 2, hashes)  # and not a skin as a whole
+
+        part = next(iter(hashes[True]))  # st-mesh sees that its sizes are for faces that are apart
+        must("st-prolong", folder / f"r{part}.hdf", "-o", folder / "s.hdf")
+        must("st-mesh", folder / "geometry.hdf", folder / "s.hdf", "-o", folder / "p.hdf")
+        must("st-merge", folder / "p.hdf", "-o", folder / "m.hdf")
+        self.assertNotIn("joined", must("st-info", folder / "m.hdf", "--json").json())
+        self.assertEqual(Run("st-check", folder / "m.hdf", "--geometry", folder / "geometry.hdf").code, OK)
 
     def test_a_part_of_a_union_is_meshed_whole(self):
         folder = self.chain()
@@ -136,6 +146,12 @@ class Composite(ToolTest):
         run = must("st-edit", folder / "geometry.hdf", "-o", folder / "large.hdf", "--transform", "scale 2")
         self.assertIn("are apart", run.err + run.out)
         self.assertNotIn("joined", must("st-info", folder / "large.hdf", "--json").json())
+        must("st-raster", folder / "large.hdf", "-o", folder / "r.hdf")
+        must("st-prolong", folder / "r.hdf", "-o", folder / "s.hdf")
+        run = Run("st-remesh", folder / "mesh.hdf", folder / "large.hdf", folder / "s.hdf", "--moved", "--merged",
+                  folder / "large_mesh.hdf")
+        self.assertEqual(run.code, MISMATCH, run)
+        self.assertIn("--composite none", run.err)
 
     def test_the_cad_is_exported_as_flite(self):
         folder = self.chain()

@@ -537,7 +537,7 @@ TopoDS_Shape wing_with_pod() {
 
 /// The sharp wing, its skin cut into n_chord x n_span faces, wide and narrow ones in turn. They join smoothly but at
 /// the trailing edge.
-TopoDS_Shape cut_prism(const Handle(Geom_Curve) & curve, int n_chord, int n_span) {
+TopoDS_Shape cut_prism(const Handle(Geom_Curve) & curve, int n_chord, int n_span, double height = 30) {
   const Handle(Geom_Surface) skin = new Geom_SurfaceOfLinearExtrusion(curve, gp_Dir(0, 0, 1));
   const auto cut = [](int i, int n) {  // between 0 and 1
     return (i % 2 && i < n ? i + 0.96 : i) / n;
@@ -548,8 +548,9 @@ TopoDS_Shape cut_prism(const Handle(Geom_Curve) & curve, int n_chord, int n_span
   for (int i = 0; i < n_chord; ++i)
     for (int k = 0; k < n_span; ++k)
       sewing.Add(
-          BRepBuilderAPI_MakeFace(skin, u(i), u(i + 1), 30 * cut(k, n_span), 30 * cut(k + 1, n_span), 1e-7).Shape());
-  for (const double z : {0.0, 30.0}) {
+          BRepBuilderAPI_MakeFace(skin, u(i), u(i + 1), height * cut(k, n_span), height * cut(k + 1, n_span), 1e-7)
+              .Shape());
+  for (const double z : {0.0, height}) {
     BRepBuilderAPI_MakeWire rim;
     for (int i = 0; i < n_chord; ++i)
       rim.Add(
@@ -740,6 +741,8 @@ const std::map<std::string, Factory>& factories() {
       {"wing_of_8", [] { return cut_wing(4, 2); }},
       {"wing_of_200", [] { return cut_wing(10, 20); }},
       {"cylinder_of_8", [] { return cut_prism(new Geom_Circle(kZ, 5), 8, 1); }},
+      {"disc_of_16", [] { return cut_prism(new Geom_Circle(kZ, 5), 16, 1, 0.05); }},  // its rim: strips and short
+                                                                                      // pieces
       {"wing_in_box", [] { return BRepAlgoAPI_Cut(moved(box(60, 60, 60), -20, -30, -15), wing(0.1036)).Shape(); }},
       {"drilled_block",
        [] {

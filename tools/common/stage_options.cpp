@@ -23,7 +23,7 @@ void declare(OptionSet& set, ImportStageOptions& o) {
   set.text(
       "--composite", o.composite, "WORD",
       "make one face of CAD faces that meet smoothly: none, harm (where the edge between them spoils triangles) or "
-      "smooth (wherever they do)");
+      "smooth (wherever they do); default: harm");
   set.flag("--unite", o.unite, "make solids that overlap or touch one body, without what is inside");
   set.flag("--join", o.join, "give solids that touch common faces and edges, in groups of their own");
   set.flag("--cap", o.cap,

@@ -73,6 +73,12 @@ TEST(Compose, narrow_faces_are_no_reason_to_join_at_edges_across_them) {
   }
 }
 
+TEST(Compose, leaves_narrow_faces_between_edges_that_stay_apart) {
+  const Model disc = test::make_model("disc_of_16");
+  EXPECT_EQ(std::ranges::count(join_request(disc, true).may_join, 1), 0);
+  EXPECT_EQ(std::ranges::count(join_request(disc, false).may_join, 1), 16);
+}
+
 TEST(Compose, leaves_groups_and_named_edges_apart) {
   ImportResult cad = test::import_shape("cylinder_of_8");
   const JoinRequest all = join_request(Model(cad.tables, cad.brep), false);

@@ -63,11 +63,42 @@ TEST(RulesOnJoined, name_the_edge_that_another_goes_on_into) {
   EXPECT_GT(n_tried, 0);
 }
 
-TEST(RulesOnJoined, refuse_edges_that_are_joined_and_those_that_do_not_exist) {
+TEST(RulesOnJoined, refuse_faces_that_do_not_exist) {
   const GeometryArtifact g = joined_wing();
-  const std::string gone = std::to_string(g.composites.joined_edges[0] + 1);
-  EXPECT_ERROR(rules_on_joined({rule_for({}, {gone})}, g), kUsage, "s.toml:3");
   EXPECT_ERROR(rules_on_joined({rule_for({"99"}, {})}, g), kUsage, "s.toml:3");
+  EXPECT_ERROR(select_parts({rule_for({}, {"99"})}, g), kUsage, "s.toml:3");
+}
+
+std::vector<std::string> numbers(std::span<const std::int32_t> ids) {
+  std::vector<std::string> texts;
+  for (const std::int32_t id : ids) texts.push_back(std::to_string(id + 1));
+  return texts;
+}
+
+TEST(SelectParts, is_whether_rules_need_what_is_joined) {
+  const GeometryArtifact g = joined_wing();
+  const std::span<const FaceId> skin = g.composites.members(0);
+  EXPECT_TRUE(select_parts({rule_for(numbers(skin.first(1)), {})}, g));
+  EXPECT_FALSE(select_parts({rule_for(numbers(skin), {})}, g));
+  EXPECT_TRUE(select_parts({rule_for({}, numbers(std::span(g.composites.joined_edges).first(1)))}, g));
+  const JoinedTables joined = join_tables(g.cad, g.composites);
+  for (EdgeId e = 0; e < g.cad.n_edges(); ++e) {
+    std::vector<EdgeId> pieces;
+    for (const EdgePiece& p : joined.pieces_of(e)) pieces.push_back(p.edge);
+    if (pieces.empty()) continue;
+    EXPECT_FALSE(select_parts({rule_for({}, numbers(pieces))}, g));
+    EXPECT_EQ(select_parts({rule_for({}, numbers(std::span(pieces).first(1)))}, g), pieces.size() > 1);
+  }
+}
+
+TEST(SizesOfCadFaces, have_weights_where_faces_are_joined) {
+  const GeometryArtifact g = joined_wing();
+  std::vector<double> weight(static_cast<std::size_t>(g.cad.n_faces()), 0);
+  weight[static_cast<std::size_t>(g.composites.members(0)[0])] = 1;
+  EXPECT_FALSE(are_of_cad_faces(weight, g.composites));
+  EXPECT_FALSE(are_of_cad_faces({}, g.composites));
+  weight[static_cast<std::size_t>(g.composites.members(0)[1])] = 1;
+  EXPECT_TRUE(are_of_cad_faces(weight, g.composites));
 }
 
 TEST(RulesOnJoined, are_the_same_where_nothing_is_joined) {
