@@ -15,8 +15,8 @@ namespace st {
 namespace {
 
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
-constexpr double kAround = 3;        // lengths around a place whose segments count
-constexpr double kAroundRows = 1.5;  // likewise of stretched triangles: the row there and some of the next
+constexpr double kAround = 1.5;      // lengths around a place whose segments count: the row there, some of the next
+constexpr double kUnheldReach = 3;   // lengths around a place that is not held
 constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
 constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
 constexpr double kLeaving = 0.5;     // cosine between an edge and the span, below
@@ -60,7 +60,7 @@ class WingMesh {
     const TriangleId at_place = nearest(place, along_span);
     const double side = mean_side(at_place), height = norm(height_of(at_place));
     const bool is_flat = kStretched * height < side;
-    const double reach = (is_flat ? kAroundRows : kAround) * side, flatness = is_flat ? height / side : 1;
+    const double reach = kAround * side, flatness = is_flat ? height / side : 1;
     const Vec3 middle = is_flat ? ball_of(at_place).center : place;
     const auto is_around = [&](Vec3 x) {
       const double along2 = is_flat ? dot(x, along_span) * dot(x, along_span) : 0;
@@ -345,7 +345,7 @@ void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Sp
 void add_unheld(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, std::vector<UnheldPlace>& all) {
   const auto add = [&](std::size_t i, Vec3 WingRecord::Station::*place, double has) {
     const WingRecord::Station& s = *spanwise.station[i];
-    if (s.asked > 0 && has > kHeld * s.asked && mesh.is_at(s.*place)) all.push_back({s.*place, kAround * s.asked});
+    if (s.asked > 0 && has > kHeld * s.asked && mesh.is_at(s.*place)) all.push_back({s.*place, kUnheldReach * s.asked});
   };
   for (std::size_t i = 0; i < spanwise.station.size(); ++i) {
     add(i, &WingRecord::Station::nose, nose_of(mesh, wing, spanwise, i).normal);

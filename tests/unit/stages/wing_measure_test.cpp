@@ -43,6 +43,18 @@ TEST(WingMeasure, knows_lengths_across_and_along_the_span) {
   EXPECT_NEAR(all[0].worst->has / all[0].worst->asked, 1, 1e-9);
 }
 
+TEST(WingMeasure, of_cells_that_grow_is_the_length_at_the_edge) {
+  std::vector<double> x{0};
+  for (double length = 0.04; x.back() + length < 0.5; length *= 1.2) x.push_back(x.back() + length);
+  for (int i = static_cast<int>(x.size()) - 1; i >= 0; --i) x.push_back(1 - x[i]);
+  const WingRecord wing = record(0.04);
+  for (const WingStationMeasure& s : measure_wings(test::plank_of(x, 80, 0), {&wing, 1})[0].stations)
+    for (const LengthsAt& at : {s.nose, s.trailing}) {
+      EXPECT_GE(at.normal, 0.04);
+      EXPECT_LT(at.normal, 0.046) << "with two rows more it is 0.05";
+    }
+}
+
 TEST(WingMeasure, of_half_a_fin_counts_the_lengths_of_its_only_side) {
   SurfaceMesh half = plank();
   half.triangles.resize(half.triangles.size() / 2);
