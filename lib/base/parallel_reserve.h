@@ -27,4 +27,18 @@ void parallel_reserve(std::vector<T>& v, std::size_t n) {
   touch_pages(v.data() + v.size(), (n - v.size()) * sizeof(T));
 }
 
+/// Appends all pieces to `all`, one after the other. Returns where each begins.
+template <class T>
+std::vector<std::size_t> append_pieces(const std::vector<std::vector<T>>& pieces, std::vector<T>& all) {
+  std::vector<std::size_t> start;
+  std::size_t n = all.size();
+  for (const std::vector<T>& piece : pieces) {
+    start.push_back(n);
+    n += piece.size();
+  }
+  parallel_reserve(all, n);
+  for (const std::vector<T>& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+  return start;
+}
+
 }  // namespace st

@@ -7,12 +7,15 @@
 #include <utility>
 
 #include "base/limits.h"
+#include "base/threads.h"
 
 namespace st {
 namespace {
 
 constexpr std::int32_t kManyCones = 24;  // of both cells: more places of their face are looked at
 
+/// In rounds: what a round finds depends on what was there before it, and is added after it. So the result does not
+/// depend on the number of threads.
 class FaceAgreement {
  public:
   FaceAgreement(const SiteGraph& sites, std::span<const Cone> cones, float largest, SiteSamples samples)
@@ -20,17 +23,14 @@ class FaceAgreement {
         cones_(cones),
         largest_(largest),
         samples_(std::move(samples)),
-        more_(sites.cell.size(), kNone),
-        seen_(cones.size(), kNone) {}
+        more_(sites.cell.size(), kNone) {}
 
   SiteSamples run() {
-    const auto n = static_cast<std::int32_t>(sites_.cell.size());
-    for (std::int32_t site = 0; site < n; ++site)
-      for (const SiteBeside& b : sites_.beside_of(site)) {
-        if (!is_looked_at(site, b.site)) continue;
-        const bool is_both = sites_.leads(b.site, site);  // else lengths pass one way
-        if (!is_both || site < b.site) settle(site, b.site, is_both ? kBothWays : kToSecond);
-      }
+    constexpr std::size_t kSitesPerPiece = 2'048;
+    add_what(sites_.cell.size(), kSitesPerPiece, [this](std::size_t begin, std::size_t end, std::vector<Added>& found) {
+      FaceScratch scratch;
+      for (std::size_t site = begin; site < end; ++site) settle_faces(static_cast<std::int32_t>(site), scratch, found);
+    });
     pass_on();
     lowered_.resize(sites_.cell.size());
     std::iota(lowered_.begin(), lowered_.end(), 0);
@@ -46,6 +46,29 @@ class FaceAgreement {
   struct Added {
     std::int32_t site, sample;
   };
+  struct FaceScratch {
+    std::vector<FaceCone> on_face;
+    std::vector<float> lengths;
+  };
+
+  /// Adds what find(begin, end, found) finds for pieces of [0, n), in their order.
+  template <class F>
+  void add_what(std::size_t n, std::size_t n_per_piece, const F& find) {
+    std::vector<std::vector<Added>> found((n + n_per_piece - 1) / n_per_piece);
+    parallel_for(n, n_per_piece,
+                 [&](std::size_t begin, std::size_t end) { find(begin, end, found[begin / n_per_piece]); });
+    for (const std::vector<Added>& piece : found)
+      for (const Added& a : piece)
+        if (!has(a.site, a.sample)) add(a);
+  }
+
+  void settle_faces(std::int32_t site, FaceScratch& scratch, std::vector<Added>& found) const {
+    for (const SiteBeside& b : sites_.beside_of(site)) {
+      if (!is_looked_at(site, b.site)) continue;
+      const bool is_both = sites_.leads(b.site, site);  // else lengths pass one way
+      if (!is_both || site < b.site) settle(site, b.site, is_both ? kBothWays : kToSecond, scratch, found);
+    }
+  }
 
   bool is_looked_at(std::int32_t a, std::int32_t b) const {
     return (sites_.holds_sample[a] | sites_.holds_sample[b]) != 0;
@@ -62,66 +85,54 @@ class FaceAgreement {
     return face;
   }
 
-  template <class F>
-  void for_each_sample(std::int32_t site, const F& f) const {
-    for (std::int32_t i = samples_.first[site]; i < samples_.first[site + 1]; ++i) f(samples_.sample[i]);
-    for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next) f(links_[k].sample);
+  /// Those that a site had at first.
+  std::span<const std::int32_t> own_samples(std::int32_t site) const {
+    return std::span(samples_.sample).subspan(samples_.first[site], samples_.first[site + 1] - samples_.first[site]);
   }
 
   /// Both sites' cones, each once. Whether any is of one site alone.
-  bool gather(std::int32_t a, std::int32_t b) {
-    on_face_.clear();
-    const auto take = [&](std::int32_t site, const auto& is_new) {
-      const std::size_t before = on_face_.size();
-      const std::int32_t begin = samples_.first[site], end = samples_.first[site + 1];
-      on_face_.resize(before + static_cast<std::size_t>(end - begin));
-      FaceCone* out = on_face_.data() + before;
-      for (std::int32_t i = begin; i < end; ++i) {
-        *out = {samples_.sample[i], site == a ? 1 : 2};
-        out += is_new(samples_.sample[i], static_cast<std::size_t>(out - on_face_.data()));
-      }
-      on_face_.resize(static_cast<std::size_t>(out - on_face_.data()));
-      for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next)
-        if (is_new(links_[k].sample, on_face_.size())) on_face_.push_back({links_[k].sample, site == a ? 1 : 2});
-    };
-    take(a, [&](std::int32_t s, std::size_t at) {
-      seen_[s] = static_cast<std::int32_t>(at);
-      return true;
-    });
-    const std::size_t n_first = on_face_.size();
+  bool gather(std::int32_t a, std::int32_t b, std::vector<FaceCone>& on_face) const {
+    const std::span<const std::int32_t> first = own_samples(a);
+    on_face.clear();
+    for (const std::int32_t s : first) on_face.push_back({s, 1});
     std::size_t n_both = 0;
-    take(b, [&](std::int32_t s, std::size_t) {
-      const auto at = static_cast<std::size_t>(seen_[s]);
-      if (at >= n_first || on_face_[at].sample != s) return true;
-      on_face_[at].of = 3;
-      ++n_both;
-      return false;
-    });
-    return n_both < on_face_.size();
+    for (const std::int32_t s : own_samples(b)) {
+      const auto at = std::find(first.begin(), first.end(), s);
+      if (at == first.end()) {
+        on_face.push_back({s, 2});
+      } else {
+        on_face[static_cast<std::size_t>(at - first.begin())].of = 3;
+        ++n_both;
+      }
+    }
+    return n_both < on_face.size();
   }
 
-  void settle(std::int32_t a, std::int32_t b, std::int32_t ways) {
-    if (!gather(a, b)) return;
-    const auto n = static_cast<std::int32_t>(on_face_.size());
-    lengths_.resize(std::max(lengths_.size(), on_face_.size() * kFacePlaces));
+  void settle(std::int32_t a, std::int32_t b, std::int32_t ways, FaceScratch& scratch,
+              std::vector<Added>& found) const {
+    std::vector<FaceCone>& on_face = scratch.on_face;
+    if (!gather(a, b, on_face)) return;
+    const auto n = static_cast<std::int32_t>(on_face.size());
+    scratch.lengths.resize(std::max(scratch.lengths.size(), on_face.size() * kFacePlaces));
     const ConeFace face = face_of(a, b);
     const std::int32_t n_sets = n > kManyCones ? kFaceSets : 1;
     for (std::int32_t set = 0; set < n_sets; ++set) {
-      if (kernels_.settle_face(face, set, cones_.front().numbers(), largest_, ways, on_face_.data(), n,
-                               lengths_.data()) == 0)
+      if (kernels_.settle_face(face, set, cones_.front().numbers(), largest_, ways, on_face.data(), n,
+                               scratch.lengths.data()) == 0)
         continue;
-      for (FaceCone& c : on_face_) {
+      for (FaceCone& c : on_face) {
         if (c.added == 0) continue;
-        add(c.added == 1 ? a : b, c.sample);
+        found.push_back({c.added == 1 ? a : b, c.sample});
         c.added = 0;
       }
     }
   }
 
-  void add(std::int32_t site, std::int32_t sample) {
+  void add(const Added& a) {
+    const auto [site, sample] = a;
     links_.push_back({sample, more_[site]});
     more_[site] = static_cast<std::int32_t>(links_.size()) - 1;
-    added_.push_back({site, sample});
+    added_.push_back(a);
     const float(&c)[3] = sites_.cell[site].c;
     const auto length = static_cast<float>(cones_[sample].length_at({c[0], c[1], c[2]}));
     if (!(length < samples_.center_length[site])) return;
@@ -131,10 +142,8 @@ class FaceAgreement {
   }
 
   bool has(std::int32_t site, std::int32_t sample) const {
-    const auto begin = samples_.sample.begin();
-    if (std::find(begin + samples_.first[site], begin + samples_.first[site + 1], sample) !=
-        begin + samples_.first[site + 1])
-      return true;
+    const std::span<const std::int32_t> own = own_samples(site);
+    if (std::find(own.begin(), own.end(), sample) != own.end()) return true;
     std::int32_t k = more_[site];
     while (k != kNone && links_[k].sample != sample) k = links_[k].next;
     return k != kNone;
@@ -142,13 +151,18 @@ class FaceAgreement {
 
   /// Those that were added, on to the sites beside.
   void pass_on() {
-    for (std::size_t i = 0; i < added_.size(); ++i) {
-      const auto [site, sample] = added_[i];
-      for (const SiteBeside& b : sites_.beside_of(site))
-        if (is_looked_at(site, b.site) && !has(b.site, sample) && wins_on_face(site, b.site, sample))
-          add(b.site, sample);
+    constexpr std::size_t kAddedPerPiece = 1'024;
+    while (!added_.empty()) {
+      const std::vector<Added> all = std::exchange(added_, {});
+      add_what(all.size(), kAddedPerPiece, [&](std::size_t begin, std::size_t end, std::vector<Added>& found) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const auto [site, sample] = all[i];
+          for (const SiteBeside& b : sites_.beside_of(site))
+            if (is_looked_at(site, b.site) && !has(b.site, sample) && wins_on_face(site, b.site, sample))
+              found.push_back({b.site, sample});
+        }
+      });
     }
-    added_.clear();
   }
 
   /// Over the cones of `to`.
@@ -169,22 +183,27 @@ class FaceAgreement {
 
   /// So that no step to the centre of a cell that touches passes the slope, but where no length may pass.
   void settle_centers() {
-    std::vector<std::int32_t> lowered = std::exchange(lowered_, {});
-    for (const std::int32_t site : lowered)
-      if (samples_.at_center[site] != kNone) settle_centers_around(site, site, 1);
+    constexpr std::size_t kLoweredPerPiece = 4'096;
+    const std::vector<std::int32_t> lowered = std::exchange(lowered_, {});
+    add_what(lowered.size(), kLoweredPerPiece, [&](std::size_t begin, std::size_t end, std::vector<Added>& found) {
+      for (std::size_t i = begin; i < end; ++i)
+        if (const std::int32_t site = lowered[i]; samples_.at_center[site] != kNone)
+          settle_centers_around(site, site, 1, found);
+    });
   }
 
   /// Of the cells beside `at`, which is `site` or touches it. Those across edges and corners are found by ways that
   /// rise, each along the axes in order: `least` is the first side (see SiteBeside) by which the way may go on.
-  void settle_centers_around(std::int32_t site, std::int32_t at, std::int32_t least) {
+  void settle_centers_around(std::int32_t site, std::int32_t at, std::int32_t least, std::vector<Added>& found) const {
     const std::int32_t sample = samples_.at_center[site];
     const float length = samples_.center_length[at];
     for (const SiteBeside& b : sites_.beside_of(at)) {
       if (b.towards < least || !(samples_.center_length[b.site] > length)) continue;
       if (at != site && (b.towards == SiteBeside::kAlways || !touches(site, b.site))) continue;
-      if (is_too_steep(site, b.site) && !has(b.site, sample)) add(b.site, sample);
+      if (is_too_steep(site, b.site) && !has(b.site, sample)) found.push_back({b.site, sample});
       constexpr std::int32_t kLowerOfY = 1 << 2, kLowerOfZ = 1 << 4;
-      if (b.towards < kLowerOfZ) settle_centers_around(site, b.site, b.towards < kLowerOfY ? kLowerOfY : kLowerOfZ);
+      if (b.towards < kLowerOfZ)
+        settle_centers_around(site, b.site, b.towards < kLowerOfY ? kLowerOfY : kLowerOfZ, found);
     }
   }
 
@@ -211,11 +230,20 @@ class FaceAgreement {
   }
 
   SiteSamples joined() {
+    const std::size_t n = sites_.cell.size();
     SiteSamples all;
-    for (std::size_t site = 0; site < sites_.cell.size(); ++site) {
-      for_each_sample(static_cast<std::int32_t>(site), [&](std::int32_t s) { all.sample.push_back(s); });
-      require_countable(all.sample.size(), "lengths of samples in cells");
-      all.first.push_back(static_cast<std::int32_t>(all.sample.size()));
+    all.first.reserve(n + 1);
+    require_countable(samples_.sample.size() + links_.size(), "lengths of samples in cells");
+    for (std::size_t site = 0; site < n; ++site) {
+      std::int32_t end = all.first.back() + samples_.first[site + 1] - samples_.first[site];
+      for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next) ++end;
+      all.first.push_back(end);
+    }
+    all.sample.reserve(samples_.sample.size() + links_.size());
+    for (std::size_t site = 0; site < n; ++site) {
+      const std::span<const std::int32_t> own = own_samples(static_cast<std::int32_t>(site));
+      all.sample.insert(all.sample.end(), own.begin(), own.end());
+      for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next) all.sample.push_back(links_[k].sample);
     }
     all.at_center = std::move(samples_.at_center);
     all.center_length = std::move(samples_.center_length);
@@ -231,9 +259,6 @@ class FaceAgreement {
   std::vector<SampleLink> links_;
   std::vector<Added> added_;
   std::vector<std::int32_t> lowered_;  // sites whose length at the centre is lower than when it was looked at
-  std::vector<std::int32_t> seen_;     // [n_samples] where in on_face_, if anywhere
-  std::vector<FaceCone> on_face_;
-  std::vector<float> lengths_;
 };
 
 }  // namespace

@@ -1,10 +1,12 @@
 // A cell, or a part of one, while cones spread. Internal to sizing.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "sizing/cone_cell.h"
 
@@ -17,7 +19,7 @@ struct alignas(64) ConeSite {
   ConeCell cell;
   Lengths best;               // smallest at the probes
   std::int32_t n = 0;         // its samples, in order
-  std::int32_t more = kNone;  // the last of those beyond `own`, into entries_
+  std::int32_t more = kNone;  // the last of those beyond `own`, into the entries of its part
   std::int32_t n_refused = 0;
   std::uint64_t may_have = 0;  // a bit for each of its samples, the same one for some
   std::array<Int4, 2> own{Int4{} + kNone, Int4{} + kNone};
@@ -51,6 +53,52 @@ struct alignas(64) ConeSite {
   }
   bool is_winner(std::int32_t sample) const {
     return is_any((winner[0] == sample) | (winner[1] == sample) | (winner[2] == sample) | (winner[3] == sample));
+  }
+};
+
+/// A sample that tells the length in a site, and is to be passed on.
+struct ConeEvent {
+  std::int32_t site, sample;
+  std::int32_t n;  ///< samples of the site with it; 0: it lies there and is not taken yet
+};
+struct ConeOffer {
+  std::int32_t site, sample;
+};
+
+/// Some sites that follow each other, and what one thread at a time does with them. However sites are split into parts:
+/// each site is given the same offers in the same order.
+struct ConePart {
+  std::vector<std::vector<ConeEvent>> buckets;  ///< by length
+  std::vector<ConeEvent> events, sorting;       ///< those at hand, by site
+  std::vector<std::vector<ConeOffer>> offers;   ///< to sites of each part
+  std::vector<SampleLink> entries;              ///< of sites with many samples
+
+  /// Whether f(sample) is true for any sample of a site.
+  template <class F>
+  bool any_sample(const ConeSite& s, const F& f) const {
+    const std::int32_t n_own = std::min(s.n, ConeSite::kOwn);
+    for (std::int32_t i = 0; i < n_own; ++i)
+      if (f(s.own_sample(i))) return true;
+    for (std::int32_t k = s.more; k != kNone; k = entries[k].next)
+      if (f(entries[k].sample)) return true;
+    return false;
+  }
+  bool has(const ConeSite& s, std::int32_t sample) const {
+    if ((s.may_have & ConeSite::bit_of(sample)) == 0) return false;
+    if (is_any((s.own[0] == sample) | (s.own[1] == sample))) return true;
+    std::int32_t k = s.more;
+    while (k != kNone && entries[k].sample != sample) k = entries[k].next;
+    return k != kNone;
+  }
+  void add(ConeSite& s, std::int32_t sample) {
+    if (s.n < ConeSite::kOwn) {
+      s.own[s.n / 4][s.n % 4] = sample;
+    } else {
+      entries.push_back({sample, s.more});
+      s.more = static_cast<std::int32_t>(entries.size()) - 1;
+    }
+    s.may_have |= ConeSite::bit_of(sample);
+    ++s.n;
   }
 };
 

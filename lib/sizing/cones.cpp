@@ -10,6 +10,7 @@
 
 #include "base/limits.h"
 #include "base/memory.h"
+#include "base/parallel_reserve.h"
 #include "base/radix_sort.h"
 #include "base/threads.h"
 #include "sizing/cone_cell.h"
@@ -26,6 +27,9 @@ constexpr ConeShares kOwnShares{0.997F, 0.99F};
 
 class ConeSpread {
   using Site = ConeSite;
+  using Part = ConePart;
+  using Event = ConeEvent;
+  using Offer = ConeOffer;
 
  public:
   ConeSpread(const Neighbours& neighbours, std::span<const LengthSample> samples, std::span<const float> slope,
@@ -42,20 +46,26 @@ class ConeSpread {
     const auto n = static_cast<std::size_t>(blanking ? blanking->n_sites() : octree_.n_leaves());
     sites_.reserve(n);
     prefer_large_pages(sites_.data(), n * sizeof(Site));
+    touch_pages(sites_.data(), n * sizeof(Site));
     sites_.resize(n);
     holds_sample_.resize(n);
     find_beside();
+    make_parts();
   }
 
   void run() {
     if (!(smallest_ < largest_)) return;
-    buckets_.resize(bucket_bits(largest_) - bucket_bits(smallest_) + 1);
+    const std::size_t n_buckets = bucket_bits(largest_) - bucket_bits(smallest_) + 1;
+    for (Part& part : parts_) part.buckets.resize(n_buckets);
     for_each_own_site(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
-      push({site, sample, 0}, cones_[sample].length);
+      push({site, sample, 0}, cones_[sample].length, part_of(site));
       holds_sample_[site] = 1;
     });
-    for (now_ = 0; now_ < buckets_.size(); ++now_)
-      while (!buckets_[now_].empty()) pass_on_in_order(std::exchange(buckets_[now_], {}));
+    for (now_ = 0; now_ < n_buckets; ++now_)
+      while (take_events()) {
+        for_each_part([&](Part& part) { pass_on(part); });
+        for_each_part([&](Part& part) { take_offers(part); });
+      }
     fill_rest();
   }
 
@@ -63,7 +73,7 @@ class ConeSpread {
     const SiteGraph graph = make_graph();
     SiteSamples kept = pruned_sites();
     sites_ = {};  // most of the memory
-    entries_ = {};
+    parts_ = {};
     const SiteSamples all = agree_on_faces(graph, cones_, largest_, std::move(kept));
     ConeTable table;
     table.of_site.reserve(all.sample.size());
@@ -93,24 +103,47 @@ class ConeSpread {
 
  private:
   static constexpr std::size_t kSitesPerPiece = 2'048;
-  /// Of the sites of a piece of a loop.
-  struct Pruning {
-    std::vector<std::int32_t> kept, end;  // samples; of each site the one after its last
-    std::vector<std::int32_t> near;       // of the site at hand
-  };
-  struct Event {
-    std::int32_t site, sample;
-    std::int32_t n;  // samples of the site with it; 0: it lies there and is not taken yet
-  };
-  static constexpr std::size_t kAhead = 4;  // events
+  static constexpr std::size_t kAhead = 8;           // events or offers
+  static constexpr std::size_t kSharedEvents = 512;  // fewer are not worth waking threads for
+
+  void make_parts() {
+    constexpr std::size_t kPartsPerThread = 8, kLeastSites = 256;
+    const std::size_t n_wanted = kPartsPerThread * static_cast<std::size_t>(thread_count());
+    part_bits_ = std::bit_width(std::max(sites_.size() / n_wanted, kLeastSites));
+    parts_.resize((sites_.size() >> part_bits_) + 1);
+    for (Part& part : parts_) part.offers.resize(parts_.size());
+  }
+  Part& part_of(std::int32_t site) { return parts_[static_cast<std::size_t>(site) >> part_bits_]; }
+  const Part& part_of(std::int32_t site) const { return parts_[static_cast<std::size_t>(site) >> part_bits_]; }
+
+  /// Of the bucket at hand. Whether there are any.
+  bool take_events() {
+    n_events_ = 0;
+    for (Part& part : parts_) {
+      part.events.clear();
+      part.events.swap(part.buckets[now_]);
+      n_events_ += part.events.size();
+    }
+    return n_events_ > 0;
+  }
+
+  template <class F>
+  void for_each_part(const F& f) {
+    parallel_for(parts_.size(), n_events_ < kSharedEvents ? parts_.size() : 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) f(parts_[i]);
+    });
+  }
+
   SiteGraph make_graph() {
     SiteGraph graph;
-    graph.cell.reserve(sites_.size());
-    graph.of_beside.reserve(sites_.size());
-    for (const Site& site : sites_) {
-      graph.cell.push_back(site.cell);
-      graph.of_beside.push_back(site.beside);
-    }
+    graph.cell.resize(sites_.size());
+    graph.of_beside.resize(sites_.size());
+    parallel_for(sites_.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t site = begin; site < end; ++site) {
+        graph.cell[site] = sites_[site].cell;
+        graph.of_beside[site] = sites_[site].beside;
+      }
+    });
     graph.beside = beside_;
     graph.holds_sample = std::move(holds_sample_);
     return graph;
@@ -118,26 +151,26 @@ class ConeSpread {
 
   SiteSamples pruned_sites() const {
     constexpr int kCenter = kProbes - 1;
-    std::vector<Pruning> pieces((sites_.size() + kSitesPerPiece - 1) / kSitesPerPiece);
-    parallel_for(sites_.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
-      Pruning& own = pieces[begin / kSitesPerPiece];
-      for (std::size_t site = begin; site < end; ++site) prune(sites_[site], own);
-    });
+    std::vector<std::vector<std::int32_t>> pieces((sites_.size() + kSitesPerPiece - 1) / kSitesPerPiece);
     SiteSamples kept;
-    std::size_t n = 0;
-    for (const Pruning& own : pieces) n += own.kept.size();
-    kept.sample.reserve(n);
-    for (const Pruning& own : pieces) {
-      const auto first = static_cast<std::int32_t>(kept.sample.size());
-      kept.sample.insert(kept.sample.end(), own.kept.begin(), own.kept.end());
-      for (const std::int32_t end : own.end) kept.first.push_back(first + end);
-    }
-    kept.at_center.reserve(sites_.size());
-    kept.center_length.reserve(sites_.size());
-    for (const Site& site : sites_) {
-      kept.at_center.push_back(site.winner[kCenter / 4][kCenter % 4]);
-      kept.center_length.push_back(site.best[kCenter / 4][kCenter % 4]);
-    }
+    kept.first.assign(sites_.size() + 1, 0);
+    kept.at_center.resize(sites_.size());
+    kept.center_length.resize(sites_.size());
+    parallel_for(sites_.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::int32_t>& own = pieces[begin / kSitesPerPiece];
+      std::vector<std::int32_t> near;
+      for (std::size_t i = begin; i < end; ++i) {
+        const Site& site = sites_[i];
+        prune(static_cast<std::int32_t>(i), near, own);
+        kept.first[i + 1] = static_cast<std::int32_t>(own.size());
+        kept.at_center[i] = site.winner[kCenter / 4][kCenter % 4];
+        kept.center_length[i] = site.best[kCenter / 4][kCenter % 4];
+      }
+    });
+    const std::vector<std::size_t> start = append_pieces(pieces, kept.sample);
+    require_countable(kept.sample.size(), "lengths of samples in cells");
+    for (std::size_t i = 0; i < sites_.size(); ++i)
+      kept.first[i + 1] += static_cast<std::int32_t>(start[i / kSitesPerPiece]);
     return kept;
   }
 
@@ -156,7 +189,7 @@ class ConeSpread {
       const bool is_cut = site >= n_leaves || blanking_->colour[site] == CellColour::kCut;
       if (!is_cut || sites_[site].n > 0) continue;
       const auto take = [&](std::int32_t from) {
-        any_sample(sites_[from], [&](std::int32_t sample) {
+        part_of(from).any_sample(sites_[from], [&](std::int32_t sample) {
           found.push_back({site, sample});
           return false;
         });
@@ -177,42 +210,52 @@ class ConeSpread {
       neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { take_parts(other); });
     }
     float least = 0;
-    for (const auto& [site, sample] : found) offer(site, sample, kSpreadShares, least);
+    for (const auto& [site, sample] : found) offer(part_of(site), {site, sample}, kSpreadShares, least);
   }
 
   /// Site by site: so those that are looked at lie beside each other in memory.
-  void pass_on_in_order(std::vector<Event> events) {
-    radix_sort(events, sorting_, [](const Event& e) { return static_cast<std::uint64_t>(e.site); });
+  void pass_on(Part& part) {
+    std::vector<Event>& events = part.events;
+    radix_sort(events, part.sorting, [](const Event& e) { return static_cast<std::uint64_t>(e.site); });
     for (std::size_t i = 0; i < events.size(); ++i) {
-      if (i + 2 * kAhead < events.size()) fetch(events[i + 2 * kAhead]);
-      if (i + kAhead < events.size() && events[i + kAhead].site != events[i + kAhead - 1].site)
-        fetch_beside(events[i + kAhead].site);
-      pass_on(events[i]);
+      if (i + kAhead < events.size()) fetch(events[i + kAhead].site, events[i + kAhead].sample);
+      pass_on(events[i], part);
     }
   }
 
-  /// Asks the memory for what an event will need. Inlined: else it is taken for a function without effect.
-  [[gnu::always_inline]] void fetch(const Event& e) const {
-    sites_[e.site].fetch();
-    __builtin_prefetch(&cones_[e.sample]);
-  }
-  [[gnu::always_inline]] void fetch_beside(std::int32_t site) const {
-    const auto [first, last] = sites_[site].beside;
-    for (std::int32_t k = first; k < last; ++k) sites_[beside_[k].site].fetch();
-  }
-
-  void pass_on(const Event& e) {
+  /// Offers the sample to the sites beside, of whichever part.
+  void pass_on(const Event& e, Part& part) {
     const std::int32_t site = e.site, sample = e.sample;
     float least = 0;
-    if (e.n == 0 && !offer(site, sample, kOwnShares, least)) return;
+    if (e.n == 0 && !offer(part, {site, sample}, kOwnShares, least)) return;
     if (e.n != 0 && sites_[site].n != e.n && !sites_[site].is_winner(sample)) return;
     const auto [first, last] = sites_[site].beside;
     const std::int32_t ahead = sides_ahead(sites_[site], sample);
-    for (std::int32_t k = first; k < last; ++k) {
-      const auto [other, towards] = beside_[k];
-      if ((towards & ahead) != 0 && offer(other, sample, kSpreadShares, least))
-        push({other, sample, sites_[other].n}, least);
+    std::vector<Offer>* const to_part = part.offers.data();
+    for (const SiteBeside *b = beside_.data() + first, *end = beside_.data() + last; b < end; ++b)
+      if ((b->towards & ahead) != 0)
+        to_part[static_cast<std::size_t>(b->site) >> part_bits_].push_back({b->site, sample});
+  }
+
+  /// What all parts offer to sites of this one.
+  void take_offers(Part& part) {
+    const auto own = static_cast<std::size_t>(&part - parts_.data());
+    for (Part& from : parts_) {
+      std::vector<Offer>& offers = from.offers[own];
+      for (std::size_t i = 0; i < offers.size(); ++i) {
+        if (i + kAhead < offers.size()) fetch(offers[i + kAhead].site, offers[i + kAhead].sample);
+        const auto [site, sample] = offers[i];
+        if (float least = 0; offer(part, offers[i], kSpreadShares, least))
+          push({site, sample, sites_[site].n}, least, part);
+      }
+      offers.clear();
     }
+  }
+
+  /// Asks the memory for what an event or offer will need. Inlined: else it is taken for a function without effect.
+  [[gnu::always_inline]] void fetch(std::int32_t site, std::int32_t sample) const {
+    sites_[site].fetch();
+    __builtin_prefetch(&cones_[sample]);
   }
 
   /// The sides of a cell by which straight ways from a sample leave the place where it wins: bit 2 * axis for the lower
@@ -227,9 +270,9 @@ class ConeSpread {
   /// Sets the cells of all sites, and which sites lie across their faces: a corner that a sample wins belongs to those,
   /// too. Beside a surface ways are not straight.
   void find_beside() {
-    std::vector<std::vector<SiteBeside>> found((sites_.size() + kSitesPerPiece - 1) / kSitesPerPiece);
+    std::vector<std::vector<SiteBeside>> pieces((sites_.size() + kSitesPerPiece - 1) / kSitesPerPiece);
     parallel_for(sites_.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
-      std::vector<SiteBeside>& own = found[begin / kSitesPerPiece];
+      std::vector<SiteBeside>& own = pieces[begin / kSitesPerPiece];
       own.reserve(8 * (end - begin));
       for (std::size_t i = begin; i < end; ++i) {
         Site& site = sites_[i];
@@ -241,19 +284,15 @@ class ConeSpread {
         site.beside.second = static_cast<std::int32_t>(own.size());
       }
     });
-    std::size_t n = 0;
-    for (const auto& own : found) n += own.size();
-    require_countable(n, "cells beside cells");
-    beside_.reserve(n);
-    for (std::size_t i = 0, first = 0; i < sites_.size(); ++i) {
-      if (i % kSitesPerPiece == 0) {
-        const std::vector<SiteBeside>& own = found[i / kSitesPerPiece];
-        first = beside_.size();
-        beside_.insert(beside_.end(), own.begin(), own.end());
+    const std::vector<std::size_t> start = append_pieces(pieces, beside_);
+    require_countable(beside_.size(), "cells beside cells");
+    parallel_for(sites_.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      const auto first = static_cast<std::int32_t>(start[begin / kSitesPerPiece]);
+      for (std::size_t i = begin; i < end; ++i) {
+        sites_[i].beside.first += first;
+        sites_[i].beside.second += first;
       }
-      sites_[i].beside.first += static_cast<std::int32_t>(first);
-      sites_[i].beside.second += static_cast<std::int32_t>(first);
-    }
+    });
   }
 
   void add_beside(std::int32_t site, std::vector<SiteBeside>& all) const {
@@ -266,96 +305,66 @@ class ConeSpread {
   }
 
   static std::size_t bucket_bits(float length) { return std::bit_cast<std::uint32_t>(length) >> 20; }
-  void push(const Event& e, float length) {
+  void push(const Event& e, float length, Part& part) const {
     const std::size_t b = bucket_bits(std::min(length, largest_)) - bucket_bits(smallest_);
-    buckets_[std::max(b, now_)].push_back(e);
+    part.buckets[std::max(b, now_)].push_back(e);
   }
 
-  /// Whether f(sample) is true for any sample of the site.
-  template <class F>
-  bool any_sample(const Site& s, const F& f) const {
-    const std::int32_t n_own = std::min(s.n, Site::kOwn);
-    for (std::int32_t i = 0; i < n_own; ++i)
-      if (f(s.own_sample(i))) return true;
-    for (std::int32_t k = s.more; k != kNone; k = entries_[k].next)
-      if (f(entries_[k].sample)) return true;
-    return false;
-  }
-
-  bool has(const Site& s, std::int32_t sample) const {
-    if ((s.may_have & Site::bit_of(sample)) == 0) return false;
-    if (is_any((s.own[0] == sample) | (s.own[1] == sample))) return true;
-    std::int32_t k = s.more;
-    while (k != kNone && entries_[k].sample != sample) k = entries_[k].next;
-    return k != kNone;
-  }
-
-  /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes.
-  bool offer(std::int32_t site, std::int32_t sample, const ConeShares& shares, float& least) {
-    Site& s = sites_[site];
-    return !is_any(s.refused == sample) && !has(s, sample) && consider(s, sample, shares, least);
+  /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes. `part`: of the site.
+  bool offer(Part& part, const Offer& o, const ConeShares& shares, float& least) {
+    Site& s = sites_[o.site];
+    return !part.has(s, o.sample) && !is_any(s.refused == o.sample) && consider(part, s, o.sample, shares, least);
   }
 
   /// Likewise, of a sample that is new to the site. Not inlined: most offers end before.
-  [[gnu::noinline]] bool consider(Site& s, std::int32_t sample, const ConeShares& shares, float& least) {
+  [[gnu::noinline]] bool consider(Part& part, Site& s, std::int32_t sample, const ConeShares& shares, float& least) {
     Lengths own;
     bool is_near = false;
     const bool is_below =
         kernels_.offer(s.cell.numbers(), cones_[sample].numbers(), numbers(s.best), shares, numbers(own), is_near);
-    if (!is_below && !(is_near && wins_nearby(s, sample, shares.nearby))) {
+    if (!is_below && !(is_near && wins_nearby(part, s, sample, shares.nearby))) {
       s.refused[s.n_refused++ % 4] = sample;
       return false;
     }
     least = std::min(largest_, kernels_.take(numbers(own), sample, numbers(s.best), numbers(s.winner)));
-    add_sample(s, sample);
+    part.add(s, sample);
     return true;
   }
 
-  void add_sample(Site& s, std::int32_t sample) {
-    if (s.n < Site::kOwn) {
-      s.own[s.n / 4][s.n % 4] = sample;
-    } else {
-      entries_.push_back({sample, s.more});
-      s.more = static_cast<std::int32_t>(entries_.size()) - 1;
-    }
-    s.may_have |= Site::bit_of(sample);
-    ++s.n;
-  }
-
   /// Whether the sample wins where the site is close to it.
-  bool wins_nearby(const Site& s, std::int32_t sample, float share) const {
+  bool wins_nearby(const Part& part, const Site& s, std::int32_t sample, float share) const {
     const std::int32_t first = s.winner_towards(cones_[sample]);  // most are beaten by it
     return kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), share, largest_,
                                 {cones_.front().numbers(), first == sample ? kNone : first, sample, numbers(s.own),
-                                 std::min(s.n, Site::kOwn), entries_.data(), s.more});
+                                 std::min(s.n, Site::kOwn), part.entries.data(), s.more});
   }
 
-  /// Keeps those of the site that win at a probe, or clearly where the site is close to them.
-  void prune(const Site& s, Pruning& own) const {
-    const std::size_t first = own.kept.size();
-    own.near.clear();
-    any_sample(s, [&](std::int32_t sample) {
+  /// Keeps those of the site that win at a probe, or clearly where the site is close to them. `near` is overwritten.
+  void prune(std::int32_t site, std::vector<std::int32_t>& near, std::vector<std::int32_t>& kept) const {
+    const Site& s = sites_[site];
+    const std::size_t first = kept.size();
+    near.clear();
+    part_of(site).any_sample(s, [&](std::int32_t sample) {
       if (s.is_winner(sample))
-        own.kept.push_back(sample);
+        kept.push_back(sample);
       else if (kernels_.is_near(s.cell.numbers(), cones_[sample].numbers()))
-        own.near.push_back(sample);
+        near.push_back(sample);
       return false;
     });
-    std::sort(own.near.begin(), own.near.end(), [&](std::int32_t a, std::int32_t b) {
+    std::sort(near.begin(), near.end(), [&](std::int32_t a, std::int32_t b) {
       return cones_[a].length != cones_[b].length ? cones_[a].length < cones_[b].length : a < b;
     });
-    for (const std::int32_t sample : own.near) {
+    for (const std::int32_t sample : near) {
       const KnownCones known{cones_.front().numbers(),
                              s.winner_towards(cones_[sample]),  // kept as all winners; most are beaten by it
                              kNone,
-                             own.kept.data() + first,
-                             static_cast<std::int32_t>(own.kept.size() - first),
+                             kept.data() + first,
+                             static_cast<std::int32_t>(kept.size() - first),
                              nullptr,
                              kNone};
       if (kernels_.wins_nearby(s.cell.numbers(), cones_[sample].numbers(), kOwnShares.nearby, largest_, known))
-        own.kept.push_back(sample);
+        kept.push_back(sample);
     }
-    own.end.push_back(static_cast<std::int32_t>(own.kept.size()));
   }
 
   const Neighbours& neighbours_;
@@ -369,10 +378,10 @@ class ConeSpread {
   std::vector<Site> sites_;                 // [n_sites]
   std::vector<std::uint8_t> holds_sample_;  // [n_sites]
   std::vector<SiteBeside> beside_;
-  std::vector<SampleLink> entries_;  // of sites with many samples
-  std::vector<std::vector<Event>> buckets_;
-  std::vector<Event> sorting_;
-  std::size_t now_ = 0;
+  std::vector<Part> parts_;
+  int part_bits_ = 0;         // log2 of the sites of a part
+  std::size_t now_ = 0;       // which bucket
+  std::size_t n_events_ = 0;  // at hand, of all parts
 };
 
 }  // namespace

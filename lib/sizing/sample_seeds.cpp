@@ -60,9 +60,14 @@ class SiteVisitor {
     return has_any;
   }
 
+  /// A leaf with one sheet of the surface is not.
+  bool may_be_split(std::int32_t leaf) const {
+    return blanking_.colour[leaf] == CellColour::kCut && !(norm2(blanking_.sheet[blanking_.cut_index[leaf]]) > 0);
+  }
+
   /// The parts of the leaf on whose surface the sample lies.
   void visit_parts(const LengthSample& s, std::int32_t leaf) const {
-    const std::int32_t k = blanking_.colour[leaf] == CellColour::kCut ? blanking_.find_split(leaf) : kNone;
+    const std::int32_t k = may_be_split(leaf) ? blanking_.find_split(leaf) : kNone;
     if (k == kNone || concerns(s, blanking_, k, false)) f_(leaf);
     if (k != kNone && concerns(s, blanking_, k, true)) f_(octree_.n_leaves() + k);
   }

@@ -34,5 +34,12 @@ TEST(ParallelReserve, LessRoomChangesNothing) {
   EXPECT_EQ(v, std::vector<double>(100, 1.5));
 }
 
+TEST(ParallelReserve, PiecesAreAppendedInOrder) {
+  std::vector<int> all{1};
+  const std::vector<std::size_t> start = append_pieces<int>({{2, 3}, {}, {4}}, all);
+  EXPECT_EQ(all, (std::vector<int>{1, 2, 3, 4}));
+  EXPECT_EQ(start, (std::vector<std::size_t>{1, 3, 3}));
+}
+
 }  // namespace
 }  // namespace st

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "base/threads.h"
 #include "sizing/cone_kernels.h"
 #include "sizing/octree_field.h"
 #include "unit/sizing/cases.h"
@@ -116,6 +117,24 @@ TEST(Cones, tell_the_smallest_of_all_samples) {
 }
 
 TEST(Cones, tell_it_with_slopes_of_their_own) { expect_exact(Case(3, true), 1.03); }
+
+TEST(Cones, are_the_same_with_any_number_of_threads) {
+  const auto with_threads = [](int n) {
+    set_thread_count(n);
+    Case made(2);
+    set_thread_count(1);
+    return made;
+  };
+  const Case one = with_threads(1);
+  EXPECT_GT(one.cells.size(), 10'000U);
+  for (const int n : {2, 5}) {
+    const ConeTable other = with_threads(n).cones;
+    EXPECT_EQ(other.sample, one.cones.sample);
+    EXPECT_EQ(other.first, one.cones.first);
+    EXPECT_EQ(other.of_site, one.cones.of_site);
+    EXPECT_EQ(other.at_center, one.cones.at_center);
+  }
+}
 
 TEST(Cones, reach_every_cell_but_beyond_the_largest_length) {
   const Case c(4);
