@@ -32,6 +32,9 @@ struct LongerWay {
 struct AlongShares {
   float clearly, nearly;
 };
+struct AlongOffer {
+  bool is_clearly, is_nearly;
+};
 
 /// Of a chain of samples.
 struct SampleLink {
@@ -80,10 +83,12 @@ struct ConeKernels {
   float (*take)(const float* lengths, std::int32_t sample, float* best, std::int32_t* winner);
   /// Lowers `best` to lengths along where it is above. `lengths`: of a cone at the probes.
   void (*lower_along)(const float* lengths, const LongerWay& way, float* best);
-  /// Lowers `best`, and puts the sample where it wins, if a cone's lengths along at the probes of a cell are clearly
-  /// below at any. Whether they are nearly below then, at any.
-  bool (*offer_along)(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample,
-                      const AlongShares& share, float* best, std::int32_t* winner);
+  /// How a cone's lengths along at the probes of a cell are below `best`, at any.
+  AlongOffer (*offer_along)(const float* cell, const float* cone, const LongerWay& way, const AlongShares& share,
+                            const float* best);
+  /// Lowers `best`, and puts the sample where it wins, if these lengths are below a share of it at any probe.
+  void (*take_along)(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample, float share,
+                     float* best, std::int32_t* winner);
   /// Whether a cone wins over known ones and over the largest length where the cell is close to it.
   bool (*wins_nearby)(const float* cell, const float* cone, float share, float largest, const KnownCones& known);
   /// Likewise at a set of places of a face.

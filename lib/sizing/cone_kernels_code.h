@@ -174,19 +174,26 @@ void lower_along(const float* lengths, const LongerWay& way, float* best) {
   for (int g = 0; g < 2; ++g) store(best + 8 * g, least(load(best + 8 * g), at[g]));
 }
 
-bool offer_along(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample,
-                 const AlongShares& share, float* best, std::int32_t* winner) {
+AlongOffer offer_along(const float* cell, const float* cone, const LongerWay& way, const AlongShares& share,
+                       const float* best) {
+  F8 at[2];
+  CellView(cell).lengths(ConeView(cone), at);
+  add_longer(way, at);
+  const F8 known[2] = {load(best), load(best + 8)};
+  const auto are_below = [&](float of) { return is_any((at[0] < of * known[0]) | (at[1] < of * known[1])); };
+  return {are_below(share.clearly), are_below(share.nearly)};
+}
+
+void take_along(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample, float share,
+                float* best, std::int32_t* winner) {
   F8 at[2], known[2] = {load(best), load(best + 8)};
   CellView(cell).lengths(ConeView(cone), at);
   add_longer(way, at);
-  const auto are_below = [&](float of) { return is_any((at[0] < of * known[0]) | (at[1] < of * known[1])); };
-  if (are_below(share.clearly))
-    for (int g = 0; g < 2; ++g) {
-      store(winner + 8 * g, where(at[g] < known[g], sample, load(winner + 8 * g)));
-      known[g] = least(at[g], known[g]);
-      store(best + 8 * g, known[g]);
-    }
-  return are_below(share.nearly);
+  if (!is_any((at[0] < share * known[0]) | (at[1] < share * known[1]))) return;
+  for (int g = 0; g < 2; ++g) {
+    store(winner + 8 * g, where(at[g] < known[g], sample, load(winner + 8 * g)));
+    store(best + 8 * g, least(at[g], known[g]));
+  }
 }
 
 /// Whether a cone of such lengths at the places, over `share`, wins at any of them where `wins` is true.
@@ -344,8 +351,8 @@ float least_length(const float* cones, const std::int32_t* own, std::int32_t n, 
   return result;
 }
 
-constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone,  take_lengths, lower_along,
-                               offer_along,  wins_nearby, wins_on_face, settle_face, least_length};
+constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone,   take_lengths, lower_along,
+                               offer_along,  take_along,  wins_nearby,  wins_on_face, settle_face,  least_length};
 
 }  // namespace
 }  // namespace st

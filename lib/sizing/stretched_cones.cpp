@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <numeric>
 #include <utility>
 
 #include "base/limits.h"
+#include "base/parallel_reserve.h"
 #include "base/threads.h"
 #include "sizing/cone_cell.h"
 
@@ -31,14 +34,19 @@ class StretchSpread {
     find_sites();
     std::vector<std::int32_t> order(samples_.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [](std::int32_t a, std::int32_t b) { return round_of(a) < round_of(b); });
-    for (const std::int32_t sample : order) spread(sample);
+    std::sort(order.begin(), order.end(), [](std::int32_t a, std::int32_t b) { return turn_of(a) < turn_of(b); });
+    for (std::size_t first = 0, n = 0; first < order.size(); first += n) {
+      n = std::min(std::max(first, kLeastAtOnce), order.size() - first);
+      const auto at_once = std::span(order).subspan(first, n);
+      std::sort(at_once.begin(), at_once.end());  // so those that follow each other meet the same sites
+      spread_all(at_once);
+    }
     store();
   }
 
  private:
   static constexpr std::size_t kSitesPerPiece = 2'048;
+  static constexpr std::size_t kLeastAtOnce = 16;  // samples
   /// A site where some probe has a stretched length.
   struct Site {
     ConeCell cell;
@@ -59,10 +67,37 @@ class StretchSpread {
     std::vector<std::int32_t> winners, n_winners;
   };
 
-  /// In eight rounds each sample takes its turn, those of a round far from each other: so few sites are lowered again
-  /// and again, as they are where sample after sample comes nearer.
-  static std::uint32_t round_of(std::int32_t sample) {
-    return static_cast<std::uint32_t>(sample) * 0x9E3779B1U >> 29;  // golden ratio: neighbours fall far apart
+  /// Which sites a sample has come to. One for each thread at work.
+  class Walk {
+   public:
+    explicit Walk(std::int32_t n_sites) : is_seen_(static_cast<std::size_t>(n_sites) / 64 + 1) {}
+    /// Whether it is new.
+    bool come_to(std::int32_t site) {
+      std::uint64_t& word = is_seen_[static_cast<std::size_t>(site) / 64];
+      const std::uint64_t bit = std::uint64_t{1} << (site % 64);
+      if ((word & bit) != 0) return false;
+      word |= bit;
+      seen_.push_back(site);
+      return true;
+    }
+    void forget() {
+      for (const std::int32_t site : seen_) is_seen_[static_cast<std::size_t>(site) / 64] = 0;
+      seen_.clear();
+    }
+    std::vector<std::int32_t> waiting;
+
+   private:
+    std::vector<std::uint64_t> is_seen_;  // a bit for each site
+    std::vector<std::int32_t> seen_;
+  };
+  struct Win {
+    std::int32_t slot, sample;
+  };
+
+  /// Few samples come first, far from each other, then as many as there were before, and so on: so few sites are
+  /// lowered again and again, as they are where sample after sample comes nearer.
+  static std::uint32_t turn_of(std::int32_t sample) {
+    return static_cast<std::uint32_t>(sample) * 0x9E3779B1U;  // golden ratio: neighbours fall far apart
   }
 
   std::int32_t n_sites() const { return static_cast<std::int32_t>(table_.first.size()) - 1; }
@@ -98,6 +133,13 @@ class StretchSpread {
       }
     });
     first_beside_.push_back(0);
+    std::size_t n_sites = 0, n_beside = 0;
+    for (const Piece& own : pieces) {
+      n_sites += own.sites.size();
+      n_beside += own.beside.size();
+    }
+    parallel_reserve(sites_, n_sites);
+    parallel_reserve(beside_, n_beside);
     for (Piece& own : pieces) {
       for (std::size_t i = 0; i < own.sites.size(); ++i) {
         if (own.sites[i].turns != kNone) own.sites[i].turns += static_cast<std::int32_t>(turns_.size());
@@ -196,26 +238,61 @@ class StretchSpread {
     return way;
   }
 
-  /// Over sites where the sample tells the length along, or nearly.
-  void spread(std::int32_t sample) {
-    if (++n_spread_; seen_.empty()) seen_.assign(static_cast<std::size_t>(n_sites()), 0);
+  /// All of them against what is known before, so that the result does not depend on the number of threads.
+  void spread_all(std::span<const std::int32_t> samples) {
+    constexpr std::size_t kParts = 64;
+    const std::size_t per_piece = std::clamp<std::size_t>(samples.size() / kParts, 1, 128);
+    const std::size_t per_part = sites_.size() / kParts + 1;
+    std::vector<std::array<std::vector<Win>, kParts>> won((samples.size() + per_piece - 1) / per_piece);
+    parallel_for(samples.size(), per_piece, [&](std::size_t begin, std::size_t end) {
+      std::unique_ptr<Walk> walk = take_walk();
+      const auto note = [&](const Win& w) {
+        won[begin / per_piece][static_cast<std::size_t>(w.slot) / per_part].push_back(w);
+      };
+      for (std::size_t i = begin; i < end; ++i) spread(samples[i], *walk, note);
+      give_back(std::move(walk));
+    });
+    parallel_for(kParts, 1, [&](std::size_t part, std::size_t) {
+      for (const auto& piece : won)
+        for (const auto [slot, sample] : piece[part]) take(sites_[slot], sample);
+    });
+  }
+
+  std::unique_ptr<Walk> take_walk() {
+    const std::lock_guard lock(walks_mutex_);
+    if (walks_.empty()) return std::make_unique<Walk>(n_sites());
+    std::unique_ptr<Walk> walk = std::move(walks_.back());
+    walks_.pop_back();
+    return walk;
+  }
+  void give_back(std::unique_ptr<Walk> walk) {
+    const std::lock_guard lock(walks_mutex_);
+    walks_.push_back(std::move(walk));
+  }
+
+  /// Over sites where the sample tells the length along, or nearly. Calls note(win) for each where it does.
+  template <class F>
+  void spread(std::int32_t sample, Walk& walk, const F& note) const {
+    const auto leads_on = [&](std::int32_t slot) {
+      const auto [is_clearly, is_nearly] = offer(sites_[slot], sample);
+      if (is_clearly) note(Win{slot, sample});
+      return is_nearly;
+    };
     for (std::int32_t k = first_start_[sample]; k < first_start_[sample + 1]; ++k) {
       const std::int32_t site = starts_[k];
-      if (seen_[site] == n_spread_) continue;
-      seen_[site] = n_spread_;
-      waiting_.push_back(site);
-      if (slot_[site] != kNone) offer(sites_[slot_[site]], sample);
+      if (!walk.come_to(site)) continue;
+      walk.waiting.push_back(site);
+      if (slot_[site] != kNone) leads_on(slot_[site]);
     }
-    while (!waiting_.empty()) {
-      const std::int32_t site = waiting_.back();
-      waiting_.pop_back();
-      for (std::int32_t k = first_beside_[site]; k < first_beside_[site + 1]; ++k) {
-        const std::int32_t other = beside_[k];
-        if (seen_[other] == n_spread_) continue;
-        seen_[other] = n_spread_;
-        if (slot_[other] != kNone && offer(sites_[slot_[other]], sample)) waiting_.push_back(other);
-      }
+    while (!walk.waiting.empty()) {
+      const std::int32_t site = walk.waiting.back();
+      walk.waiting.pop_back();
+      for (std::int32_t k = first_beside_[site]; k < first_beside_[site + 1]; ++k)
+        if (const std::int32_t other = beside_[k];
+            walk.come_to(other) && slot_[other] != kNone && leads_on(slot_[other]))
+          walk.waiting.push_back(other);
     }
+    walk.forget();
   }
 
   template <class F>
@@ -226,12 +303,17 @@ class StretchSpread {
       for_each_link_across_face(*blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) { f(other); });
   }
 
-  /// Whether it leads on.
-  bool offer(Site& s, std::int32_t sample) const {
-    constexpr float kNearly = 1.002F;  // of the length along: where directions turn, it may win further on
+  /// It leads on where it nearly wins: where directions turn, it may win further on.
+  AlongOffer offer(const Site& s, std::int32_t sample) const {
+    constexpr float kNearly = 1.002F;  // of the length along
     const Cone& cone = cones_[sample];
-    return kernels_.offer_along(s.cell.numbers(), cone.numbers(), way_of(s, cone, stretch_[sample], turns_), sample,
-                                {kClearly, kNearly}, numbers(s.best), numbers(s.winner));
+    return kernels_.offer_along(s.cell.numbers(), cone.numbers(), way_of(s, cone, stretch_[sample], turns_),
+                                {kClearly, kNearly}, numbers(s.best));
+  }
+  void take(Site& s, std::int32_t sample) const {
+    const Cone& cone = cones_[sample];
+    kernels_.take_along(s.cell.numbers(), cone.numbers(), way_of(s, cone, stretch_[sample], turns_), sample, kClearly,
+                        numbers(s.best), numbers(s.winner));
   }
 
   /// What wins and is no cone of the site already.
@@ -292,9 +374,8 @@ class StretchSpread {
   std::vector<Directions> turns_;
   std::vector<std::int32_t> first_beside_, beside_;  // [n_sites + 1], and to which sites lengths pass from each
   std::vector<std::int32_t> first_start_, starts_;   // [n_samples + 1], and sites where a sample tells a length or lies
-  std::vector<std::int32_t> seen_;                   // [n_sites] by which spread last
-  std::vector<std::int32_t> waiting_;
-  std::int32_t n_spread_ = 0;
+  std::mutex walks_mutex_;
+  std::vector<std::unique_ptr<Walk>> walks_;  // not in use
 };
 
 }  // namespace

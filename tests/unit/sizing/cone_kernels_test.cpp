@@ -100,8 +100,12 @@ TEST(ConeKernels, tell_lengths_along_the_directions_of_a_cell) {
     std::array<Int4, kGroups> winner;
     winner.fill(Int4{} + kNone);
     best[1][2] = 0.1F * cone.length;
-    EXPECT_TRUE(cone_kernels().offer_along(all.cell.numbers(), cone.numbers(), way, 7, kShares, numbers(best),
-                                           numbers(winner)));
+    const auto offer = [&](const Cone& of, const LongerWay& along) {
+      return cone_kernels().offer_along(all.cell.numbers(), of.numbers(), along, kShares, numbers(best));
+    };
+    EXPECT_TRUE(offer(cone, way).is_clearly);
+    cone_kernels().take_along(all.cell.numbers(), cone.numbers(), way, 7, kShares.clearly, numbers(best),
+                              numbers(winner));
     for (int i = 0; i < kProbes; ++i) {
       if (i == 6) continue;
       const float d[3] = {directions[0][i / 4][i % 4], directions[1][i / 4][i % 4], directions[2][i / 4][i % 4]};
@@ -116,11 +120,12 @@ TEST(ConeKernels, tell_lengths_along_the_directions_of_a_cell) {
     lowered[1][2] = best[1][2];
     EXPECT_EQ(std::memcmp(&lowered, &best, sizeof best), 0);
     for (Float4& four_lengths : best) four_lengths *= 0.9985F;  // a sample that is nearly as short leads on
-    EXPECT_TRUE(cone_kernels().offer_along(all.cell.numbers(), cone.numbers(), way, 8, kShares, numbers(best),
-                                           numbers(winner)));
+    EXPECT_TRUE(offer(cone, way).is_nearly);
+    EXPECT_FALSE(offer(cone, way).is_clearly);
     for (Float4& four_lengths : best) four_lengths *= 0.99F;
-    EXPECT_FALSE(cone_kernels().offer_along(all.cell.numbers(), cone.numbers(), way, 8, kShares, numbers(best),
-                                            numbers(winner)));
+    EXPECT_FALSE(offer(cone, way).is_nearly);
+    cone_kernels().take_along(all.cell.numbers(), cone.numbers(), way, 8, kShares.clearly, numbers(best),
+                              numbers(winner));
     EXPECT_EQ(winner[0][0], 7);
   }
 }
@@ -227,15 +232,16 @@ void expect_same_along(const RandomCones& all, std::size_t i) {
        {LongerWay{0.3F, nullptr, nullptr, 0, 0}, LongerWay{0, numbers(directions[0]), unit, 0.97F, cone.length}}) {
     Lengths best[2];
     std::array<Int4, kGroups> winner[2];
-    bool is_nearly[2];
+    AlongOffer offer[2];
     for (int k = 0; k < 2; ++k) {
       winner[k].fill(Int4{} + kNone);
       best[k].fill(four(0.4F));
-      is_nearly[k] = kernels[k]->offer_along(all.cell.numbers(), cone.numbers(), way, 3, {0.99F, 1.002F},
-                                             numbers(best[k]), numbers(winner[k]));
+      offer[k] = kernels[k]->offer_along(all.cell.numbers(), cone.numbers(), way, {0.99F, 1.002F}, numbers(best[k]));
+      kernels[k]->take_along(all.cell.numbers(), cone.numbers(), way, 3, 0.99F, numbers(best[k]), numbers(winner[k]));
       kernels[k]->lower_along(numbers(all.cell.lengths(*kernels[k], cone)), way, numbers(best[k]));
     }
-    EXPECT_EQ(is_nearly[0], is_nearly[1]);
+    EXPECT_EQ(offer[0].is_clearly, offer[1].is_clearly);
+    EXPECT_EQ(offer[0].is_nearly, offer[1].is_nearly);
     EXPECT_EQ(std::memcmp(&best[0], &best[1], sizeof(Lengths)), 0);
     EXPECT_EQ(std::memcmp(&winner[0], &winner[1], sizeof winner[0]), 0);
   }

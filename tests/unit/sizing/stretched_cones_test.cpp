@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <random>
 
+#include "base/threads.h"
 #include "sizing/octree_field.h"
 #include "unit/sizing/cases.h"
 
@@ -174,6 +176,20 @@ TEST(StretchedCones, do_not_depend_on_the_order_of_the_samples) {
   EXPECT_EQ(a->cones.first_along, b->cones.first_along);
   EXPECT_EQ(a->cones.along_of_site, b->cones.along_of_site);
   EXPECT_GT(a->cones.along_of_site.size(), 100);
+}
+
+TEST(StretchedCones, are_the_same_with_any_number_of_threads) {
+  std::array<std::shared_ptr<Spread>, 3> made;
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    set_thread_count(1 + 2 * static_cast<int>(k));
+    make_field(several_lines(), &made[k]);
+  }
+  set_thread_count(1);
+  for (const auto& other : made) {
+    EXPECT_EQ(other->cones.sample, made[0]->cones.sample);
+    EXPECT_EQ(other->cones.first_along, made[0]->cones.first_along);
+    EXPECT_EQ(other->cones.along_of_site, made[0]->cones.along_of_site);
+  }
 }
 
 }  // namespace
