@@ -162,17 +162,17 @@ class Blanker {
       if (region[leaf] != kNone) result_.colour[leaf] = colour[region[leaf]];
   }
 
-  /// Boxes of the triangles in cut cells, one after the other: most are passed over by them.
+  /// Boxes of the triangles: most are passed over by them.
   void box_triangles() {
     constexpr float kWider = std::numeric_limits<float>::epsilon(), kLeast = std::numeric_limits<float>::min();
     const auto wider = [](float v) { return kWider * std::abs(v) + kLeast; };
     const auto below = [&](double v) { return static_cast<float>(v) - wider(static_cast<float>(v)); };
     const auto above = [&](double v) { return static_cast<float>(v) + wider(static_cast<float>(v)); };
-    boxes_.resize(cut_.triangle.size());
+    boxes_.resize(surface_.triangles.size());
     parallel_for(boxes_.size(), kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         Box3 box;
-        for (int k = 0; k < 3; ++k) box.add(surface_.corner(cut_.triangle[i], k));
+        for (int k = 0; k < 3; ++k) box.add(surface_.corner(static_cast<TriangleId>(i), k));
         boxes_[i] = {below(box.lo.x), below(box.lo.y), below(box.lo.z),
                      above(box.hi.x), above(box.hi.y), above(box.hi.z)};
       }
@@ -187,11 +187,11 @@ class Blanker {
     way.add(p);
     way.add(q);
     for (std::int64_t i = cut_.offsets[cut]; i < cut_.offsets[cut + 1]; ++i) {
-      const TriangleBox& b = boxes_[i];
+      const TriangleId t = cut_.triangle[i];
+      const TriangleBox& b = boxes_[t];
       if (b.lo_x > way.hi.x || b.hi_x < way.lo.x || b.lo_y > way.hi.y || b.hi_y < way.lo.y || b.lo_z > way.hi.z ||
           b.hi_z < way.lo.z)
         continue;
-      const TriangleId t = cut_.triangle[i];
       if (segment_meets_triangle(p, q, surface_.corner(t, 0), surface_.corner(t, 1), surface_.corner(t, 2)))
         return false;
     }
@@ -674,7 +674,7 @@ class Blanker {
   const SurfaceView& surface_;
   const int flow_sign_;  // +1: the flow lies where the normals point to
   CutCells cut_;
-  std::vector<TriangleBox> boxes_;       // [cut_.triangle.size()]
+  std::vector<TriangleBox> boxes_;       // [n_triangles]
   std::vector<std::int32_t> cut_index_;  // [n_leaves] kNone: not cut
   std::vector<Vec3> sheet_;              // [n_cut] unit, into the flow, where the cell meets one sheet; else zero
   std::vector<CellParts> parts_;         // [n_cut]
