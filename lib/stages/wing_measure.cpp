@@ -15,7 +15,7 @@ namespace st {
 namespace {
 
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
-constexpr double kAround = 1.5;      // lengths around a place whose segments count: the row there, some of the next
+constexpr double kAround = 1.5;      // lengths, or heights, around the nearest triangle: that row, some of the next
 constexpr double kUnheldReach = 3;   // lengths around a place that is not held
 constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
 constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
@@ -61,7 +61,7 @@ class WingMesh {
     const double side = mean_side(at_place), height = norm(height_of(at_place));
     const bool is_flat = kStretched * height < side;
     const double reach = kAround * side, flatness = is_flat ? height / side : 1;
-    const Vec3 middle = is_flat ? ball_of(at_place).center : place;
+    const Vec3 middle = ball_of(at_place).center;  // a station inside a base may lie out of reach
     const auto is_around = [&](Vec3 x) {
       const double along2 = is_flat ? dot(x, along_span) * dot(x, along_span) : 0;
       return along2 + (norm2(x) - along2) / (flatness * flatness) <= reach * reach;
