@@ -10,10 +10,12 @@
 
 namespace st {
 
-/// Two triangles of one face are a quadrilateral of a row where their common edge is the longest of both, and what they
-/// make is longer than kRowAspect times its height. All zero for a mesh without triangles.
+/// Two triangles of one face are a quadrilateral where their common edge is the longest of both. It is of a row where
+/// it is longer than kRowAspect times its height. Flatter ones continue a row where they have whole sides in common
+/// with it, one after the other. All zero for a mesh without triangles.
 struct RowStats {
   std::int64_t n_quads = 0, n_good = 0;  ///< good: all four angles in space within kLeastRowAngleDeg, kMostRowAngleDeg
+  std::int64_t n_continued = 0;          ///< shorter ones that continue rows, nearly right-angled
   std::int64_t n_others = 0;             ///< triangles of no such quadrilateral
   double mean = 0, p1 = 0;               ///< of the others' quality: average, first percentile
   double growth = 1;                     ///< largest square root of the ratio of neighbours' areas in space

@@ -41,13 +41,9 @@ json quality_json(const QualityStats& q, ReportDetail detail) {
 }
 
 json rows_json(const RowStats& r) {
-  return {{"quadrilaterals", r.n_quads},
-          {"good_share", r.good_share()},
-          {"others", r.n_others},
-          {"others_mean", r.mean},
-          {"others_p1", r.p1},
-          {"growth_max", r.growth},
-          {"growth_above_2.2", r.n_grown}};
+  return {{"quadrilaterals", r.n_quads}, {"good_share", r.good_share()}, {"continued", r.n_continued},
+          {"others", r.n_others},        {"others_mean", r.mean},        {"others_p1", r.p1},
+          {"growth_max", r.growth},      {"growth_above_2.2", r.n_grown}};
 }
 
 json jump_json(const JumpStats& s, ReportDetail detail) {

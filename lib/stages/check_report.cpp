@@ -92,10 +92,10 @@ std::string group_table(const SurfaceMesh& mesh, const Findings& f) {
 
 std::string rows_line(const RowStats& r) {
   return fmt::format(
-      "  {:<20} {} quadrilaterals, {:.1f} % with angles within {:g} to {:g} deg; the other triangles: mean {:.4f}, 1st "
-      "percentile {:.4f}; neighbours up to {:.2f} times as large, {} above {:g}\n",
-      "rows", r.n_quads, 100 * r.good_share(), kLeastRowAngleDeg, kMostRowAngleDeg, r.mean, r.p1, r.growth, r.n_grown,
-      kMostRowGrowth);
+      "  {:<20} {} quadrilaterals, {:.1f} % with angles within {:g} to {:g} deg, {} shorter ones; the other triangles: "
+      "mean {:.4f}, 1st percentile {:.4f}; neighbours up to {:.2f} times as large, {} above {:g}\n",
+      "rows", r.n_quads, 100 * r.good_share(), kLeastRowAngleDeg, kMostRowAngleDeg, r.n_continued, r.mean, r.p1,
+      r.growth, r.n_grown, kMostRowGrowth);
 }
 
 std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q, bool is_stretched) {
