@@ -33,6 +33,11 @@ RuleTargets targets_of(const std::vector<std::string>& faces, const std::vector<
   return find_targets(own, cad);
 }
 
+/// Whether a rule names faces or edges, by numbers or names of the CAD.
+bool select_any(const std::vector<SizeRule>& rules) {
+  return std::ranges::any_of(rules, [](const SizeRule& r) { return !r.faces.empty() || !r.edges.empty(); });
+}
+
 /// Whether some but not all of `whole` are among `chosen` (ascending).
 template <class Whole, class Id>
 bool is_part(const Whole& whole, const std::vector<std::int32_t>& chosen, const Id& id_of) {
@@ -63,7 +68,7 @@ std::vector<FaceId> whole_faces(const std::vector<FaceId>& faces, const Composit
 }
 
 bool select_parts(const std::vector<SizeRule>& rules, const GeometryArtifact& geometry) {
-  if (geometry.composites.empty()) return false;
+  if (geometry.composites.empty() || !select_any(rules)) return false;
   const Composites& composites = geometry.composites;
   const JoinedTables joined = join_tables(geometry.cad, composites);
   for (const SizeRule& rule : rules) {
@@ -80,7 +85,7 @@ bool select_parts(const std::vector<SizeRule>& rules, const GeometryArtifact& ge
 }
 
 std::vector<SizeRule> rules_on_joined(std::vector<SizeRule> rules, const GeometryArtifact& geometry) {
-  if (geometry.composites.empty()) return rules;
+  if (geometry.composites.empty() || !select_any(rules)) return rules;
   const JoinedTables joined = join_tables(geometry.cad, geometry.composites);
   std::vector<EdgeId> whole_edge(static_cast<std::size_t>(geometry.cad.n_edges()), kNone);
   for (EdgeId e = 0; e < geometry.cad.n_edges(); ++e)

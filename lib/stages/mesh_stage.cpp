@@ -17,7 +17,6 @@
 #include "base/memory.h"
 #include "base/progress.h"
 #include "base/share.h"
-#include "base/text.h"
 #include "base/threads.h"
 #include "geometry/model/sameness.h"
 #include "io/file/json_text.h"
@@ -330,9 +329,7 @@ void MeshRun::mesh_apart(Meshed& joined, Resumption& resumption) {
   char is_better = comm_.is_root() && n_wrong(apart.result) < n_wrong(joined.result);
   share(trace_, is_better);
   if (!is_better) return;
-  if (comm_.is_root())
-    log_report(fmt::format("  {} of joined faces could not be meshed: the faces of the CAD were, apart",
-                           counted(joined.composites.size(), "union")));
+  if (comm_.is_root()) log_report("  joined faces could not be meshed as one: the faces of the CAD were, all apart");
   joined = std::move(apart);
 }
 
