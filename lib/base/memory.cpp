@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <fstream>
 
 namespace st {
@@ -19,13 +20,25 @@ double number_in(const char* path, double otherwise) {
   return file >> value && value > 0 ? value : otherwise;
 }
 
+/// What the heap reserves at once and asks large pages for, bytes: one kind of page per range of the heap, so what it
+/// grows by later has small ones. Below what is kept when freed, or it would be given back at once.
+constexpr std::size_t kHeapOfLargePages = std::size_t{3} << 28;
+
+/// Least memory that a process may use for such a reserve, in reserves: it counts in limits of address space.
+constexpr double kLeastReserves = 8;
+
 }  // namespace
 
-void keep_freed_memory() {
-#ifdef __GLIBC__
+void prepare_heap() {
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   mallopt(M_TOP_PAD, 1 << 26);
+  if (memory_limit() < kLeastReserves * kHeapOfLargePages) return;
+  void* const range = std::malloc(kHeapOfLargePages);  // no page of it is touched
+  if (!range) return;
+  prefer_large_pages(range, kHeapOfLargePages);
+  std::free(range);
 #endif
 }
 

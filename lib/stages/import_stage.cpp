@@ -11,7 +11,6 @@
 #include "base/hash.h"
 #include "base/length.h"
 #include "base/log.h"
-#include "base/memory.h"
 #include "base/text.h"
 #include "base/threads.h"
 #include "features/wing_edges.h"
@@ -407,7 +406,6 @@ void report_crossing(const std::string& path, const SurfaceMesh& mesh, const std
 }
 
 ImportResult import_triangles(const std::string& path, const ImportOptions& options) {
-  keep_freed_memory();
   SurfaceMesh mesh = read_triangulation(path);
   mesh.corner_uv = {};  // that of a file is not used
   FacetInput facets{mesh.node_xyz, {}, mesh.triangle_face, mesh.labels.face_name};

@@ -14,7 +14,6 @@
 
 #include "base/hash.h"
 #include "base/log.h"
-#include "base/memory.h"
 #include "base/progress.h"
 #include "base/share.h"
 #include "base/threads.h"
@@ -367,9 +366,6 @@ void MeshStageOptions::validate() const {
                                               *tile_triangles, kLeastTile));
 }
 
-StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) {
-  keep_freed_memory();
-  return MeshRun(o, comm).run();
-}
+StageSummary run_mesh(const MeshStageOptions& o, const Communicator& comm) { return MeshRun(o, comm).run(); }
 
 }  // namespace st

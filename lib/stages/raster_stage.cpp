@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/log.h"
-#include "base/memory.h"
 #include "base/progress.h"
 #include "base/share.h"
 #include "base/text.h"
@@ -363,7 +362,6 @@ void RasterStageOptions::validate() const {
 }
 
 StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
-  keep_freed_memory();
   o.validate();
   if (comm.is_root()) require_writable(o.output);
   if (comm.is_root() && !o.trace.empty()) require_writable(o.trace);

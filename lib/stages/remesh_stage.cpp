@@ -446,7 +446,6 @@ StageSummary with_distance(StageSummary summary, const RemeshInput& in) {
 StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const Timer timer;
   require_valid(o);
-  keep_freed_memory();
   if (!o.displacements.empty()) require_displacement_format(o.displacements);
   if (comm.is_root() && !o.dry_run) o.merged.empty() ? require_patches_outputs(o.output) : require_writable(o.merged);
   Progress progress("st-remesh", 1);

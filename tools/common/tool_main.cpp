@@ -18,6 +18,7 @@
 
 #include "base/log.h"
 #include "base/mapped_file.h"
+#include "base/memory.h"
 #include "base/nearest_name.h"
 #include "base/supervised_program.h"
 #include "base/text.h"
@@ -269,6 +270,7 @@ std::string ToolMain::help(HelpDetail detail) {
 }
 
 void ToolMain::begin(int argc, char** argv) {
+  prepare_heap();
   g_name = name_.c_str();
   install_crash_handler(g_name);
   occupy_standard_streams();

@@ -6,9 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace st {
@@ -48,6 +52,34 @@ TEST(FreedMemory, goes_back_to_the_system_from_between_what_is_used) {
   return_freed_memory();
   EXPECT_LT(resident_bytes(), kept - 0.5 * kPieces * kBytes);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
+/// The line of flags of the mapping that holds an address.
+std::string flags_of_mapping(const void* address) {
+  const auto wanted = reinterpret_cast<std::uintptr_t>(address);
+  std::ifstream file("/proc/self/smaps");
+  bool is_in = false;
+  for (std::string line; std::getline(file, line);) {
+    std::uintptr_t begin = 0, end = 0;
+    if (std::sscanf(line.c_str(), "%lx-%lx ", &begin, &end) == 2) is_in = begin <= wanted && wanted < end;
+    if (is_in && line.starts_with("VmFlags:")) return line + " ";
+  }
+  return {};
+}
+
+TEST(LargePages, are_asked_for_where_arrays_of_megabytes_lie) {
+  if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage") || memory_limit() < 8e9)
+    GTEST_SKIP() << "SKIPPED: this machine has no large pages on request, or less than 8 GB of memory";
+  prepare_heap();
+  const double before = resident_bytes();
+  const std::vector<char> array(std::size_t{8} << 20, 7);
+  const std::string flags = flags_of_mapping(array.data() + array.size() / 2);
+  EXPECT_NE(flags.find(" hg "), std::string::npos) << flags;
+  EXPECT_LT(resident_bytes(), before + (16 << 20)) << "the reserve is memory in use";
+}
+
+#endif
 
 TEST(LargePages, leave_what_is_in_an_array) {
   std::vector<char> array(std::size_t{5} << 20, 7);
