@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/boxes.h"
 #include "base/disjoint_sets.h"
 #include "base/share.h"
@@ -11,19 +12,6 @@
 #include "features/edge_places.h"
 
 namespace st {
-namespace {
-
-constexpr std::size_t kMostAlone = 64;  // faces: to tell other ranks of fewer costs more than they could save
-
-/// Faces with 1, ascending.
-std::vector<FaceId> listed(std::span<const std::uint8_t> is_wanted) {
-  std::vector<FaceId> faces;
-  for (std::size_t f = 0; f < is_wanted.size(); ++f)
-    if (is_wanted[f]) faces.push_back(static_cast<FaceId>(f));
-  return faces;
-}
-
-}  // namespace
 
 MirrorPlane::MirrorPlane(const Model& model, FaceId face) {
   const auto surface = model.surface(face);
@@ -40,22 +28,16 @@ ProfileFacets::ProfileFacets(const Model& model, const FaceRoles& roles, const P
 }
 
 void ProfileFacets::add_along(std::span<const WingEdge> edges, const Executor& executor) {
-  add(walls_along(edges), executor);
-  if (executor.size() > 1) make_ahead(edges, executor);
-  const std::vector<Cut> cuts = executor.is_root() ? cuts_at(edges) : std::vector<Cut>();
-  std::size_t n_done = 0;
-  for (bool is_more = true; is_more;) {
-    std::vector<std::uint8_t> next = walls_of_next(cuts, n_done);
-    const std::vector<FaceId> faces = listed(next);
-    const auto known = made_.find(faces);
-    if (known != made_.end())
-      join_facets(model_, std::move(made_.extract(known).mapped()), facets_);
-    else if (!faces.empty() && faces.size() <= kMostAlone)  // on rank 0: others wait for the next add()
-      add(std::move(next), SerialExecutor());
-    else
-      is_more = add(std::move(next), executor);
+  constexpr std::size_t kAhead = 32;  // cuts made at once by several threads
+  std::vector<WingEdge> all(edges.begin(), edges.end());
+  share(executor, all);
+  add_mirrors(all);
+  if (const std::vector<std::vector<WingEdge>> bodies = by_body(all); bodies.size() > 1) {
+    add_bodies(bodies, executor);
+    return;
   }
-  made_.clear();
+  add(walls_along(all), executor);
+  if (executor.is_root()) walk(all, thread_count() > 1 ? kAhead : 1);
 }
 
 std::vector<std::uint8_t> ProfileFacets::walls_along(std::span<const WingEdge> edges) {
@@ -65,11 +47,12 @@ std::vector<std::uint8_t> ProfileFacets::walls_along(std::span<const WingEdge> e
 }
 
 /// Those that the first cut meets from `n_done` on that meets any; that one is to be made again, through more facets.
-/// With several threads some cuts are made ahead: what comes after the first is dropped.
-std::vector<std::uint8_t> ProfileFacets::walls_of_next(std::span<const Cut> cuts, std::size_t& n_done) {
-  constexpr std::size_t kAhead = 32, kPerPiece = 4;
+/// So many cuts are made at once; what comes after the first is dropped.
+std::vector<std::uint8_t> ProfileFacets::walls_of_next(std::span<const Cut> cuts, std::size_t n_ahead,
+                                                       std::size_t& n_done) {
+  constexpr std::size_t kPerPiece = 4;
   const ProfileCutter cutter(facets_);
-  std::vector<std::vector<CutEnd>> ends(thread_count() > 1 ? kAhead : 1);
+  std::vector<std::vector<CutEnd>> ends(n_ahead);
   while (n_done < cuts.size()) {
     const std::span<const Cut> next = cuts.subspan(n_done, std::min(ends.size(), cuts.size() - n_done));
     parallel_for(next.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
@@ -82,28 +65,6 @@ std::vector<std::uint8_t> ProfileFacets::walls_of_next(std::span<const Cut> cuts
     }
   }
   return std::vector<std::uint8_t>(is_known_.size(), 0);
-}
-
-/// Facets depend on which faces are meshed together, and that on all cuts before. Those of bodies that hang together
-/// nowhere hardly depend on each other: what each would ask for by itself is made by all ranks, and is taken where rank
-/// 0 asks for just that.
-void ProfileFacets::make_ahead(std::span<const WingEdge> edges, const Executor& executor) {
-  std::vector<WingEdge> all(edges.begin(), edges.end());
-  share(executor, all);
-  const std::vector<std::vector<WingEdge>> bodies = by_body(all);
-  if (bodies.size() < 2) return;
-  std::vector<double> work;
-  for (const auto& body : bodies) work.push_back(static_cast<double>(body.size()));
-  executor.run_tasks(
-      static_cast<std::int32_t>(bodies.size()), heaviest_first(work),
-      [&](std::int32_t task) {
-        return packed(ProfileFacets(model_, roles_, limits_).walk(bodies[static_cast<std::size_t>(task)]));
-      },
-      [&](std::int32_t, Bytes&& bytes) {
-        std::vector<MadeFacets> made;
-        unpack(bytes, made);
-        for (MadeFacets& m : made) made_.try_emplace(std::move(m.faces), std::move(m.facets));
-      });
 }
 
 /// Edges of walls that hang together.
@@ -128,18 +89,45 @@ std::vector<std::vector<WingEdge>> ProfileFacets::by_body(std::span<const WingEd
   return all;
 }
 
-/// What add_along() asks for one after the other, but for the first.
-std::vector<ProfileFacets::MadeFacets> ProfileFacets::walk(std::span<const WingEdge> edges) {
-  add(walls_along(edges), SerialExecutor());
+/// What a cut through one body meets does not depend on the others.
+void ProfileFacets::add_bodies(std::span<const std::vector<WingEdge>> bodies, const Executor& executor) {
+  ST_ASSERT(facets_.triangle.empty());
+  constexpr std::size_t kMostTasks = 256;  // each has tables of the whole model
+  const std::size_t n_per_task = (bodies.size() + kMostTasks - 1) / kMostTasks,
+                    n_tasks = (bodies.size() + n_per_task - 1) / n_per_task;
+  const auto of_task = [&](std::size_t task) {
+    const auto rest = bodies.subspan(n_per_task * task);
+    return rest.first(std::min(rest.size(), n_per_task));
+  };
+  std::vector<double> work(n_tasks, 0);
+  for (std::size_t i = 0; i < n_tasks; ++i)
+    for (const auto& edges : of_task(i)) work[i] += static_cast<double>(edges.size());
+  std::vector<Facets> parts(n_tasks);
+  executor.run_tasks(
+      static_cast<std::int32_t>(n_tasks), heaviest_first(work),
+      [&](std::int32_t task) {
+        ProfileFacets own(model_, roles_, limits_);
+        Facets facets;
+        for (const auto& edges : of_task(static_cast<std::size_t>(task))) {
+          own.clear();
+          own.add_mirrors(edges);
+          own.add(own.walls_along(edges), SerialExecutor());
+          own.walk(edges, 1);
+          append_facets(std::move(own.facets_), facets);
+        }
+        return packed(facets);
+      },
+      [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
+  Facets all;
+  for (Facets& part : parts) append_facets(std::move(part), all);
+  for (const FaceId f : all.face) is_known_[f] = 1;
+  if (executor.is_root()) join_facets(model_, std::move(all), facets_);
+}
+
+/// Until no cut meets walls without facets.
+void ProfileFacets::walk(std::span<const WingEdge> edges, std::size_t n_ahead) {
   const std::vector<Cut> cuts = cuts_at(edges);
-  std::vector<MadeFacets> made;
-  for (std::size_t n_done = 0;;) {
-    const std::vector<std::uint8_t> next = walls_of_next(cuts, n_done);
-    std::vector<FaceId> faces = listed(next);
-    if (faces.empty()) return made;
-    Facets facets = make_unjoined_facets(model_, next, limits_.facets, SerialExecutor());
-    made.push_back({std::move(faces), facets});
-    join_facets(model_, std::move(facets), facets_);
+  for (std::size_t n_done = 0; add(walls_of_next(cuts, n_ahead, n_done), SerialExecutor());) {
   }
 }
 
@@ -155,12 +143,15 @@ void ProfileFacets::add_cut(EdgeId e, Vec3 x, Vec3 normal, const Executor& execu
   }
 }
 
-/// What a cut meets in the image of the model, its own image meets in the model.
-std::vector<ProfileFacets::Cut> ProfileFacets::cuts_at(std::span<const WingEdge> edges) {
+void ProfileFacets::add_mirrors(std::span<const WingEdge> edges) {
   std::vector<FaceId> mirrors;
   for (const WingEdge& w : edges)
     if (w.mirror != kNone && std::ranges::count(mirrors, w.mirror) == 0) mirrors.push_back(w.mirror);
   for (const FaceId f : mirrors) mirrors_.emplace_back(model_, f);
+}
+
+/// What a cut meets in the image of the model, its own image meets in the model.
+std::vector<ProfileFacets::Cut> ProfileFacets::cuts_at(std::span<const WingEdge> edges) const {
   std::vector<Cut> cuts;
   for (const EdgePlace& place : places_along(model_, edges)) {
     const auto add = [&](Vec3 normal) {

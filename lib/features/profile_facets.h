@@ -37,9 +37,10 @@ class ProfileFacets {
   /// Both must outlive the object.
   ProfileFacets(const Model& model, const FaceRoles& roles, const ProfileLimits& limits);
 
-  /// Facets of the walls that cuts cross which begin on `edges` (of rank 0): at
-  /// each of their places, square to the edge and to the model's axes. Cost: the facets, as tasks, and the cuts. On
-  /// several ranks each body is walked by one of them first, so that rank 0 finds most facets made.
+  /// Facets of the walls that cuts cross which begin on `edges` (of rank 0): at each of their places, square to the
+  /// edge and to the model's axes. Bodies that hang together nowhere are a task each, with their own facets alone; of a
+  /// single one the facets of the edges' own walls are tasks, and the cuts are rank 0's. Precondition: no
+  /// facets yet where edges lie on several.
   void add_along(std::span<const WingEdge> edges, const Executor& executor);
 
   /// Those of the walls beyond the borders at which cuts end (of rank 0); false: there are none.
@@ -61,20 +62,13 @@ class ProfileFacets {
     Vec3 x, normal;
   };
 
-  /// Facets of some faces that are made together.
-  struct MadeFacets {
-    std::vector<FaceId> faces;  // ascending
-    Facets facets;              // not joined
-
-    static auto fields(auto& m) { return std::tie(m.faces, m.facets); }
-  };
-
-  std::vector<Cut> cuts_at(std::span<const WingEdge> edges);
+  void add_mirrors(std::span<const WingEdge> edges);
+  std::vector<Cut> cuts_at(std::span<const WingEdge> edges) const;
   std::vector<std::uint8_t> walls_along(std::span<const WingEdge> edges);
-  std::vector<std::uint8_t> walls_of_next(std::span<const Cut> cuts, std::size_t& n_done);
-  void make_ahead(std::span<const WingEdge> edges, const Executor& executor);
+  std::vector<std::uint8_t> walls_of_next(std::span<const Cut> cuts, std::size_t n_ahead, std::size_t& n_done);
   std::vector<std::vector<WingEdge>> by_body(std::span<const WingEdge> edges) const;
-  std::vector<MadeFacets> walk(std::span<const WingEdge> edges);
+  void add_bodies(std::span<const std::vector<WingEdge>> bodies, const Executor& executor);
+  void walk(std::span<const WingEdge> edges, std::size_t n_ahead);
   bool is_at(FaceId f, Vec3 x) const;
   std::vector<std::uint8_t> walls_beyond(std::span<const CutEnd> ends);
   void take_walls_at(EdgeId e, const Vec3* x, std::vector<std::uint8_t>& taken);
@@ -85,9 +79,8 @@ class ProfileFacets {
   const ProfileLimits limits_;
   std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
   std::vector<FaceId> edge_faces_;
-  std::vector<std::uint8_t> is_known_;          // [n_faces] their facets are there, or will be next
-  std::vector<MirrorPlane> mirrors_;            // on which edges lie: a cut goes on in the image
-  std::map<std::vector<FaceId>, Facets> made_;  // not joined, by their faces: what may be wanted next
+  std::vector<std::uint8_t> is_known_;  // [n_faces] their facets are there, or will be next
+  std::vector<MirrorPlane> mirrors_;    // on which edges lie: a cut goes on in the image
   Facets facets_;
 };
 

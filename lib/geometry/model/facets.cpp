@@ -100,13 +100,6 @@ Facets own_facets(const FacetShape& shape, std::span<const FaceId> ids) {
   return facets;
 }
 
-void append(Facets&& part, Facets& all) {
-  const auto first = static_cast<std::int32_t>(all.xyz.size());
-  all.xyz.insert(all.xyz.end(), part.xyz.begin(), part.xyz.end());
-  for (const auto& t : part.triangle) all.triangle.push_back({first + t[0], first + t[1], first + t[2]});
-  all.face.insert(all.face.end(), part.face.begin(), part.face.end());
-}
-
 /// Those of one face stay in order.
 void sort_by_face(Facets& facets) {
   const auto begin = facets.face.begin(), end = facets.face.end(), middle = std::is_sorted_until(begin, end);
@@ -184,12 +177,19 @@ Facets make_unjoined_facets(const Model& model, const std::vector<std::uint8_t>&
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
   Facets facets;
-  for (Facets& part : parts) append(std::move(part), facets);
+  for (Facets& part : parts) append_facets(std::move(part), facets);
   return facets;
 }
 
+void append_facets(Facets&& more, Facets& all) {
+  const auto first = static_cast<std::int32_t>(all.xyz.size());
+  all.xyz.insert(all.xyz.end(), more.xyz.begin(), more.xyz.end());
+  for (const auto& t : more.triangle) all.triangle.push_back({first + t[0], first + t[1], first + t[2]});
+  all.face.insert(all.face.end(), more.face.begin(), more.face.end());
+}
+
 void join_facets(const Model& model, Facets&& unjoined, Facets& facets) {
-  append(std::move(unjoined), facets);
+  append_facets(std::move(unjoined), facets);
   model.facets().empty() ? weld(facets) : weld_equal(facets);
   sort_by_face(facets);
 }

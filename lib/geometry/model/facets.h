@@ -39,6 +39,8 @@ void add_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, 
 /// Collective. Makes them in the same way, but for nodes: those of faces that share an edge may be there twice.
 Facets make_unjoined_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                             const Executor& executor);
+/// Local. Adds others to `all`, with nodes of their own.
+void append_facets(Facets&& more, Facets& all);
 /// Local. Adds facets of `model` that may have nodes twice to those of other faces.
 void join_facets(const Model& model, Facets&& unjoined, Facets& facets);
 

@@ -66,11 +66,6 @@ TEST(ProfileFacets, show_the_same_profiles_as_those_of_all_faces) {
   }
 }
 
-/// Tasks of two ranks, all of them here.
-struct TwoRanks : test::BackwardExecutor {
-  int size() const override { return 2; }
-};
-
 /// Far from each other; cuts ask several times for more walls.
 Model make_four_wings() {
   Model wings = test::make_model("wing_with_pod");
@@ -79,32 +74,55 @@ Model make_four_wings() {
   return wings;
 }
 
-TEST(ProfileFacets, are_the_same_where_ranks_make_them_ahead) {
+TEST(ProfileFacets, are_the_same_whatever_task_ends_first) {
   const Case c(make_four_wings());
-  const auto facets_by = [&](const Executor& executor) {
-    ProfileFacets facets(c.model, c.roles, kLimits);
-    facets.add_along(c.edges, executor);
-    return facets.facets();
-  };
-  const Facets alone = facets_by(SerialExecutor()), shared = facets_by(TwoRanks());
+  ProfileFacets backward(c.model, c.roles, kLimits);
+  backward.add_along(c.edges, test::BackwardExecutor());
+  const Facets alone = c.facets();
   EXPECT_GT(faces_with(alone).size(), 10u);
-  EXPECT_EQ(shared.face, alone.face);
-  EXPECT_EQ(shared.triangle, alone.triangle);
-  EXPECT_EQ(shared.xyz, alone.xyz);
+  EXPECT_EQ(backward.facets().face, alone.face);
+  EXPECT_EQ(backward.facets().triangle, alone.triangle);
+  EXPECT_EQ(backward.facets().xyz, alone.xyz);
 }
 
-TEST(ProfileFacets, of_bodies_are_made_by_as_many_tasks) {
+Model make_three_wings() {
   Model wings = test::make_model("wing_of_8");
   for (const double y : {20., 40.})
     wings = append(wings, transform(test::make_model("wing_of_8"), {.translation = {0, y, 0}}));
-  const Case c(std::move(wings));
-  const auto n_tasks = [&](const auto& executor) {
-    ProfileFacets facets(c.model, c.roles, kLimits);
-    facets.add_along(c.edges, executor);
-    return executor.n_tasks;
-  };
-  EXPECT_EQ(n_tasks(test::BackwardExecutor()), 1u) << "rank 0 makes few walls beyond walls by itself";
-  EXPECT_EQ(n_tasks(TwoRanks()), 1 + 3u) << "of the edges' own walls, and of each body";
+  return wings;
+}
+
+TEST(ProfileFacets, of_bodies_are_made_by_as_many_tasks) {
+  const Case c(make_three_wings());
+  const test::BackwardExecutor executor;
+  ProfileFacets facets(c.model, c.roles, kLimits);
+  facets.add_along(c.edges, executor);
+  EXPECT_EQ(executor.n_tasks, 3u);
+}
+
+TEST(ProfileFacets, of_a_body_do_not_depend_on_others) {
+  const Case one("wing_of_8"), three(make_three_wings());
+  const auto n_faces = static_cast<FaceId>(one.model.tables().n_faces());
+  const Facets alone = one.facets(), together = three.facets();
+  ASSERT_GT(alone.face.size(), 0u);
+  std::vector<FaceId> expected;
+  for (int body = 0; body < 3; ++body)
+    for (const FaceId f : alone.face) expected.push_back(f + body * n_faces);
+  EXPECT_EQ(together.face, expected);
+}
+
+TEST(ProfileFacets, of_bodies_are_known) {
+  const Case c(make_three_wings());
+  ProfileFacets facets(c.model, c.roles, kLimits);
+  facets.add_along(c.edges, SerialExecutor());
+  for (const FaceId f : faces_with(facets.facets())) EXPECT_TRUE(facets.knows(f)) << f;
+}
+
+TEST(ProfileFacets, go_on_from_an_edge_whose_walls_are_known) {
+  const Case c("wing_with_pod");
+  ProfileFacets facets(c.model, c.roles, kLimits);
+  for (const WingEdge& own : c.edges) facets.add_along({&own, 1}, SerialExecutor());
+  EXPECT_EQ(faces_with(facets.facets()), faces_with(c.facets()));
 }
 
 TEST(ProfileFacets, are_the_same_on_any_number_of_threads) {
