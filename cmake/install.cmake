@@ -10,7 +10,7 @@ endif()
 install(DIRECTORY docs DESTINATION share/doc/st COMPONENT runtime FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 # Examples lie beside the scripts and the workflow that they use, as in the sources; their place in Debian is a link.
 install(DIRECTORY examples DESTINATION share/st COMPONENT runtime USE_SOURCE_PERMISSIONS
-        PATTERN "CMakeLists.txt" EXCLUDE PATTERN "aircraft" EXCLUDE PATTERN "models" EXCLUDE)
+        PATTERN "CMakeLists.txt" EXCLUDE PATTERN "aircraft" EXCLUDE PATTERN "models" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 install(FILES examples/volume_mesher/CMakeLists.txt DESTINATION share/st/examples/volume_mesher COMPONENT runtime)
 install(FILES scripts/render_common.py DESTINATION share/st/scripts COMPONENT runtime)
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/installed_links)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Packs a folder as a wheel: usage: wheel.py FOLDER OUT_DIR VERSION PLATFORM
+"""Packs a folder as a wheel: usage: wheel.py FOLDER OUT_DIR VERSION PLATFORM TOOL...
 
-FOLDER holds the package st with its tools in st/bin. Each of these gets a command of its name. Equal folders give equal
+FOLDER holds the package st with its programs in st/bin. Each tool gets a command of its name. Equal folders give equal
 wheels. Prints the wheel's path."""
 import base64
 import hashlib
@@ -43,7 +43,7 @@ def write(archive, name, data, executable, records):
     records.append(f"{name},sha256={digest(data)},{len(data)}")
 
 
-def main(folder, out, version, platform):
+def main(folder, out, version, platform, *tools):
     folder, info = Path(folder), f"st_mesh-{version}.dist-info"
     wheel = Path(out) / f"st_mesh-{version}-py3-none-{platform}.whl"
     records = []
@@ -51,7 +51,7 @@ def main(folder, out, version, platform):
         for path in sorted(p for p in folder.rglob("*") if p.is_file()):
             name = str(path.relative_to(folder))
             write(archive, name, path.read_bytes(), name.startswith("st/bin/"), records)
-        commands = "".join(f"{p.name} = st.tools:command\n" for p in sorted((folder / "st/bin").iterdir()))
+        commands = "".join(f"{tool} = st.tools:command\n" for tool in tools)
         texts = {"METADATA": METADATA.format(version=version), "WHEEL": WHEEL.format(platform=platform),
                  "entry_points.txt": "[console_scripts]\n" + commands}
         for name, text in texts.items():
@@ -62,7 +62,7 @@ def main(folder, out, version, platform):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 5:
+    if len(sys.argv) < 6:
         print(__doc__, file=sys.stderr)
         sys.exit(2)
     sys.exit(main(*sys.argv[1:]))

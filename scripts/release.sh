@@ -53,6 +53,8 @@ python3 bench/budget.py build/check/bin | tee "$out/figures.txt" || fail "a stag
 echo "release: package"
 package() { cmake --preset release && cmake --build --preset release && (cd build/release && cpack -G DEB); }
 package > "$out/package.log" || fail "no package; see $out/package.log" 6
+tests/package/deb_test.sh "$PWD" "$PWD/build/release" --bare "$PWD/build/check/test_models" ||
+  fail "the package does not work" 5
 mv build/release/*_"$version"_*.deb "$out"
 echo "release: wheel"
 wheel=$(scripts/wheel.sh build/release "$out") || fail "no wheel" 6

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Makes a Python wheel of tools that are built: these, the libraries they need, the module st, and all licences.
+# Makes a Python wheel of tools that are built: these, the libraries they need, the module st, and all licences. Tools
+# without ranks are one program there, which does what its name says.
 #
 # usage: scripts/wheel.sh BUILD_DIR [OUT_DIR]         default OUT_DIR: BUILD_DIR
 #
@@ -15,8 +16,8 @@ fail() {
   echo "wheel: error: $1" >&2
   exit 6
 }
-for program in ldconfig patchelf nm strip gcc python3 dpkg-query; do
-  command -v "$program" > /dev/null || fail "there is no $program; apt-get install patchelf binutils gcc python3"
+for program in cmake ldconfig patchelf nm strip gcc python3 dpkg-query; do
+  command -v "$program" > /dev/null || fail "there is no $program; apt-get install cmake patchelf binutils gcc python3"
 done
 [ -x "$build/bin/st-mesh" ] || fail "$build has no bin/st-mesh; build the tools first"
 
@@ -30,7 +31,12 @@ trap 'rm -rf "$work"' EXIT
 package=$work/wheel/st
 mkdir -p "$package"/{bin,lib/st,licenses} "$out"
 cp "$source"/python/st/*.py "$package"
-find "$build/bin" -maxdepth 1 -name 'st-*' -type f -perm -u+x -exec cp -t "$package/bin" {} +
+cmake --build "$build" --target st_named_tools > "$work/log" || { tail "$work/log"; fail "no st_named_tools"; }
+tools=$(find "$build/bin" -maxdepth 1 -name 'st-*' -type f -perm -u+x -printf '%f\n' | sort)
+for tool in $tools; do
+  grep -qF "\"$tool\"" "$build/generated/named_tools/named_tools.inc" || cp -t "$package/bin" "$build/bin/$tool"
+done
+cp "$build/st_named_tools" "$package/bin/st-run"
 cp -t "$package/lib/st" "$build"/lib/st/*.so  # readers that the import loads
 cp "$source/LICENSE" "$package/licenses/st"
 
@@ -117,4 +123,5 @@ done
 
 version=$(sed -n 's/^project(st VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
 glibc=$(getconf GNU_LIBC_VERSION | cut -d ' ' -f 2 | tr . _)
-python3 "$source/packaging/wheel.py" "$work/wheel" "$out" "$version" "manylinux_${glibc}_x86_64"
+# shellcheck disable=SC2086
+python3 "$source/packaging/wheel.py" "$work/wheel" "$out" "$version" "manylinux_${glibc}_x86_64" $tools

@@ -22,18 +22,25 @@ class ToolError(RuntimeError):
 
 
 def program(tool):
-    """In the folder ST_BIN, else in the wheel that this module came with, else in PATH."""
-    folder = os.environ.get("ST_BIN") or (str(_WHEEL) if _WHEEL.is_dir() else None)
+    """Its file: in the folder ST_BIN, else in the wheel that this module came with, else in PATH."""
+    folder = os.environ.get("ST_BIN")
+    if not folder and _WHEEL.is_dir():
+        return _in_wheel(tool)
     found = shutil.which(str(Path(folder) / tool) if folder else tool)
     if not found:
         raise FileNotFoundError(f"{tool} is not in {folder or 'PATH'}; install ST")
     return found
 
 
+def _in_wheel(tool):
+    """The file there: of its own, or the one that does what the name says under which it is started."""
+    return str(_WHEEL / (tool if (_WHEEL / tool).is_file() else "st-run"))
+
+
 def command():
     """The tool of the name under which this was started: a command that a wheel installs."""
-    tool = str(_WHEEL / Path(sys.argv[0]).name)
-    os.execv(tool, [tool, *sys.argv[1:]])
+    tool = Path(sys.argv[0]).name
+    os.execv(_in_wheel(tool), [tool, *sys.argv[1:]])
 
 
 def _arguments(options):
@@ -47,10 +54,11 @@ def _arguments(options):
                 yield from (flag, str(v))
 
 
-def _start(command, progress):
+def _start(file, command, progress):
     """Exit code, stdout and stderr of a command, each line of stderr given to `progress` as soon as it is there."""
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as out:
-        with subprocess.Popen(command, stdout=out, stderr=subprocess.PIPE, text=True, errors="replace") as child:
+        with subprocess.Popen(command, executable=file, stdout=out, stderr=subprocess.PIPE, text=True,
+                              errors="replace") as child:
             said = []
             try:
                 for line in child.stderr:
@@ -68,8 +76,8 @@ def run(tool, *inputs, allow=(), progress=None, **options):
     """Runs a tool and returns what it says with --json. `allow`: exit codes that are no errors, such as 5 of st-check
     (the dictionary then has it as "exit_code"). `progress`: called with each line that the tool prints while it works;
     what it raises ends the tool. Raises ToolError."""
-    command = [program(tool), *map(str, inputs), *_arguments(options), "--json"]
-    code, printed, said = _start(command, progress)
+    command = [tool, *map(str, inputs), *_arguments(options), "--json"]
+    code, printed, said = _start(program(tool), command, progress)
     lines = printed.strip().splitlines()
     try:
         result = json.loads(lines[-1]) if lines else {}

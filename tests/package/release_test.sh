@@ -27,6 +27,7 @@ mkdir -p scripts docs bench packaging/spack/st build/release tests/package
 cp "$source/scripts/release.sh" scripts/
 cp ../steps/cmake scripts/wheel.sh
 cp ../steps/cmake tests/package/wheel_test.sh
+cp ../steps/cmake tests/package/deb_test.sh
 for file in CMakeLists.txt README.md docs/packages.md packaging/spack/st/package.py; do
   cp "$source/$file" $file
   old=$(sed -n 's/^project(st VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
@@ -45,7 +46,7 @@ for version in 0.2.0 0.1.9 0.3 x; do
   refuses $version 'no version\|does not come after' || failed "$version is refused"
   unchanged || failed "$version changes nothing"
 done
-for step in make python3 cmake cpack wheel.sh wheel_test.sh; do
+for step in make python3 cmake cpack deb_test.sh wheel.sh wheel_test.sh; do
   BREAKS=$step refuses 0.3.0 error || failed "a release without $step fails"
   unchanged || failed "nothing changes where $step fails"
 done
@@ -55,7 +56,7 @@ git checkout -q README.md
 
 rm -f ../ran
 scripts/release.sh 0.3.0 > ../out 2>&1 || failed "a release is made"
-[ "$(uniq ../ran | paste -sd' ')" = "make python3 cmake cpack wheel.sh wheel_test.sh" ] ||
+[ "$(uniq ../ran | paste -sd' ')" = "make python3 cmake cpack deb_test.sh wheel.sh wheel_test.sh" ] ||
   failed "all steps run in order"
 [ -f build/release-0.3.0/st_0.3.0_amd64.deb ] || failed "the package is there"
 [ "$(cat build/release-0.3.0/notes.txt)" = "- New: a thing." ] || failed "the notes are those of this version"
