@@ -184,6 +184,7 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
   }
   json j{{"mesh", path},
          {"passes", f.passes()},
+         {"verdict", verdict(mesh, f)},
          {"failed", failed},
          {"triangles", mesh.n_triangles()},
          {"nodes", f.topology.n_used_nodes},

@@ -207,16 +207,8 @@ std::string fault_of_model(const Findings& f) {
 }
 
 std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
-  std::string failed;
-  for (const Check& c : f.checks) {
-    if (!c.fails()) continue;
-    const bool has_place = c.defects.first[0].face_a != kNone;
-    failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what,
-                          has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
-  }
-  const std::string verdict = failed.empty() ? passed_as(f) : "FAILS: " + fault_of_model(f) + failed;
   const std::string genus = f.genus() ? fmt::format(", genus {}", *f.genus()) : "";
-  return fmt::format("{}: {}; {}, {}, {}{}, {:.1f} s", path, verdict, counted(mesh.n_triangles(), "triangle"),
+  return fmt::format("{}: {}; {}, {}, {}{}, {:.1f} s", path, verdict(mesh, f), counted(mesh.n_triangles(), "triangle"),
                      counted(f.topology.n_used_nodes, "node"), counted(f.topology.n_components, "part"), genus,
                      seconds);
 }
@@ -227,6 +219,17 @@ std::string crossing_note(const Findings& f) {
   return f.n_model_crossings == 0 ? ""
                                   : fmt::format("{} crossing or overlapping where {}", f.n_model_crossings,
                                                 f.is_of_facets ? "facets of the file cross" : "the CAD crosses itself");
+}
+
+std::string verdict(const SurfaceMesh& mesh, const Findings& f) {
+  std::string failed;
+  for (const Check& c : f.checks) {
+    if (!c.fails()) continue;
+    const bool has_place = c.defects.first[0].face_a != kNone;
+    failed += fmt::format("{}{} {}{}", failed.empty() ? "" : "; ", c.defects.count, c.what,
+                          has_place ? ", first at " + place_text(mesh, c.defects.first[0]) : "");
+  }
+  return failed.empty() ? passed_as(f) : "FAILS: " + fault_of_model(f) + failed;
 }
 
 std::string length_text(double length, const std::string& unit) {

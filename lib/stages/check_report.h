@@ -66,6 +66,9 @@ std::string face_label(const SurfaceMesh& mesh, FaceId f);
 /// Whose the crossings are; empty where nothing is known.
 std::string crossing_note(const Findings& f);
 
+/// "passes, 2 faces below the sizes" or "FAILS: 3 open edges, first at ...".
+std::string verdict(const SurfaceMesh& mesh, const Findings& f);
+
 /// "0.25 mm"; `unit` may be empty.
 std::string length_text(double length, const std::string& unit);
 

@@ -27,6 +27,7 @@ function coloured() {
 }
 setTimeout(() => {
   said.verdict = $("verdict").textContent;
+  said.checks = $("checks").innerText;
   if (gl) {
     said.shown = coloured();
     const seen = [...document.querySelectorAll("#groups input")].filter(box => box.checked);
@@ -306,6 +307,14 @@ class Report(Browser):
         made = artifacts_of("two_boxes")
         _, file = self.report("two_boxes", "--geometry", made / "geometry.hdf", "--sizing", made / "sizing.hdf")
         self.expect_one_printed_page(file)
+
+    def test_a_mesh_that_passes_with_notes_says_them(self):
+        _, file = self.report("touching_boxes")
+        said = self.browse(file)
+        if said is None:
+            return
+        self.assertIn("This mesh passes part by part, which touch or cross in", said["verdict"])
+        self.assertRegex(said["checks"], r"contacts\s*note\s*[1-9]")
 
     def test_a_mesh_that_fails_gets_its_report(self):
         _, file = self.report("plate_with_hole")
