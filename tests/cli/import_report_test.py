@@ -5,7 +5,7 @@ import zipfile
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import MODELS, ToolTest, must  # noqa: E402
+from chain import MODELS, Run, ToolTest, must  # noqa: E402
 
 KEYS = ["closed", "unit", "solids", "shells", "faces", "edges", "free_edges", "nonmanifold_edges", "repairs",
         "findings", "area", "volume", "box"]
@@ -52,6 +52,13 @@ class Report(ToolTest):
         self.assertNotIn("more: see", run.err)
         run = must("st-import", MODELS / "box.step", "-o", self.folder / "g.hdf", "-v", "--small", "1000")
         self.assertIn("and 8 more: see --json", run.err)  # 12 short edges, 6 narrow faces
+
+    def test_what_cap_left_open_is_not_sent_to_cap_again(self):
+        model = MODELS / "twisted_band.brep"
+        for option, advice in ((["--cap"], "--cap left openings as they are"), ([], "--cap closes openings in planes")):
+            run = Run("st-import", model, *option, "--farfield", "box:3", cwd=self.folder)
+            self.assertEqual(run.code, 4, run)
+            self.assertIn(advice, run.err.splitlines()[-1])
 
     def test_cap_closes_openings_in_planes_and_says_so(self):
         model = MODELS / "plate_with_hole.brep"

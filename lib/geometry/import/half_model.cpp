@@ -324,16 +324,21 @@ Faces body_faces(const ImportedShape& model, const std::optional<Cut>& cut, bool
   return faces;
 }
 
-void require_free_edges_in_plane(const Faces& faces, const std::optional<Cut>& cut, const std::string& path) {
+void require_free_edges_in_plane(const Faces& faces, const std::optional<Cut>& cut,
+                                 const std::vector<ImportFinding>& findings, const std::string& path) {
   std::vector<TopoDS_Edge> open;
   const std::vector<TopoDS_Edge> all = free_edges(faces);
   for (const TopoDS_Edge& e : all)
     if (!cut || !is_in_plane(e, *cut)) open.push_back(e);
+  const bool was_left = std::any_of(findings.begin(), findings.end(),
+                                    [](const ImportFinding& f) { return f.kind == FindingKind::kOpeningLeft; });
+  const std::string advice = was_left ? "--cap left openings as they are, so close them in the CAD system"
+                                      : std::string("--cap closes openings in planes, the CAD system others") +
+                                            (cut ? "" : ", --symmetry what ends at its plane");
   if (!open.empty())
     throw Error(ExitCode::kGeometry, path + ": the model is open" + (cut ? " away from the symmetry plane" : "") +
-                                         ": " + std::to_string(open.size()) + " free edges at " + places(open) +
-                                         "; --cap closes openings in planes, the CAD system others" +
-                                         (cut ? "" : ", --symmetry what ends at its plane"));
+                                         ": " + std::to_string(open.size()) + " free edges at " + places(open) + "; " +
+                                         advice);
   if (cut && all.empty())
     throw Error(ExitCode::kGeometry,
                 path + ": the model does not touch the symmetry plane; check the axis and the value of --symmetry");
@@ -373,7 +378,7 @@ void make_flow_domain(ImportedShape& model, const Box3& box, double diagonal, co
     keep_one_side(model, *cut, box, findings, path);
   }
   Faces faces = body_faces(model, cut, far.has_value(), findings);
-  require_free_edges_in_plane(faces, cut, path);
+  require_free_edges_in_plane(faces, cut, findings, path);
   const Faces outer = far ? far_faces(*far, box, cut, diagonal) : Faces{};
   Faces border = faces;
   border.insert(border.end(), outer.begin(), outer.end());
