@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "base/boxes.h"
 #include "base/current_work.h"
+#include "geometry/shape/chart_surface.h"
 #include "geometry/shape/composite_surface.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
@@ -177,6 +179,7 @@ class PatchWalk {
  public:
   PatchWalk(const Surface& surface, const LoopPolygons& loops, Visitor& visitor)
       : composite_(dynamic_cast<const CompositeSurface*>(&surface)),
+        stretch_(stretch_of(surface)),
         loops_(loops),
         visitor_(visitor),
         sides_(kMaxSplits + 2) {
@@ -221,17 +224,31 @@ class PatchWalk {
     split(patch, spans.along_u >= spans.along_v);
   }
 
-  /// Places of a composite may jump, between members and beside the patch, by a distance that no split makes smaller;
-  /// its chart has no jumps.
+  static double stretch_of(const Surface& surface) {
+    if (const auto* s = dynamic_cast<const CompositeSurface*>(&surface)) return s->largest_stretch();
+    if (const auto* s = dynamic_cast<const ChartSurface*>(&surface)) return s->largest_stretch();
+    return std::numeric_limits<double>::infinity();
+  }
+
+  /// Places may jump by a distance that no split makes smaller: those of a composite between members and beside the
+  /// patch, those of facets where these overlap in the chart, which is believed once splits have not helped. The chart
+  /// itself has no jumps.
+  bool is_measured_in_chart(const Patch<Probe>& patch) const {
+    constexpr int kSplitsToDoubt = 30;  // 1 / 32,768 of a side of the surface, in each direction
+    return composite_ || patch.n_splits >= kSplitsToDoubt;
+  }
   PatchSize size_of(const Patch<Probe>& patch) const {
     PatchSize size = measure(patch);
-    if (composite_)
-      size.extent = std::min(size.extent, composite_->largest_stretch() * norm(patch.uv(8) - patch.uv(0)));
+    if (is_measured_in_chart(patch)) size.extent = std::min(size.extent, stretch_ * norm(patch.uv(8) - patch.uv(0)));
     return size;
   }
   PatchSpans spans_of(const Patch<Probe>& patch) const {
-    if (composite_) return {patch.u[2] - patch.u[0], patch.v[2] - patch.v[0]};
-    return measure_spans(patch);
+    const PatchSpans in_chart{patch.u[2] - patch.u[0], patch.v[2] - patch.v[0]};
+    if (composite_) return in_chart;
+    const PatchSpans in_space = measure_spans(patch);
+    const bool jumps = is_measured_in_chart(patch) && std::max(in_space.along_u, in_space.along_v) >
+                                                          2 * stretch_ * std::max(in_chart.along_u, in_chart.along_v);
+    return jumps ? in_chart : in_space;
   }
 
   void split(const Patch<Probe>& patch, bool along_u) {
@@ -313,6 +330,7 @@ class PatchWalk {
   }
 
   const CompositeSurface* const composite_;  // null for all others
+  const double stretch_;                     // in space over the chart at most; infinite where nothing is known
   const LoopPolygons& loops_;
   Visitor& visitor_;
   std::vector<std::vector<std::int32_t>> sides_;  // all; then by depth, of the patches on the way down

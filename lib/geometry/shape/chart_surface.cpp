@@ -18,6 +18,8 @@ namespace {
 // side of a thin wing is further away there.
 constexpr double kReach = 4;
 
+constexpr double kNeedle = 1e-3;  // height of a triangle over its longest side: flatter ones have no plane
+
 Vec3 flat(Vec2 p) { return {p.x, p.y, 0}; }
 
 double segment_distance2(Vec2 p, Vec2 a, Vec2 b) {
@@ -32,7 +34,21 @@ std::array<double, 3> barycentric(Vec2 p, Vec2 a, Vec2 b, Vec2 c) {
   return {1 - second - third, second, third};
 }
 
+bool is_needle(const Chart& c, const Corners& n) {
+  const Vec3 a = c.x[n[1]] - c.x[n[0]], b = c.x[n[2]] - c.x[n[0]];
+  return norm(cross(a, b)) <= kNeedle * std::max({norm2(a), norm2(b), norm2(b - a)});
+}
+
 }  // namespace
+
+double stretch(const Chart& c, const Corners& n) {
+  const Vec2 p = c.uv[n[1]] - c.uv[n[0]], q = c.uv[n[2]] - c.uv[n[0]];
+  const Vec3 x = c.x[n[1]] - c.x[n[0]], y = c.x[n[2]] - c.x[n[0]];
+  const double det = cross(p, q);
+  const Vec3 du = (q.y * x - p.y * y) / det, dv = (p.x * y - q.x * x) / det;
+  const double half = 0.5 * (norm2(du) + norm2(dv)), off = 0.5 * (norm2(du) - norm2(dv));
+  return std::sqrt(half + std::hypot(off, dot(du, dv)));
+}
 
 struct ChartSurface::Data {
   explicit Data(Chart c) : chart(std::move(c)), bend(chart.x.size(), Eigen::Matrix3d::Zero()) {
@@ -49,6 +65,8 @@ struct ChartSurface::Data {
     space_tree = BoxTree(in_space);
     neighbours = find_neighbours(chart.corners);
     for (const Vec2 p : chart.uv) bounds.add(p);
+    for (const Corners& t : chart.corners)
+      if (!is_needle(chart, t)) largest_stretch = std::max(largest_stretch, stretch(chart, t));
     find_bend();
     find_seeds();
   }
@@ -161,6 +179,7 @@ struct ChartSurface::Data {
   Box2 bounds;                      ///< of (u,v)
   std::int32_t n_cells = 1;         ///< along each axis
   std::vector<std::int32_t> seeds;  ///< [n_cells^2] where walks begin
+  double largest_stretch = 0;
 };
 
 ChartSurface::ChartSurface(Chart chart) : ChartSurface(std::make_shared<const Data>(std::move(chart))) {}
@@ -177,6 +196,8 @@ ChartSurface::ChartSurface(std::shared_ptr<const Data> data) : data_(std::move(d
 ChartSurface::~ChartSurface() = default;
 
 std::unique_ptr<Surface> ChartSurface::copy() const { return std::unique_ptr<Surface>(new ChartSurface(data_)); }
+
+double ChartSurface::largest_stretch() const { return data_->largest_stretch; }
 
 ChartSurface::Place ChartSurface::locate(Vec2 p) const {
   Place place{data_->seed(p), {}};

@@ -18,6 +18,9 @@ struct Chart {
   std::vector<Corners> corners;  ///< [n_triangles] counter-clockwise seen from outside
 };
 
+/// The larger singular value of the map of a chart's triangle into space.
+double stretch(const Chart& c, const Corners& n);
+
 /// x(u,v) on the flat facets: in each triangle the affine map of its corners. evaluate() is exact there, and its
 /// derivatives jump between triangles. Outside the patch its nearest point in the plane stands for (u,v).
 /// evaluate2() is of the surface that the facets stand for, at the same place: tangents across the normal between the
@@ -42,6 +45,10 @@ class ChartSurface final : public Surface {
     std::array<double, 3> weight{};
   };
   Place locate(Vec2 uv) const;
+
+  /// No way inside a triangle is longer in space than so many times the way in (u,v); but for needles, whose plane is
+  /// none of the patch's.
+  double largest_stretch() const;
 
  private:
   struct Data;

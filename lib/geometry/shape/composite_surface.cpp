@@ -22,20 +22,6 @@ AffineMap::AffineMap(const std::array<Vec2, 3>& places, const std::array<Vec2, 3
   along_v = (1 / det) * (a.x * y - b.x * x);
 }
 
-namespace {
-
-/// The larger singular value of the map of a chart's triangle into space.
-double stretch(const Chart& c, const Corners& n) {
-  const Vec2 p = c.uv[n[1]] - c.uv[n[0]], q = c.uv[n[2]] - c.uv[n[0]];
-  const Vec3 x = c.x[n[1]] - c.x[n[0]], y = c.x[n[2]] - c.x[n[0]];
-  const double det = cross(p, q);
-  const Vec3 du = (q.y * x - p.y * y) / det, dv = (p.x * y - q.x * x) / det;
-  const double half = 0.5 * (norm2(du) + norm2(dv)), off = 0.5 * (norm2(du) - norm2(dv));
-  return std::sqrt(half + std::hypot(off, dot(du, dv)));
-}
-
-}  // namespace
-
 struct CompositeSurface::Data {
   Data(Chart c, CompositeSupport support) : corner_uv(std::move(support.corner_uv)), member(std::move(support.member)) {
     ST_ASSERT(member.size() == c.corners.size() && corner_uv.size() == c.corners.size());

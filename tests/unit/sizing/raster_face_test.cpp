@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "geometry/shape/analytic.h"
+#include "geometry/shape/chart_surface.h"
 #include "geometry/shape/composite_surface.h"
 #include "sizing/cones.h"
 #include "sizing/patch_walk.h"
@@ -386,6 +388,16 @@ TEST(RasterFace, places_that_jump_between_members_of_a_composite_are_not_split_w
   const Sampling flat = sample(kinked_composite(0, 0), {}, limits),
                  jumping = sample(kinked_composite(0, 0.2), {}, limits);
   EXPECT_LE(jumping.boxes.size(), flat.boxes.size() + flat.boxes.size() / 10);
+}
+
+/// Beside facets the nearest place jumps from one to the other, on a slanting line that splits never leave.
+TEST(RasterFace, places_that_jump_between_facets_are_not_split_without_end) {
+  Chart chart;
+  chart.uv = {{0, 0}, {1, 0}, {0, 1}, {4, 4}, {3, 4}, {4, 3}};
+  for (const Vec2 p : chart.uv) chart.x.push_back({p.x, p.y, 0});
+  chart.normal.assign(chart.x.size(), {0, 0, 1});
+  chart.corners = {{0, 1, 2}, {3, 4, 5}};
+  EXPECT_LT(sample(ChartSurface(std::move(chart))).report.n_evaluations, 10'000'000);
 }
 
 }  // namespace
