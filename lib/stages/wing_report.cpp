@@ -8,6 +8,7 @@
 
 #include "base/length.h"
 #include "base/sort_once.h"
+#include "base/text.h"
 #include "features/station_gaps.h"
 
 namespace st {
@@ -132,11 +133,13 @@ std::string unused_warning(std::span<const UnusedTrailing> unused, double refere
   }
   if (edges.empty()) return "";
   std::sort(edges.begin(), edges.end());
+  const bool is_one = edges.size() == 1;
   return fmt::format(
-      "{} trailing edges, {:.4g}{} long, belong to no lifting surface and get the lengths of other edges; if they are "
-      "a "
-      "wing's, say so in a file for --sizes: {}",
-      edges.size(), length, in_unit(unit), rule_for(edges, "trailing_edge = true"));
+      "{}, {:.4g}{} long, {} to no lifting surface and {} the lengths of other edges; if {} a wing's, say so in a file "
+      "for --sizes: {}",
+      counted(static_cast<std::int64_t>(edges.size()), "trailing edge"), length, in_unit(unit),
+      is_one ? "belongs" : "belong", is_one ? "gets" : "get", is_one ? "it is" : "they are",
+      rule_for(edges, "trailing_edge = true"));
 }
 
 nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
@@ -149,19 +152,23 @@ nlohmann::json unused_json(std::span<const UnusedTrailing> unused) {
 std::string wing_line(const LiftingSurface& wing, const std::string& edge_size, const std::string& unit) {
   const std::string own_unit = in_unit(unit);
   const std::vector<ChordEdge>& edges = wing.edges();
-  const char* kind = wing.trailing.empty() ? "leading edges" : "trailing edges";
-  return fmt::format(
-      "  lifting surface{}: {} {} from edge {} on, {}, span {:.4g}{}, chord {:.4g} to {:.4g}{}; {} along {}",
-      wing.is_declared ? " by a rule" : "", edges.size(),
-      edges.front().is_inside ? "trailing edges inside faces, beside edges" : kind, edges.front().edge + 1,
-      wing.is_round   ? "round"
-      : wing.is_blunt ? "blunt"
-                      : "sharp",
-      wing.span, own_unit, wing.least_chord, wing.largest_chord, own_unit, edge_size,
-      wing.has_noses ? wing.covered() < 1 - kShortStretch
-                           ? fmt::format("edge and nose, which is seen on {:.0f} %", 100 * wing.covered())
-                           : "edge and nose"
-                     : "the edge, no nose is seen");
+  const std::string kind = wing.trailing.empty() ? "leading edge" : "trailing edge";
+  const std::string inside = edges.front().is_inside ? " inside faces, beside edge" : "";
+  const int first = edges.front().edge + 1;
+  const std::string which = edges.size() == 1 ? fmt::format("{}{} {}", kind, inside, first)
+                                              : fmt::format("{} {}s{} from edge {} on", edges.size(), kind,
+                                                            inside.empty() ? "" : inside + "s", first);
+  return fmt::format("  lifting surface{}: {}, {}, span {:.4g}{}, chord {:.4g} to {:.4g}{}; {} along {}",
+                     wing.is_declared ? " by a rule" : "", which,
+                     wing.is_round   ? "round"
+                     : wing.is_blunt ? "blunt"
+                                     : "sharp",
+                     wing.span, own_unit, wing.least_chord, wing.largest_chord, own_unit, edge_size,
+                     wing.has_noses
+                         ? wing.covered() < 1 - kShortStretch
+                               ? fmt::format("edge and nose, which is seen on {:.0f} %", 100 * wing.covered())
+                               : "edge and nose"
+                         : "the edge, no nose is seen");
 }
 
 std::string sheet_warning(std::span<const EdgeId> free_edges) {
