@@ -476,7 +476,8 @@ class SurfaceMeasurer {
     return way;
   }
 
-  /// Cut square to the axis of the model that shows most; square to the edge only where that shows clearly more.
+  /// Cut square to the axis of the model that shows most; square to the line along the chain, or to the edge, only
+  /// where that shows clearly more.
   std::vector<std::optional<Profile>> profiles_along(std::span<const EdgePlace> places, const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
     double longest = -1;
@@ -485,7 +486,8 @@ class SurfaceMeasurer {
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
       const double on_itself = way_with_own_nose(places, own), way = measured_way(places, own) - kLens * on_itself;
-      if (way <= (axis ? 1.0 : kClearlyMore) * longest) continue;
+      const bool is_axis = axis && norm2(*axis - along_) > 0;
+      if (way <= (is_axis ? 1.0 : kClearlyMore) * longest) continue;
       longest = way;
       best_axis = axis;
       best = std::move(own);

@@ -87,8 +87,7 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   });
   SurfaceMesh mesh = joined(topology.tables(), result);
   BlankSurface surface{std::move(mesh.node_xyz), std::move(mesh.triangles), BlankSide::kInside};
-  if (std::find(roles.role.begin(), roles.role.end(), FaceRole::kFarfield) != roles.role.end())
-    surface.side = BlankSide::kOutside;
+  if (roles.is_passage || std::ranges::count(roles.role, FaceRole::kFarfield) > 0) surface.side = BlankSide::kOutside;
   return surface;
 }
 

@@ -176,6 +176,15 @@ class WingShapes(ToolTest):
             said = must("st-info", self.folder / "sizing.hdf", "--at", place).out
             self.assertAlmostEqual(float(said.split("length ")[1].split()[0]), 0.01 / 8, delta=2e-5)
 
+    def test_lengths_of_a_vane_grow_through_the_air_of_its_passage(self):
+        model, geometry = self.folder / "tunnel_wing.brep", self.folder / "geometry.hdf"
+        subprocess.run([WING_MODELS, "tunnel_wing", model], check=True, capture_output=True, timeout=100)
+        must("st-import", model, "-o", geometry)
+        must("st-raster", geometry, "-o", self.folder / "raster.hdf", "--preset", "euler")
+        must("st-prolong", self.folder / "raster.hdf", "--preset", "euler", "-o", self.folder / "sizing.hdf")
+        said = must("st-info", self.folder / "sizing.hdf", "--at", "0.99,2,0.00144").out  # 1 % of the chord before it
+        self.assertLess(float(said.split("length ")[1].split()[0]), 0.0052)  # 0.003 at the edge, slope 0.2
+
     def test_edges_of_coves_and_slats_are_warned_of(self):
         for name, spans, edges in (("gapped_aileron", [2.7, 1.28], "3, 8"), ("fixed_slat", [4], "4")):
             (self.folder / "geometry.hdf").unlink(missing_ok=True)
