@@ -203,6 +203,7 @@ class FinderMemory {
 /// How a chain is cut; lengths in the model unit.
 struct CutRules {
   std::vector<Vec3> normals;  // of the planes: the first of equally good ones
+  std::size_t n_axes = 0;     // of these, those of the model; after them comes the line along the chain
   Vec3 along;                 // from end to end of the chain, unit
   std::vector<EdgeId> rims;   // edges of the chain on planes across that
   double reach = 0;           // how far from a place the cut may begin
@@ -216,6 +217,7 @@ class SurfaceMeasurer {
       : model_(model),
         cutter_(cutter),
         normals_(rules.normals),
+        n_axes_(rules.n_axes),
         along_(rules.along),
         rims_(rules.rims),
         reach_(rules.reach),
@@ -486,7 +488,7 @@ class SurfaceMeasurer {
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
       const double on_itself = way_with_own_nose(places, own), way = measured_way(places, own) - kLens * on_itself;
-      const bool is_axis = axis && norm2(*axis - along_) > 0;
+      const bool is_axis = k < n_axes_;
       if (way <= (is_axis ? 1.0 : kClearlyMore) * longest) continue;
       longest = way;
       best_axis = axis;
@@ -758,6 +760,7 @@ class SurfaceMeasurer {
   const Model& model_;
   const ProfileCutter& cutter_;
   const std::vector<Vec3> normals_;
+  const std::size_t n_axes_;
   const Vec3 along_;
   const std::vector<EdgeId> rims_;
   const double reach_, diagonal_;
@@ -1043,8 +1046,7 @@ class SurfaceFinder {
   }
 
   /// The model's axes, and before them the normals of plane faces in which a chain ends, as tips and roots are, where
-  /// no axis is near: those of a delta may run along its nose. After them the line along the chain: blades stand around
-  /// a hub at any angle.
+  /// no axis is near: those of a delta may run along its nose.
   std::vector<Vec3> cut_normals(const std::vector<WingEdge>& chain) {
     std::vector<Vec3> normals;
     const auto is_near = [](Vec3 a, Vec3 b) { return std::abs(dot(a, b)) > kNearAxis; };
@@ -1055,9 +1057,6 @@ class SurfaceFinder {
     for (const FaceId f : planes_at_ends(chain))
       if (const Vec3 n = MirrorPlane(model_, f).normal; !is_known(n)) normals.push_back(n);
     normals.insert(normals.end(), roles_.own.axis.begin(), roles_.own.axis.end());
-    const Vec3 along = direction_of(chain);
-    const auto is_same = [&](Vec3 n) { return std::abs(dot(n, along)) > kSameDirection; };
-    if (norm2(along) > 0 && std::ranges::none_of(normals, is_same)) normals.push_back(along);
     return normals;
   }
 
@@ -1163,14 +1162,23 @@ class SurfaceFinder {
     add_leading(model_, edges_, surfaces_.back());
   }
 
+  /// Planes are square to axes, and to the line along the chain: blades stand around a hub at any angle.
+  CutRules rules_for(const std::vector<WingEdge>& chain, double reach) {
+    CutRules rules{.normals = cut_normals(chain),
+                   .along = direction_of(chain),
+                   .rims = rims_of(chain),
+                   .reach = reach,
+                   .diagonal = roles_.reference_diagonal,
+                   .line = ChainLine(places_along(model_, chain))};
+    rules.n_axes = rules.normals.size();
+    const auto is_same = [&](Vec3 n) { return std::abs(dot(n, rules.along)) > kSameDirection; };
+    if (norm2(rules.along) > 0 && std::ranges::none_of(rules.normals, is_same)) rules.normals.push_back(rules.along);
+    return rules;
+  }
+
   std::optional<LiftingSurface> surface_at(const std::vector<WingEdge>& chain, const ProfileCutter& cutter,
                                            double reach, Reason& why) {
-    const CutRules rules{cut_normals(chain),
-                         direction_of(chain),
-                         rims_of(chain),
-                         reach,
-                         roles_.reference_diagonal,
-                         ChainLine(places_along(model_, chain))};
+    const CutRules rules = rules_for(chain, reach);
     const SurfaceMeasurer measurer(model_, cutter, rules);
     std::optional<SurfaceDraft> draft = measurer.find(chain, why);
     std::optional<LiftingSurface> surface;

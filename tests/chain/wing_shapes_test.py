@@ -122,6 +122,12 @@ SPANS = {
     "foil_with_pods": [0.91, 0.91, 0.91, 0.91],
     "drooped_foil": [1.41, 1.41, 1.09],
     "loop_propeller": [1.95, 1.95],
+    "forward_swept_wing": [3.38],  # its base has a kink
+    "root_strip_wing": [4],
+    "ogive_strake": [1.9, 1.9],  # from the body on
+    "bowed_vane_air": [0.45],  # leans, and turns by 20 degrees, within 0.4
+    "curved_cut_wing": [4],
+    "paddle_blade": [0.85],
 }
 # Noses before slots and flaps, where the trailing edge is another part's or none.
 NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing": 0.36, "gapped_aileron": 1.3,
@@ -168,6 +174,10 @@ class WingShapes(ToolTest):
             wing = max(self.raster(name, "rans").json()["lifting_surfaces"], key=lambda wing: wing["span"])
             at = max(abs(station["nose"][1]) for station in wing["stations"])  # of 4
             self.assertGreater(at, 4 - 1e-3 * wing["chord"][1], name)
+
+    def test_noses_of_a_swept_tip_are_not_on_the_tip(self):
+        (wing,) = self.raster("c_wing", "euler").json()["lifting_surfaces"]
+        self.assertGreater(wing["chord"][0], 0.95 * 0.3)  # of its tip
 
     def test_eight_lengths_are_across_a_slot_of_a_quarter_per_cent_of_the_model(self):
         self.raster("gapped_aileron", "rans")

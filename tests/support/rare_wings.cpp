@@ -1,5 +1,6 @@
 #include "rare_wings.h"
 
+#include <BRepAlgoAPI_Section.hxx>
 #include <BRepAlgoAPI_Splitter.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
@@ -214,6 +215,64 @@ TopoDS_Shape duct_on_struts() {
                                   {straight(gp_Pnt(0.15, 0, 0), 0.2, 90), straight(gp_Pnt(0.15, 0, 0.6), 0.2, 90)});
   for (int i = 0; i < 4; ++i) all = fuse(all, turned(strut, gp::DX(), M_PI / 2 * i));
   return all;
+}
+
+/// Its base has a kink, and tapers with the chord.
+TopoDS_Shape forward_swept_wing() {
+  return loft({.base = 0.008, .tail = Tail::kBlunt},
+              {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(-0.35, 1.2, 0), 0.7), straight(gp_Pnt(-1, 3, 0.1), 0.45)});
+}
+
+/// A strip along the root is thicker and longer than the wing.
+TopoDS_Shape root_strip_wing() {
+  return loft({{{.thickness = 0.18}, straight(gp_Pnt(-0.08, 0, 0), 1.08)},
+               {{.thickness = 0.14}, straight(gp_Pnt(-0.02, 0.05, 0), 1.02)},
+               {{.thickness = 0.12}, straight(gp_Pnt(0, 0.12, 0), 1)},
+               {{.thickness = 0.12}, straight(gp_Pnt(0, 4, 0), 1)}});
+}
+
+/// Wings whose noses run on into strakes along a body.
+TopoDS_Shape ogive_strake() {
+  const auto f = [](double x, double y) { return straight(gp_Pnt(x, y, 0), 5 - x); };
+  const auto half =
+      loft({.thickness = 0.04}, {f(0.8, 0), f(1.3, 0.35), f(2.3, 0.5), f(3, 0.7), f(3.4, 1), f(4.4, 2.2)});
+  return fuse_all({fuselage({{0, 0}, {0.8, 0.25}, {1.5, 0.3}, {6, 0.3}}), half, mirrored(half)});
+}
+
+/// The air around a vane that leans and turns from wall to wall.
+TopoDS_Shape bowed_vane_air() {
+  std::vector<Frame> frames;
+  for (int i = 0; i <= 6; ++i) {
+    const double z = -0.1 + 0.1 * i, s = (z - 0.2) / 0.2;
+    frames.push_back(straight(gp_Pnt(0, 0.05 * s * s, z), 1, 90, 10 * s));
+  }
+  const Foil foil{.thickness = 0.14, .base = 0.012, .camber = 0.06, .tail = Tail::kBlunt};
+  return cut(box(-0.6, -0.6, 0, 2.2, 1.2, 0.4), loft(foil, frames, false));
+}
+
+/// A curved line about at 30 % of its chord cuts both sides.
+TopoDS_Shape curved_cut_wing() {
+  const TopoDS_Shape wing = wing_of_four({});
+  const auto arc = GC_MakeArcOfCircle(gp_Pnt(0.3, -0.1, -1), gp_Pnt(0.36, 2, -1), gp_Pnt(0.28, 4.1, -1)).Value();
+  const TopoDS_Shape wall = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeEdge(arc).Edge(), gp_Vec(0, 0, 2)).Shape();
+  TopTools_ListOfShape arguments, tools;
+  arguments.Append(wing);
+  tools.Append(BRepAlgoAPI_Section(wing, wall).Shape());
+  BRepAlgoAPI_Splitter splitter;
+  splitter.SetArguments(arguments);
+  splitter.SetTools(tools);
+  splitter.Build();
+  return splitter.Shape();
+}
+
+/// Its tip is wider than the blade, then swept to a point that droops.
+TopoDS_Shape paddle_blade() {
+  const auto f = [](double x, double y, double c, double droop) {
+    return straight(gp_Pnt(x, y, -droop), c, 0, 6 - 6 * y);
+  };
+  return loft({.thickness = 0.11},
+              {f(0, 0.15, 0.08, 0), f(0, 0.8, 0.08, 0), f(-0.02, 0.84, 0.105, 0), f(-0.015, 0.9, 0.105, 0.002),
+               f(0.03, 0.98, 0.06, 0.008), f(0.06, 1, 0.025, 0.012)});
 }
 
 /// Two blades that are loops from the hub to the hub.
@@ -500,6 +559,12 @@ const Makers& rare_models() {
                           {"duct_on_struts", duct_on_struts},
                           {"loop_propeller", loop_propeller},
                           {"half_blunt", half_blunt},
+                          {"forward_swept_wing", forward_swept_wing},
+                          {"root_strip_wing", root_strip_wing},
+                          {"ogive_strake", ogive_strake},
+                          {"bowed_vane_air", bowed_vane_air},
+                          {"curved_cut_wing", curved_cut_wing},
+                          {"paddle_blade", paddle_blade},
                           {"iced_wing", iced_wing},
                           {"rimed_wing", rimed_wing},
                           {"canards_and_y_tail", canards_and_y_tail},
