@@ -1,13 +1,25 @@
 #include "stages/carried_composites.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <map>
 #include <utility>
 
 #include "base/sort_once.h"
+#include "geometry/model/edit_model.h"
 
 namespace st {
 namespace {
+
+/// Parameters of an edge whose range was `from` and is `to`: a line's grow where it is scaled, a circle's do not.
+std::vector<double> stretched(std::span<const double> t, const double* from, const double* to) {
+  std::vector<double> all(t.begin(), t.end());
+  if (from[0] != to[0] || from[1] != to[1])
+    for (double& x : all) x = std::lerp(to[0], to[1], (x - from[0]) / (from[1] - from[0]));
+  return all;
+}
 
 /// Ids of one input in the result, kNone: gone.
 std::vector<std::int32_t> places_of(const std::vector<Origin>& origins, std::int32_t input, std::int32_t n) {
@@ -19,8 +31,12 @@ std::vector<std::int32_t> places_of(const std::vector<Origin>& origins, std::int
 
 class Carrier {
  public:
-  Carrier(const EditTrace& trace, const ModelTables& result, std::span<const Similarity> motion)
-      : trace_(trace), t_(result), motion_(motion), is_joined_(static_cast<std::size_t>(t_.n_edges()), 0) {}
+  Carrier(const EditTrace& trace, const Model& result, std::span<const Similarity> motion)
+      : trace_(trace),
+        result_(result),
+        t_(result.tables()),
+        motion_(motion),
+        is_joined_(static_cast<std::size_t>(t_.n_edges()), 0) {}
 
   /// Returns how many composites stay behind.
   int carry(const JoinedInput& input, std::int32_t number) {
@@ -58,7 +74,7 @@ class Carrier {
 
  private:
   struct Rim {
-    std::span<const double> t;
+    std::vector<double> t;
     std::span<const std::int32_t> node, triangle;
   };
 
@@ -69,7 +85,7 @@ class Carrier {
       if (f == kNone || f < before || !has_same_coedges(cad, m, f)) return false;
       before = f;
       const Similarity& motion = motion_[static_cast<std::size_t>(f)];
-      if (motion.is_mirrored() || motion.scale != 1 ||
+      if (motion.is_mirrored() ||
           !(motion == motion_[static_cast<std::size_t>(face_[static_cast<std::size_t>(members.front())])]))
         return false;
     }
@@ -84,8 +100,10 @@ class Carrier {
   void add(const ModelTables& cad, const Composites& c, std::int32_t i) {
     const auto place = [&](FaceId m) { return face_[static_cast<std::size_t>(m)]; };
     const Similarity& motion = motion_[static_cast<std::size_t>(place(c.members(i).front()))];
+    std::map<FaceId, Vec2> growth_of;  // of (u,v) of the members
     for (const FaceId m : c.members(i)) {
       out_.member.push_back(place(m));
+      growth_of[m] = motion.scale == 1 ? Vec2{1, 1} : parameter_growth(result_, place(m), motion.scale);
       for (std::int32_t k = 0; k < cad.coedges(m).size(); ++k)
         add_coedge(cad, c, cad.coedges(m).first() + k, t_.coedges(place(m)).first() + k);
     }
@@ -93,18 +111,20 @@ class Carrier {
     for (auto n = static_cast<std::size_t>(c.node_offsets[i]); n < static_cast<std::size_t>(c.node_offsets[i + 1]);
          ++n) {
       out_.node_xyz.push_back(motion(c.node_xyz[n]));
-      out_.node_uv.push_back(c.node_uv[n]);
+      out_.node_uv.push_back(motion.scale * c.node_uv[n]);
     }
     out_.node_offsets.push_back(static_cast<std::int32_t>(out_.node_xyz.size()));
     for (auto t = static_cast<std::size_t>(c.triangle_offsets[i]);
          t < static_cast<std::size_t>(c.triangle_offsets[i + 1]); ++t) {
       out_.triangle_nodes.push_back(c.triangle_nodes[t]);
       out_.triangle_face.push_back(place(c.triangle_face[t]));
-      out_.triangle_uv.push_back(c.triangle_uv[t]);
+      std::array<Vec2, 3>& uv = out_.triangle_uv.emplace_back(c.triangle_uv[t]);
+      const Vec2 growth = growth_of.at(c.triangle_face[t]);
+      for (Vec2& p : uv) p = {growth.x * p.x, growth.y * p.y};
     }
     out_.triangle_offsets.push_back(static_cast<std::int32_t>(out_.triangle_nodes.size()));
-    const auto bounds = c.uv_bounds.begin() + 4 * i;
-    out_.uv_bounds.insert(out_.uv_bounds.end(), bounds, bounds + 4);
+    for (std::size_t k = 0; k < 4; ++k)
+      out_.uv_bounds.push_back(motion.scale * c.uv_bounds[4 * static_cast<std::size_t>(i) + k]);
   }
 
   /// `old` of the input became `now`: its edge is joined, or its rim goes with it.
@@ -119,8 +139,10 @@ class Carrier {
     if (row >= c.rim_coedge.size() || c.rim_coedge[row] != old) return;  // a pole
     const auto first = static_cast<std::size_t>(c.rim_offsets[row]),
                n = static_cast<std::size_t>(c.rim_offsets[row + 1]) - first;
-    rims_.emplace_back(now, Rim{std::span(c.rim_t).subspan(first, n), std::span(c.rim_node).subspan(first, n),
-                                std::span(c.rim_triangle).subspan(first, n)});
+    rims_.emplace_back(
+        now, Rim{stretched(std::span(c.rim_t).subspan(first, n), &cad.edge_range[2 * static_cast<std::size_t>(e)],
+                           &t_.edge_range[2 * static_cast<std::size_t>(edge_[static_cast<std::size_t>(e)])]),
+                 std::span(c.rim_node).subspan(first, n), std::span(c.rim_triangle).subspan(first, n)});
   }
 
   /// Where two edges are left, which go on as one.
@@ -137,6 +159,7 @@ class Carrier {
   }
 
   const EditTrace& trace_;
+  const Model& result_;
   const ModelTables& t_;
   std::span<const Similarity> motion_;
   std::vector<FaceId> face_;  // of the input's, where they are
@@ -149,7 +172,7 @@ class Carrier {
 
 }  // namespace
 
-Composites carry_composites(std::span<const JoinedInput> inputs, const EditTrace& trace, const ModelTables& result,
+Composites carry_composites(std::span<const JoinedInput> inputs, const EditTrace& trace, const Model& result,
                             std::span<const Similarity> motion, int& n_left) {
   Carrier carrier(trace, result, motion);
   n_left = 0;

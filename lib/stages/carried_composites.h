@@ -17,9 +17,10 @@ struct JoinedInput {
   Composites composites;
 };
 
-/// Composites whose faces are all in `result` and moved alike, neither mirrored nor scaled; their charts move with
-/// them, (u,v) stay. `motion`: [n_faces] of the result. `n_left`: how many are not carried, whose faces are apart.
-Composites carry_composites(std::span<const JoinedInput> inputs, const EditTrace& trace, const ModelTables& result,
+/// Composites whose faces are all in `result` and moved alike and are not mirrored; their charts move with them,
+/// and (u,v) grow where they are scaled. `motion`: [n_faces] of the result. `n_left`: how many are not carried, whose
+/// faces are apart.
+Composites carry_composites(std::span<const JoinedInput> inputs, const EditTrace& trace, const Model& result,
                             std::span<const Similarity> motion, int& n_left);
 
 }  // namespace st

@@ -350,11 +350,11 @@ std::string write(const EditStageOptions& o, const EditInputs& inputs, const Edi
   g.previous_edges = previous_ids(e.trace.edges);
   g.previous_vertices = previous_ids(e.trace.vertices);
   int n_left = 0;
-  g.composites = carry_composites(inputs.joined, e.trace, g.tables, e.motion, n_left);
+  g.composites = carry_composites(inputs.joined, e.trace, e.model, e.motion, n_left);
   if (n_left > 0)
     log_report(
-        fmt::format("  {} unions of joined faces are apart: some of their faces are gone, were scaled or "
-                    "mirrored, or moved on their own",
+        fmt::format("  {} unions of joined faces are apart: some of their faces are gone, were mirrored, or "
+                    "moved on their own",
                     n_left));
   if (!g.composites.empty()) g.cad = std::exchange(g.tables, join_tables(g.tables, g.composites).tables);
   return write_geometry(o.output, g);

@@ -143,13 +143,29 @@ class Composite(ToolTest):
         must("st-remesh", folder / "mesh.hdf", folder / "moved.hdf", folder / "s.hdf", "--moved", "--merged",
              folder / "n.hdf")
         self.assertEqual(Run("st-check", folder / "n.hdf", "--geometry", folder / "moved.hdf").code, OK)
-        run = must("st-edit", folder / "geometry.hdf", "-o", folder / "large.hdf", "--transform", "scale 2")
-        self.assertIn("are apart", run.err + run.out)
-        self.assertNotIn("joined", must("st-info", folder / "large.hdf", "--json").json())
+
+    def test_edits_keep_unions_that_are_scaled(self):
+        folder = self.chain()
+        must("st-edit", folder / "geometry.hdf", "-o", folder / "large.hdf", "--transform",
+             "scale 2.5; rotate 0 1 1 20; translate 1 2 3")
+        before, after = (must("st-info", folder / f, "--json").json()["joined"] for f in ("geometry.hdf", "large.hdf"))
+        self.assertEqual(before, after)
         must("st-raster", folder / "large.hdf", "-o", folder / "r.hdf")
         must("st-prolong", folder / "r.hdf", "-o", folder / "s.hdf")
-        run = Run("st-remesh", folder / "mesh.hdf", folder / "large.hdf", folder / "s.hdf", "--moved", "--merged",
-                  folder / "large_mesh.hdf")
+        run = must("st-remesh", folder / "mesh.hdf", folder / "large.hdf", folder / "s.hdf", "--moved",
+                   "--keep-connectivity", "--merged", folder / "n.hdf", "--json")
+        self.assertEqual(run.json()["triangles_redone"], 0)
+        self.assertEqual(Run("st-check", folder / "n.hdf", "--geometry", folder / "large.hdf").code, OK)
+
+    def test_a_mesh_is_not_put_onto_other_unions(self):
+        folder = self.chain()
+        run = must("st-edit", folder / "geometry.hdf", "-o", folder / "other.hdf", "--transform", "mirror 0 1 0")
+        self.assertIn("are apart", run.err + run.out)
+        self.assertNotIn("joined", must("st-info", folder / "other.hdf", "--json").json())
+        must("st-raster", folder / "other.hdf", "-o", folder / "r.hdf")
+        must("st-prolong", folder / "r.hdf", "-o", folder / "s.hdf")
+        run = Run("st-remesh", folder / "mesh.hdf", folder / "other.hdf", folder / "s.hdf", "--moved", "--merged",
+                  folder / "other_mesh.hdf")
         self.assertEqual(run.code, MISMATCH, run)
         self.assertIn("--composite none", run.err)
 

@@ -1,13 +1,17 @@
 #include "geometry/model/edit_model.h"
 
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom_Surface.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_GTrsf2d.hxx>
 #include <numeric>
 #include <string>
 
@@ -226,6 +230,15 @@ Model transform(const Model& model, const Similarity& motion) {
   out.unit_in_m = t.unit_in_m;
   if (t.volume) out.volume = *t.volume * std::pow(motion.scale, 3);
   return Model(std::move(out), occt::brep_bytes(moved.shape));
+}
+
+Vec2 parameter_growth(const Model& model, FaceId f, double scale) {
+  Similarity motion;
+  motion.scale = scale;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(TopoDS::Face(ModelEditor::brep(model).faces(f + 1)));
+  gp_XY growth(1, 1);
+  surface->ParametricTransformation(trsf_of(motion)).Transforms(growth);
+  return {growth.X(), growth.Y()};
 }
 
 SubModel transform_faces(const Model& model, std::span<const FaceId> wanted, const Similarity& motion) {

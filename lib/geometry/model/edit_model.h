@@ -26,6 +26,10 @@ SubModel extract(const Model& model, std::span<const FaceId> faces);
 /// The model moved; ids, names and groups stay, normals point out of the solids as before. Throws Error(kGeometry).
 Model transform(const Model& model, const Similarity& motion);
 
+/// By how much u and v of a face of `model` grow where it is scaled: both of a plane, v of a cylinder, none of a
+/// B-spline.
+Vec2 parameter_growth(const Model& model, FaceId f, double scale);
+
 /// Some faces moved, the others as they are: ids, names and groups stay. Volume: that of `model` unless the motion
 /// scales. Throws Error(kUsage) for faces as extract() does, Error(kGeometry) for faces that share edges or vertices
 /// with others, which would tear.
