@@ -189,10 +189,7 @@ std::string run_of(const ArtifactHeader& output, const EdgeMesh& earlier, const 
 std::unique_ptr<SizeField> make_common_field(const SizeField& field, const Mirror& mirror, const PeriodicPairs& pairs,
                                              const ModelTables& t) {
   if (!mirror.empty()) return std::make_unique<MirroredField>(field, mirror);
-  if (pairs.empty()) return nullptr;
-  std::vector<PairedRegion> regions;
-  for (const FacePair& p : pairs.pairs()) regions.push_back({t.face_box[p.a], t.face_box[p.b], p.motion});
-  return std::make_unique<PairedField>(field, std::move(regions), kSamePlace * t.box().diagonal());
+  return make_paired_field(field, pairs, t);
 }
 
 /// Where noses and trailing edges of lifting surfaces are coarser than was asked for.

@@ -6,8 +6,10 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "geometry/model/sameness.h"
 #include "io/toml/pair_file.h"
 #include "meshing/topology/pair_search.h"
+#include "sizing/paired_field.h"
 
 namespace st {
 namespace {
@@ -54,6 +56,13 @@ PeriodicPairs read_pairs(const std::string& option, const Model& model) {
   PeriodicPairs pairs(model, option == "auto" ? find_pairs(model) : pairs_of_file(option, model.tables()));
   tell(model.tables(), pairs.pairs());
   return pairs;
+}
+
+std::unique_ptr<SizeField> make_paired_field(const SizeField& field, const PeriodicPairs& pairs, const ModelTables& t) {
+  if (pairs.empty()) return nullptr;
+  std::vector<PairedRegion> regions;
+  for (const FacePair& p : pairs.pairs()) regions.push_back({t.face_box[p.a], t.face_box[p.b], p.motion});
+  return std::make_unique<PairedField>(field, std::move(regions), kSamePlace * t.box().diagonal());
 }
 
 }  // namespace st

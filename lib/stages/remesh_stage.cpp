@@ -40,6 +40,7 @@
 #include "stages/joined_numbers.h"
 #include "stages/merge_columns.h"
 #include "stages/orientation_warnings.h"
+#include "stages/pair_input.h"
 #include "stages/patches_result.h"
 #include "stages/remeshed_places.h"
 #include "stages/resumption.h"
@@ -71,14 +72,10 @@ std::unique_ptr<SizeField> make_node_field(const RemeshStageOptions& o, const Su
   return std::make_unique<NodeField>(mesh, std::move(lengths), slope);
 }
 
-/// Sets which faces and edges stay: those of the group, strips that were closed for meshing, and periodic pairs.
+/// Sets which faces and edges stay: those of the group with their partners, and strips that were closed for meshing.
 void set_kept(const RemeshStageOptions& o, const ModelTables& t, const MergedFeatures& merged, HoleMarkOptions& mark) {
-  if (!merged.strip_face.empty() || !merged.pairs.empty()) mark.keep_face.resize(t.n_faces(), 0);
+  if (!merged.strip_face.empty()) mark.keep_face.resize(t.n_faces(), 0);
   for (const FaceId f : merged.strip_face) mark.keep_face[f] = 1;
-  for (const FacePair& p : merged.pairs) mark.keep_face[p.a] = mark.keep_face[p.b] = 1;
-  if (!merged.pairs.empty())
-    log_warning(fmt::format("{} periodic faces stay as they are, whatever their sizes: st-mesh --pairs makes others",
-                            2 * merged.pairs.size()));
   if (o.keep.empty()) return;
   const std::vector<std::uint8_t> in_group = find_faces(o.keep, t.labels);
   const std::vector<EdgeId> edges = find_members(o.keep, t.labels.edge_groups);
@@ -88,6 +85,8 @@ void set_kept(const RemeshStageOptions& o, const ModelTables& t, const MergedFea
                                               o.keep, say_other_kind(o.keep, t.labels), o.geometry));
   mark.keep_face.resize(t.n_faces(), 0);
   for (std::size_t f = 0; f < in_group.size(); ++f) mark.keep_face[f] |= static_cast<char>(in_group[f]);
+  for (const FacePair& p : merged.pairs)
+    if (mark.keep_face[p.a] || mark.keep_face[p.b]) mark.keep_face[p.a] = mark.keep_face[p.b] = 1;
   mark.keep_edge.resize(t.n_edges(), 0);
   for (const EdgeId e : edges) mark.keep_edge[e] = 1;
 }
@@ -131,6 +130,7 @@ struct RemeshInput {
   std::optional<ForeignMesh> foreign = std::nullopt;  ///< what `old` was made of
   MeshShare share = {};                               ///< of this rank, in `old`
   Composites composites = {};                         ///< of the geometry
+  PeriodicPairs pairs = {};                           ///< of the mesh
 };
 
 /// A move may turn, stretch or part what was the image of something.
@@ -243,6 +243,10 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   in.share = share;
   in.composites = std::move(composites);
   if (o.moved) move(in, o.keep_connectivity);
+  if (!in.old.mesh.merged.pairs.empty()) {  // their vertices are images of one another
+    in.model = with_vertices_of(in.old.mesh, std::move(in.model), in.composites);
+    in.pairs = PeriodicPairs(in.model, in.old.mesh.merged.pairs);
+  }
   return in;
 }
 
@@ -395,6 +399,7 @@ HoleMarkOptions mark_options(const RemeshStageOptions& o, const RemeshInput& in)
   mark.earlier_xyz = in.earlier_xyz;
   mark.redo = in.spoilt;
   mark.only_redo = o.keep_connectivity;
+  mark.pairs = &in.pairs;
   return mark;
 }
 
@@ -461,7 +466,9 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   const HoleMarkOptions mark = mark_options(o, in);
   const std::unique_ptr<SizeField> on_nodes =
       make_node_field(o, in.old.mesh, in.foreign ? &*in.foreign : nullptr, in.sizing.field->slope());
-  const SizeField& field = on_nodes ? *on_nodes : *in.sizing.field;
+  const SizeField& own_field = on_nodes ? *on_nodes : *in.sizing.field;
+  const std::unique_ptr<SizeField> paired = make_paired_field(own_field, in.pairs, in.model.tables());
+  const SizeField& field = paired ? *paired : own_field;
   std::vector<NodeValues> values;
   if (comm.is_root())
     values = in.foreign ? read_carried_values(o.interpolate, in.foreign->n_file_nodes, in.foreign->file_node)
@@ -484,6 +491,7 @@ StageSummary run_remesh(const RemeshStageOptions& o, const Communicator& comm) {
   progress.step("meshing", 0.2);
   MeshOptions options;
   options.left_out = resumption.left_out();
+  options.pairs = &in.pairs;
   MeshResult result = mesh_regions(holes, field, output, options, resumption);
   resumption.end();
   if (!comm.is_root()) return {};

@@ -88,21 +88,59 @@ class Pairs(ToolTest):
         largest = max(n for n, _ in self.apart(self.folder / "mesh.hdf"))
         self.assertGreater(2 * largest, 1.5 * 8000, "no face is cut")
 
-    def test_what_is_remeshed_beside_them_leaves_them_images(self):
+    def remeshed(self, mesh, sizing, *how):
+        f = self.folder
+        self.redone = must("st-remesh", mesh, f / "geometry.hdf", sizing, "--merged", f / "redone.hdf", "--json",
+                           *how).json()
+        return f / "redone.hdf"
+
+    def expect_remeshed(self, mesh, sizing, n_pairs):
+        """The same bits on all ranks and threads, and the images follow the sizes as a new mesh's do."""
+        self.expect_one_hash(lambda *how: self.remeshed(mesh, sizing, *how))
+        self.assertGreater(self.redone["triangles_redone"], 1000)
+        self.expect_images(self.folder / "redone.hdf", n_pairs, 40)
+        f, redone = self.folder, self.apart(self.folder / "redone.hdf")
+        must("st-mesh", f / "geometry.hdf", sizing, "-o", f / "new_patches.hdf", "--pairs", "auto")
+        must("st-merge", f / "new_patches.hdf", "-o", f / "new.hdf")
+        for (n, _), (n_new, _) in zip(redone, self.apart(f / "new.hdf")):
+            self.assertLess(abs(n - n_new), 0.1 * n_new, (redone, self.redone))
+
+    def test_they_follow_other_sizes_in_st_remesh(self):
+        for options in ((), ("--preset", "rans", "--max-aspect", 20)):
+            self.sized(self.cascade(), *options)
+            mesh, f = self.meshed(), self.folder
+            for factor in (0.6, 1.7):
+                with self.subTest(options=options, factor=factor):
+                    must("st-prolong", f / "sizing.hdf", "-o", f / "other.hdf", "--scale", factor)
+                    self.expect_remeshed(mesh, f / "other.hdf", 2)
+
+    def test_they_follow_sizes_that_change_on_one_side_alone(self):
+        self.sized(MODELS / "box.step", "--lmax", "3")
+        f, mesh = self.folder, self.meshed()
+        before = [n for n, _ in self.apart(mesh)]
+        (f / "sources.toml").write_text('[[source]]\ntype = "point"\nat = [0, 8, 6]\nlength = 0.5\n')
+        must("st-prolong", f / "raster.hdf", "-o", f / "other.hdf", "--sources", f / "sources.toml")
+        self.expect_remeshed(mesh, f / "other.hdf", 3)
+        grown = [n - m for (n, _), m in zip(self.apart(f / "redone.hdf"), before)]
+        self.assertGreater(max(grown), 50, grown)
+
+    def test_they_follow_sizes_through_tiles(self):
+        self.sized(MODELS / "box.step", "--lmax", "1")
+        f, mesh = self.folder, self.meshed()
+        must("st-prolong", f / "sizing.hdf", "-o", f / "other.hdf", "--scale", 0.25)
+        self.expect_remeshed(mesh, f / "other.hdf", 3)
+        largest = max(n for n, _ in self.apart(f / "redone.hdf"))
+        self.assertGreater(2 * largest, 1.5 * 25000, "no face is cut")
+
+    def test_a_kept_one_keeps_its_partner(self):
         self.sized(self.cascade())
-        mesh, f = self.meshed(), self.folder
+        f, mesh = self.folder, self.meshed()
         before = [n for n, _ in self.apart(mesh)]
         must("st-prolong", f / "sizing.hdf", "-o", f / "finer.hdf", "--scale", 0.7)
-
-        def remeshed(*how):
-            run = must("st-remesh", mesh, f / "geometry.hdf", f / "finer.hdf", "--merged", f / "redone.hdf", "--json",
-                       *how)
-            self.assertGreater(run.json()["triangles_redone"], 1000)
-            self.assertIn("4 periodic faces stay as they are", run.err)
-            return f / "redone.hdf"
-        self.expect_one_hash(remeshed)
-        self.assertEqual([n for n, _ in self.apart(f / "redone.hdf")], before)
-        self.expect_images(f / "redone.hdf", 2, 100)
+        redone = self.remeshed(mesh, f / "finer.hdf", "--keep", "periodic_low")
+        self.expect_images(redone, 2, 100)
+        after = [n for n, _ in self.apart(redone)]
+        self.assertEqual(sum(n == m for n, m in zip(before, after)), 1, (before, after))
 
     def test_the_example_draws_both_sides_of_a_passage(self):
         done = subprocess.run([EXAMPLE / "pairs.sh", self.folder, BIN], capture_output=True, text=True, timeout=300)

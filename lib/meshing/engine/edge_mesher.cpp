@@ -143,23 +143,9 @@ void EdgeMesher::follow_pairs(const std::vector<EdgeId>& dirty, Fresh& fresh) co
 
 /// The parameters are those of the images' feet; the ends are the vertices, which are images themselves.
 EdgeMesh EdgeMesher::make_image(EdgeId e, const EdgeMesh& leader) const {
-  const PairFollower& f = *pair_follower(e);
   const auto curve = model_.curve(e);
-  const std::int32_t n = leader.n_nodes(0);
-  std::vector<double> t, size;
-  std::vector<Vec3> xyz;
-  for (std::int32_t i = 0; i < n; ++i) {
-    const std::int32_t k = f.is_opposed ? n - 1 - i : i;
-    xyz.push_back(f.motion(leader.node_xyz[k]));
-    size.push_back(leader.node_size[k]);
-    t.push_back(i == 0 ? curve->t_min() : i + 1 == n ? curve->t_max() : closest_point(*curve, xyz[i]).t);
-  }
-  if (std::ranges::adjacent_find(t, std::greater_equal<>()) != t.end())
-    throw Error(ExitCode::kGeometry, tables_.edge_label(e) + ": the nodes of its partner " +
-                                         tables_.edge_label(f.leader) +
-                                         " do not follow each other on it; correct the pair, or the CAD");
-  EdgeMesh nodes = EdgeMesh::of_curve(std::move(t), std::move(xyz), std::move(size));
-  end_at_vertices(e, nodes, n - 1);
+  EdgeMesh nodes = image_nodes(tables_, e, *curve, *pair_follower(e), leader, curve->t_min(), curve->t_max());
+  end_at_vertices(e, nodes, nodes.n_nodes(0) - 1);
   return nodes;
 }
 

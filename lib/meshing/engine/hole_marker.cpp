@@ -127,12 +127,24 @@ void HoleMarker::mark(const std::vector<LocalSize>& wanted) {
   if (executor_.size() > 1) exchange = [this](const std::vector<TouchedNode>& own) { return this->exchange(own); };
   marks_ = mark_share(mesh_, share_, lengths, options_, exchange);
   collect_marks();
+  if (executor_.is_root()) mark_pairs();
   dirty_faces_.clear();
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
-    const auto first = marks_.triangle.begin() + mesh_.face_begin[f],
-               last = marks_.triangle.begin() + mesh_.face_begin[f + 1];
-    if (std::find(first, last, 1) != last) dirty_faces_.push_back(f);
-  }
+  for (FaceId f = 0; f < model_.tables().n_faces(); ++f)
+    if (has_marks(f)) dirty_faces_.push_back(f);
+}
+
+bool HoleMarker::has_marks(FaceId f) const {
+  const auto first = marks_.triangle.begin() + mesh_.face_begin[f],
+             last = marks_.triangle.begin() + mesh_.face_begin[f + 1];
+  return std::find(first, last, 1) != last;
+}
+
+/// Faces of a pair are made again as wholes: the second has the image of what the first gets. Local, on rank 0.
+void HoleMarker::mark_pairs() {
+  if (!options_.pairs) return;
+  for (const FacePair& p : options_.pairs->pairs())
+    if (has_marks(p.a) || has_marks(p.b))
+      for (const FaceId f : {p.a, p.b}) grow_to_face(f);
 }
 
 /// Collective.

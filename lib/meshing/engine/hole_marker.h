@@ -42,11 +42,13 @@ class HoleMarker {
  private:
   void request_lengths(const SizeField& field);
   bool has_long_edges() const;
+  bool has_marks(FaceId f) const;
   std::vector<char> faces_without_stretch() const;
   std::vector<LocalSize> refined_sizes(const Refinements& refinements) const;
   void mark(const std::vector<LocalSize>& wanted);
   std::vector<TouchedNode> exchange(const std::vector<TouchedNode>& own) const;
   void collect_marks();
+  void mark_pairs();
 
   const Model& model_;
   const HoleMesh& mesh_;

@@ -12,7 +12,7 @@
 #include "base/threads.h"
 #include "mesh/merge.h"
 #include "meshing/engine/crossing_search.h"
-#include "meshing/engine/curve_tasks.h"
+#include "meshing/engine/paired_faces.h"
 #include "meshing/engine/region_tasks.h"
 #include "meshing/hole/hole_crossing.h"
 #include "meshing/hole/hole_merger.h"
@@ -41,7 +41,7 @@ void HoleRounds::mesh_edges() {
     return discretise_run(old_, runs[r], *model_.curve(runs[r].edge), field,
                           {options_.max_turning_deg, least[runs[r].edge]});
   };
-  update_ = update_edges(old_, runs, make_curve_nodes(static_cast<std::int32_t>(runs.size()), make, executor_));
+  update_ = update_edges(old_, runs, paired_.make_nodes(runs, make, executor_));
   request_curve_lengths();
   numbering_.emplace(old_, update_);
   result_.edges = update_.edges;
@@ -58,7 +58,7 @@ void HoleRounds::request_curve_lengths() {
 /// Fills all holes; those where that fails grow and are filled again. No places: sizes do not help.
 std::vector<RefinementPoint> HoleRounds::mesh_regions() {
   fills_.assign(model_.tables().n_faces(), {});
-  std::vector<FaceId> faces = holes_.dirty_faces();
+  std::vector<FaceId> faces = paired_.filled_of(holes_.dirty_faces());
   for (std::size_t step = 0;; ++step) {
     const std::vector<HoleRim> rims = find_rims(faces);
     if (rims.empty()) return {};
@@ -72,7 +72,7 @@ std::vector<RefinementPoint> HoleRounds::mesh_regions() {
     }
     for (const FaceId f : faces) fills_[f].clear();
     if (can_grow) continue;
-    failed_faces_ = faces;
+    failed_faces_ = paired_.with_partners(faces);
     return {};
   }
 }
@@ -207,11 +207,20 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
       .run(all);
   std::vector<std::int32_t> failed;
   for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
-    if (fills[i].triangles.empty()) failed.push_back(static_cast<std::int32_t>(i));
+    if (fills[i].triangles.empty() || !add_image(rims[i].face, fills[i]))
+      failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));
   }
   share(executor_, failed);
   return failed;
+}
+
+/// Local, on rank 0. Whether the face's partner, if it has one, has the image of what fills the whole face.
+bool HoleRounds::add_image(FaceId face, const HoleFill& fill) {
+  const FaceId partner = paired_.partner_of(face);
+  if (partner == kNone) return true;
+  fills_[partner].assign(1, paired_.image(face, fill, *numbering_));
+  return !fills_[partner][0].triangles.empty();
 }
 
 /// What was kept and what is new as one mesh.
@@ -256,7 +265,7 @@ std::vector<RefinementPoint> HoleRounds::find_crossings() {
       places.push_back(halve_triangle(m.node_xyz[n[0]], m.node_xyz[n[1]], m.node_xyz[n[2]]));
       if (m.triangle_previous[t] != kNone) crossing_.push_back(m.triangle_previous[t]);
     }
-  return places;
+  return options_.pairs ? with_images(std::move(places), *options_.pairs, model_.tables()) : places;
 }
 
 void HoleRounds::choose_again(std::size_t) {

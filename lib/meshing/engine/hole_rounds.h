@@ -9,6 +9,7 @@
 
 #include "meshing/engine/hole_marker.h"
 #include "meshing/engine/mesh_rounds.h"
+#include "meshing/engine/paired_holes.h"
 #include "meshing/engine/tiled_regions.h"
 #include "meshing/hole/hole_filler.h"
 
@@ -23,11 +24,14 @@ class HoleRounds : public MeshRounds {
         model_(holes.model()),
         old_(holes.mesh()),
         holes_(holes),
-        options_(options) {}
+        options_(options),
+        paired_(model_, old_, options.pairs) {}
 
   /// Faces whose holes could not be filled, whole face or not: on every rank. Where there are any, the result has no
   /// mesh.
   const std::vector<FaceId>& failed_faces() const { return failed_faces_; }
+  /// [n_edges] 1: stays where these are meshed; empty: none.
+  std::vector<char> edges_to_keep() const { return paired_.with_edges_of_pairs(holes_.options().keep_edge); }
   /// Local, on rank 0, after run(). Patches of all faces, those that stay included; none of failed faces.
   std::vector<FacePatch> all_patches() const;
 
@@ -48,6 +52,7 @@ class HoleRounds : public MeshRounds {
   HoleFill fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const;
   std::string made_from(const std::vector<HoleRim>& rims) const;
   HoleFill fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const;
+  bool add_image(FaceId face, const HoleFill& fill);
   void grow(const HoleRim& rim, std::size_t step);
   void renew_surrounded_nodes();
 
@@ -55,6 +60,7 @@ class HoleRounds : public MeshRounds {
   const HoleMesh& old_;
   HoleMarker& holes_;
   MeshOptions options_;
+  PairedHoles paired_;
   EdgeUpdate update_;
   std::optional<HoleNumbering> numbering_;    // of update_
   std::vector<std::vector<HoleFill>> fills_;  // [n_faces] on rank 0: of its holes; none: as it was, or failed

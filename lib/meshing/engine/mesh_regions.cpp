@@ -42,7 +42,7 @@ void mesh_failed_faces(const HoleMarker& holes, const HoleRounds& rounds, const 
   if (executor.is_root()) patches = rounds.all_patches();
   run_faces(
       holes.model(), holes.mesh().topology, field,
-      plan_again(holes.mesh().topology, rounds.failed_faces(), before, std::move(patches), holes.options().keep_edge),
+      plan_again(holes.mesh().topology, rounds.failed_faces(), before, std::move(patches), rounds.edges_to_keep()),
       options, executor, result);
   carry_previous(before, result.edges);
   for (FacePatch& p : result.patches) {

@@ -75,7 +75,34 @@ class Marker {
     for (FaceId f = 0; f < t.n_faces(); ++f)
       if (keeps(f))
         for (const EdgeId e : t.edges_of(f)) is_free[e] = 0;
+    for_each_follower([&](EdgeId e, const PairFollower& f) { is_free[f.leader] &= is_free[e]; });
+    for_each_follower([&](EdgeId e, const PairFollower& f) { is_free[e] = is_free[f.leader]; });
     return is_free;
+  }
+
+  template <class Work>
+  void for_each_follower(const Work& work) const {
+    if (!options_.pairs) return;
+    const std::vector<PairFollower>& edges = options_.pairs->edges();
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      if (edges[e].leader != kNone) work(static_cast<EdgeId>(e), edges[e]);
+  }
+
+  /// Edges that are images of one another have as many segments, marked alike.
+  void mark_images() {
+    const EdgeMesh& m = cad_.edges;
+    const auto join = [&](bool to_leader) {
+      for_each_follower([&](EdgeId e, const PairFollower& f) {
+        const std::int32_t n = m.n_nodes(e) - 1;
+        for (std::int32_t i = 0; i < n && m.n_nodes(f.leader) == n + 1; ++i) {
+          char& own = marks_.segment[m.first_node(e) + i];
+          char& other = marks_.segment[m.first_node(f.leader) + (f.is_opposed ? n - 1 - i : i)];
+          (to_leader ? other : own) |= to_leader ? own : other;
+        }
+      });
+    };
+    join(true);
+    join(false);
   }
 
   void mark_segments() {
@@ -87,6 +114,7 @@ class Marker {
       for (const EdgeId e : t.edges_of(f)) becomes_stretched[e] |= this->becomes_stretched(f);
     for (const CadSegment& s : cad_.segments)
       marks_.segment[s.index] = is_free[s.edge] && violates(s.low, s.high, becomes_stretched[s.edge]);
+    mark_images();
   }
 
   /// A segment between two marked ones goes with them.

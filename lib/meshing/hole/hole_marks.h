@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "meshing/hole/hole_mesh.h"
+#include "meshing/topology/periodic_pairs.h"
 
 namespace st {
 
@@ -21,6 +22,8 @@ struct HoleMarkOptions {
   std::vector<Vec3> squeeze = {};          ///< empty, or [n_nodes] of stretched sizes, see base/local_size.h
   bool was_stretched = false;              ///< the mesh was made for stretched sizes, or these are
   std::vector<char> becomes_stretched = {};  ///< empty, or [n_faces] 1: these are, and the face's mesh was not
+  const PeriodicPairs* pairs = nullptr;      ///< segments of edges that are images of one another go together; null:
+                                             ///< there are none
   std::vector<TriangleId> redo = {};         ///< marked whatever their edges, unless kept
   bool only_redo = false;                    ///< lengths do not count: what is not in `redo` or near it stays
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <utility>
@@ -229,6 +230,25 @@ void PeriodicPairs::lead(const Model& model) {
 Vec3 PeriodicPairs::on_own_axis(EdgeId e, Vec3 x) const {
   const auto it = axes_.find(e);
   return it == axes_.end() ? x : on_axis(it->second, x);
+}
+
+EdgeMesh image_nodes(const ModelTables& tables, EdgeId e, const Curve& curve, const PairFollower& f,
+                     const EdgeMesh& leader, double t_first, double t_last) {
+  const std::int32_t n = leader.n_nodes(0);
+  std::vector<double> t, size;
+  std::vector<Vec3> xyz;
+  for (std::int32_t i = 0; i < n; ++i) {
+    const std::int32_t k = f.is_opposed ? n - 1 - i : i;
+    xyz.push_back(f.motion(leader.node_xyz[k]));
+    size.push_back(leader.node_size[k]);
+    t.push_back(i == 0 ? t_first : i + 1 == n ? t_last : closest_point(curve, xyz[i]).t);
+  }
+  if (std::ranges::adjacent_find(t, std::greater_equal<>()) != t.end())
+    throw Error(ExitCode::kGeometry,
+                fmt::format("{}: the nodes of its partner {} do not follow each other on it; correct the pair, or the "
+                            "CAD",
+                            tables.edge_label(e), tables.edge_label(f.leader)));
+  return EdgeMesh::of_curve(std::move(t), std::move(xyz), std::move(size));
 }
 
 MergedFeatures without_paired(const MergedFeatures& merged, const PeriodicPairs& pairs, const ModelTables& t) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/model/model.h"
+#include "mesh/edge_mesh.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -57,6 +58,11 @@ class PeriodicPairs {
   std::vector<Vec3> vertex_xyz_;
   std::map<EdgeId, Similarity> axes_;  // leaders that lie on the axis of a motion, but not to the last digits
 };
+
+/// Nodes of a follower's curve, from `t_first` to `t_last`, that are images of those of the same part of its leader;
+/// parameters are those of the images' feet. Throws Error(kGeometry), naming both, where they do not follow each other.
+EdgeMesh image_nodes(const ModelTables& tables, EdgeId e, const Curve& curve, const PairFollower& follower,
+                     const EdgeMesh& leader, double t_first, double t_last);
 
 /// Whether the outside of face b is against the image of that of face a, next to the middle of an edge of `a`. False
 /// for a face without edges.

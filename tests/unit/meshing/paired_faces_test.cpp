@@ -2,73 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "mesh/pair_match.h"
-#include "meshing/topology/pair_search.h"
-#include "support/meshed.h"
+#include "unit/meshing/paired_mesh.h"
 
 namespace st {
 namespace {
 
-/// Finer near one corner, so that sides that were meshed apart would differ.
-class FinerThere : public UniformField {
- public:
-  FinerThere(double length, Vec3 there) : UniformField(length), there_(there) {}
-  using UniformField::size;
-  double size(Vec3 x, int&) const override {
-    return std::min(min_size(), 0.2 * min_size() + 0.2 * distance(x, there_));
-  }
-
- private:
-  Vec3 there_;
-};
-
-/// A shape meshed with the pairs that are found in it.
-struct PairedMesh {
-  Model model;
-  PeriodicPairs pairs;
-  MeshTopology topology;
-  MeshResult result;
-  OrientationReport report;
-  SurfaceMesh mesh;
-
-  PairedMesh(const std::string& shape, const SizeField& field, MeshOptions options = {})
-      : PairedMesh(test::make_model(shape), field, std::move(options)) {}
-  PairedMesh(Model m, const SizeField& field, MeshOptions options)
-      : model(std::move(m)), pairs(model, find_pairs(model)), topology(placed(model, pairs)) {
-    set_verbosity(Verbosity::kQuiet);
-    options.pairs = &pairs;
-    result = mesh_regions(model, topology, field, plan_all(topology), options, test::one_rank);
-    mesh = test::merged(topology, result, report);
-  }
-
-  static MeshTopology placed(const Model& model, const PeriodicPairs& pairs) {
-    ModelTables t = model.tables();
-    t.vertex_xyz = pairs.vertex_xyz();
-    return MeshTopology(t, without_paired({}, pairs, t));
-  }
-  void expect_matched() const {
-    EXPECT_TRUE(result.failures.empty());
-    ASSERT_FALSE(mesh.merged.pairs.empty());
-    for (const FacePair& p : mesh.merged.pairs) {
-      const PairMatch match = match_pair(mesh, p, pair_tolerance(mesh));
-      EXPECT_GT(match.nodes.size(), 10u);
-      EXPECT_TRUE(match.alone.empty()) << match.alone.size() << " of " << match.nodes.size();
-      EXPECT_TRUE(match.triangles_alone.empty()) << match.triangles_alone.size();
-    }
-  }
-  /// Of nodes inside faces from the surface at their (u,v).
-  double largest_distance() const {
-    double most = 0;
-    for (const FacePatch& p : result.patches) {
-      const auto surface = model.surface(p.face);
-      for (std::size_t i = 0; i < p.inner_xyz.size(); ++i)
-        most = std::max(most, distance(surface->point(p.inner_uv[i]), p.inner_xyz[i]));
-    }
-    return most;
-  }
-};
+using test::FinerThere;
+using test::PairedMesh;
 
 TEST(PairedFaces, of_a_box_have_the_same_nodes_on_all_three_pairs) {
   const PairedMesh box("box", FinerThere(6, {0, 0, 0}));
