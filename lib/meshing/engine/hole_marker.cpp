@@ -7,9 +7,13 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "base/share.h"
-#include "mesh/node_normals.h"
 
 namespace st {
+namespace {
+
+constexpr double kAnyLength = 1e300;  // along metrics, until sizes are refined
+
+}  // namespace
 
 HoleMarker::HoleMarker(const Model& model, const HoleMesh& mesh, const MeshShare& share, const SizeField& field,
                        HoleMarkOptions options, const Executor& executor)
@@ -48,11 +52,13 @@ void HoleMarker::request_lengths(const SizeField& field) {
   char was_stretched = is_stretched_ || (executor_.is_root() && has_long_edges());
   share(executor_, was_stretched);
   options_.was_stretched = was_stretched != 0;
-  std::vector<Vec3> normal;
-  if (field.has_metrics()) normal = node_normals(mesh_.mesh.node_xyz, mesh_.mesh.triangles);
+  options_.metrics = field.has_metrics() ? &field : nullptr;
   int hint = 0;
-  for (NodeId n = 0; n < n_nodes; ++n)
-    if (is_needed[n]) wanted_[n] = field.local_on(mesh_.mesh.node_xyz[n], normal.empty() ? Vec3{} : normal[n], hint);
+  for (NodeId n = 0; n < n_nodes; ++n) {
+    if (!is_needed[n]) continue;
+    wanted_[n] = field.local(mesh_.mesh.node_xyz[n], hint);
+    if (options_.metrics) wanted_[n] = {field.size(mesh_.mesh.node_xyz[n], hint), kAnyLength, {}};
+  }
   std::vector<LocalSize> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
   share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
@@ -72,6 +78,15 @@ bool HoleMarker::has_long_edges() const {
   return static_cast<double>(n_long) > kShare * 3 * static_cast<double>(mesh_.mesh.triangles.size());
 }
 
+/// Of a side, times what it is shorter as stretched sizes see it.
+double HoleMarker::squeezed_length(NodeId a, NodeId b) const {
+  const Vec3 x = mesh_.mesh.node_xyz[a], y = mesh_.mesh.node_xyz[b], d = y - x;
+  if (options_.metrics)
+    return length_in_metric(*options_.metrics, x, y) * 0.5 * (wanted_[a].length + wanted_[b].length);
+  const double of_a = dot(wanted_[a].squeeze(), d), of_b = dot(wanted_[b].squeeze(), d);
+  return std::sqrt(norm2(d) - 0.5 * (of_a * of_a + of_b * of_b));
+}
+
 /// Collective. Faces whose mesh was made for other stretch, or none: half of their edges that lie along the direction
 /// of stretched sizes are too short for these. Fewer are where st-mesh ended the stretch.
 std::vector<char> HoleMarker::faces_without_stretch() const {
@@ -82,8 +97,7 @@ std::vector<char> HoleMarker::faces_without_stretch() const {
       const FaceId f = mesh_.mesh.triangle_face[t];
       const NodeId a = mesh_.mesh.triangles[t].n[k], b = mesh_.mesh.triangles[t].n[(k + 1) % 3];
       const Vec3 d = mesh_.mesh.node_xyz[b] - mesh_.mesh.node_xyz[a];
-      const double of_a = dot(wanted_[a].squeeze(), d), of_b = dot(wanted_[b].squeeze(), d),
-                   squeezed = std::sqrt(norm2(d) - 0.5 * (of_a * of_a + of_b * of_b));
+      const double squeezed = squeezed_length(a, b);
       if (squeezed > options_.too_short * norm(d)) continue;
       ++n_along[f];
       n_short[f] += squeezed < options_.too_short * 0.5 * (wanted_[a].length + wanted_[b].length);
@@ -119,9 +133,13 @@ std::vector<LocalSize> HoleMarker::refined_sizes(const Refinements& refinements)
 void HoleMarker::mark(const std::vector<LocalSize>& wanted) {
   std::vector<double> lengths;
   options_.squeeze.clear();
+  options_.most_along.clear();
   for (const LocalSize& size : wanted) {
     lengths.push_back(size.length);
-    if (is_stretched_) options_.squeeze.push_back(size.squeeze());
+    if (options_.metrics)
+      options_.most_along.push_back(size.along);
+    else if (is_stretched_)
+      options_.squeeze.push_back(size.squeeze());
   }
   NodeExchange exchange;
   if (executor_.size() > 1) exchange = [this](const std::vector<TouchedNode>& own) { return this->exchange(own); };

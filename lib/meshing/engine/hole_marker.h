@@ -42,6 +42,7 @@ class HoleMarker {
  private:
   void request_lengths(const SizeField& field);
   bool has_long_edges() const;
+  double squeezed_length(NodeId a, NodeId b) const;
   bool has_marks(FaceId f) const;
   std::vector<char> faces_without_stretch() const;
   std::vector<LocalSize> refined_sizes(const Refinements& refinements) const;

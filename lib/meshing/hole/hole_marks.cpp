@@ -8,6 +8,13 @@
 namespace st {
 namespace {
 
+/// 4 sqrt(3) area / sum of squares, by Heron's formula; 0 where the sides make no triangle.
+double quality_of_sides(double a, double b, double c) {
+  const double sum = a * a + b * b + c * c,
+               squared = sum * sum - 2 * (a * a * a * a + b * b * b * b + c * c * c * c);  // (4 area)^2
+  return squared > 0 ? std::sqrt(3 * squared) / sum : 0;
+}
+
 bool by_face(const TouchedNode& a, const TouchedNode& b) { return a.face < b.face; }
 
 class Marker {
@@ -54,16 +61,43 @@ class Marker {
     return std::sqrt(norm2(d) - 0.5 * (along_a * along_a + along_b * along_b));
   }
 
-  /// Edges far too long for their direction are of more stretch. Shorter ones stay: there st-mesh ended the stretch.
-  bool violates(NodeId a, NodeId b, bool becomes_stretched) const {
-    constexpr double kFarTooLong = 2.5;
+  /// Length over the request, as sizes see it.
+  double ratio(NodeId a, NodeId b) const {
+    if (options_.metrics)
+      return length_in_metric(*options_.metrics, mesh_.node_xyz[a], mesh_.node_xyz[b], options_.most_along[a],
+                              options_.most_along[b]);
+    const double length =
+        options_.squeeze.empty() ? distance(mesh_.node_xyz[a], mesh_.node_xyz[b]) : squeezed_length(a, b);
+    return length / (0.5 * (wanted_[a] + wanted_[b]));
+  }
+
+  /// Whether the request at an edge is another one than that which the mesh was made for.
+  bool has_other_request(NodeId a, NodeId b, double ratio, bool becomes_stretched) const {
     const double size = 0.5 * (wanted_[a] + wanted_[b]), before = 0.5 * (mesh_.node_size[a] + mesh_.node_size[b]);
     const double length = distance(mesh_.node_xyz[a], mesh_.node_xyz[b]);
-    const double ratio = (options_.squeeze.empty() ? length : squeezed_length(a, b)) / size;
     const bool is_squeezed = becomes_stretched && ratio * size < (1 - options_.change) * length;
-    if (std::abs(size - before) <= options_.change * before && !has_moved(a, b, length) && !is_squeezed)
-      return options_.was_stretched && ratio > kFarTooLong;
-    return ratio > options_.too_long || ratio < options_.too_short;
+    return std::abs(size - before) > options_.change * before || has_moved(a, b, length) || is_squeezed;
+  }
+
+  /// Of metrics: sides may all fit where the triangle does not, as half of a flat rhombus.
+  bool is_misshapen(const NodeId* n, bool becomes_stretched) const {
+    constexpr double kMisshapen = 0.6;
+    if (!options_.metrics) return false;
+    const double a = ratio(n[0], n[1]), b = ratio(n[1], n[2]), c = ratio(n[2], n[0]);
+    if (quality_of_sides(a, b, c) >= kMisshapen) return false;
+    return has_other_request(n[0], n[1], a, becomes_stretched) || has_other_request(n[1], n[2], b, becomes_stretched) ||
+           has_other_request(n[2], n[0], c, becomes_stretched);
+  }
+
+  /// Edges far too long for their direction are of more stretch. Shorter ones stay: there st-mesh ended the stretch.
+  bool violates(NodeId a, NodeId b, bool becomes_stretched) const {
+    return violates(a, b, becomes_stretched, options_.too_long, options_.too_short);
+  }
+  bool violates(NodeId a, NodeId b, bool becomes_stretched, double too_long, double too_short) const {
+    constexpr double kFarTooLong = 2.5;
+    const double ratio = this->ratio(a, b);
+    if (!has_other_request(a, b, ratio, becomes_stretched)) return options_.was_stretched && ratio > kFarTooLong;
+    return ratio > too_long || ratio < too_short;
   }
 
   /// Segments of kept faces and edges stay, and those of merged strips, which share nodes.
@@ -112,8 +146,13 @@ class Marker {
     std::vector<char> becomes_stretched(t.n_edges(), 0);
     for (FaceId f = 0; f < t.n_faces(); ++f)
       for (const EdgeId e : t.edges_of(f)) becomes_stretched[e] |= this->becomes_stretched(f);
+    // rows that begin at segments are as far apart as these, which stretched triangles have to be for their shape
+    constexpr double kRowsApart = 1.15;
+    const double longest = options_.metrics ? std::min(options_.too_long, kRowsApart) : options_.too_long,
+                 shortest = options_.metrics ? std::max(options_.too_short, 1 / kRowsApart) : options_.too_short;
     for (const CadSegment& s : cad_.segments)
-      marks_.segment[s.index] = is_free[s.edge] && violates(s.low, s.high, becomes_stretched[s.edge]);
+      marks_.segment[s.index] =
+          is_free[s.edge] && violates(s.low, s.high, becomes_stretched[s.edge], longest, shortest);
     mark_images();
   }
 
@@ -136,8 +175,8 @@ class Marker {
       const NodeId* n = mesh_.triangles[i].n;
       if (marks_.triangle[i] || keeps(mesh_.triangle_face[i])) continue;
       const bool becomes = becomes_stretched(mesh_.triangle_face[i]);
-      marks_.triangle[i] =
-          violates(n[0], n[1], becomes) || violates(n[1], n[2], becomes) || violates(n[2], n[0], becomes);
+      marks_.triangle[i] = violates(n[0], n[1], becomes) || violates(n[1], n[2], becomes) ||
+                           violates(n[2], n[0], becomes) || is_misshapen(n, becomes);
     }
   }
 
@@ -222,6 +261,14 @@ class Marker {
 };
 
 }  // namespace
+
+double length_in_metric(const SizeField& metrics, Vec3 a, Vec3 b, double most_at_a, double most_at_b) {
+  int hint = 0;
+  const Vec3 way = b - a;
+  const double length =
+      std::min(most_at_a, metrics.length_along(a, way, hint)) + std::min(most_at_b, metrics.length_along(b, way, hint));
+  return 2 * norm(way) / length;
+}
 
 std::int64_t HoleMarks::n_triangles() const { return std::count(triangle.begin(), triangle.end(), 1); }
 

@@ -1,6 +1,7 @@
 // Marks: where the request changed, and only there.
 #include "meshing/hole/hole_marks.h"
 
+#include "mesh/quality.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {
@@ -68,6 +69,73 @@ TEST(HoleMarks, take_along_a_segment_between_two_marked_ones) {
     wanted[holes.edge_node[first + i]] *= 0.2;  // 2-3 and 4-5 are too long for that, 3-4 is as it was
   const HoleMarks marks = mark_holes(holes, wanted, {});
   for (int i = 0; i < 8; ++i) EXPECT_EQ(marks.segment[first + i] != 0, i >= 1 && i <= 5) << i;
+}
+
+/// A metric with one long direction, the same in all planes; or with none.
+class OneMetric : public UniformField {
+ public:
+  OneMetric(double length, double along) : UniformField(length), along_(along) {}
+  LocalSize local_on(Vec3, Vec3, int&) const override { return {min_size(), along_, {0, 1, 0}}; }
+  bool has_metrics() const override { return true; }
+  bool is_stretched() const override { return along_ > min_size(); }
+  double longest() const { return along_; }
+
+ private:
+  double along_;
+};
+
+HoleMarkOptions in_metric(const OneMetric& metric, const ShapeMesh& box) {
+  HoleMarkOptions options;
+  options.layers = 1;
+  options.metrics = &metric;
+  options.most_along.assign(box.mesh.node_xyz.size(), metric.longest());
+  return options;
+}
+
+TEST(HoleMarks, of_metrics_take_triangles_whose_sides_fit_but_not_their_shape) {
+  ShapeMesh box("box", 0.03);
+  const double size = box.field.min_size();
+  const OneMetric metric(size / 1.34, 3.2 * size);
+  const HoleMesh holes(box.mesh, box.model.tables());
+  const auto flat = [&](TriangleId t) {
+    Vec3 seen[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 x = box.mesh.node_xyz[box.mesh.triangles[t].n[k]];
+      seen[k] = (1 / metric.min_size()) * Vec3{x.x, x.y * metric.min_size() / metric.longest(), x.z};
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const double side = distance(seen[k], seen[(k + 1) % 3]); side < 0.7 || side > 1.4) return false;
+    return triangle_quality(seen[0], seen[1], seen[2]) < 0.59;
+  };
+  HoleMarkOptions options = in_metric(metric, box);
+  options.keep_edge.assign(static_cast<std::size_t>(box.model.tables().n_edges()), 1);
+  const HoleMarks marks = mark_holes(holes, box.wanted(metric), options);
+  int n_flat = 0;
+  for (TriangleId t = 0; t < box.mesh.n_triangles(); ++t)
+    if (flat(t)) {
+      ++n_flat;
+      EXPECT_TRUE(marks.triangle[t]) << t;
+    }
+  EXPECT_GT(n_flat, 20);
+}
+
+TEST(HoleMarks, of_metrics_leave_what_was_made_for_them) {
+  ShapeMesh box("box", 0.03);
+  const double side = box.field.min_size();
+  const OneMetric metric(side, 3 * side);
+  HoleMarkOptions options = in_metric(metric, box);
+  options.was_stretched = true;
+  EXPECT_EQ(mark_holes(HoleMesh(box.mesh, box.model.tables()), box.wanted(metric), options).n_triangles(), 0);
+}
+
+TEST(HoleMarks, of_metrics_take_segments_that_hold_rows_apart) {
+  const ShapeMesh box("box", 0.03);
+  const HoleMesh holes(box.mesh, box.model.tables());
+  const OneMetric metric(box.field.min_size() / 1.3, box.field.min_size() / 1.3);
+  const HoleMarks as_lengths = mark_holes(holes, box.wanted(metric), {});
+  const HoleMarks marks = mark_holes(holes, box.wanted(metric), in_metric(metric, box));
+  EXPECT_EQ(std::ranges::count(as_lengths.segment, 1), 0);
+  EXPECT_EQ(std::ranges::count(marks.segment, 1), static_cast<std::ptrdiff_t>(holes.segments.size()));
 }
 
 TEST(HoleMarks, leave_the_edges_of_closed_strips) {

@@ -90,6 +90,39 @@ TEST(PairedHoles, leave_edges_that_are_images_of_kept_ones) {
   EXPECT_GT(2 * mesh.n_triangles(), 3 * m.before.mesh.n_triangles());
 }
 
+/// Of a box with pairs: [n_edges] how many segments are marked.
+std::vector<std::ptrdiff_t> marked_segments(const Remeshed& m, const std::vector<double>& wanted,
+                                            HoleMarkOptions options) {
+  options.pairs = &m.before.pairs;
+  const HoleMarks marks = mark_holes(m.old, wanted, options);
+  std::vector<std::ptrdiff_t> n;
+  for (EdgeId e = 0; e < m.old.edges.n_edges(); ++e) {
+    const auto first = marks.segment.begin() + m.old.edges.first_node(e);
+    n.push_back(std::count(first, first + m.old.edges.n_nodes(e), 1));
+  }
+  return n;
+}
+
+TEST(PairedHoles, have_marks_on_all_edges_that_are_images) {
+  const UniformField same(4);
+  const Remeshed m("box", 4, same);
+  std::vector<double> wanted(m.before.mesh.node_xyz.size(), 4);
+  wanted[m.old.edge_node[m.old.edges.first_node(0) + 2]] = 0.5;
+  const std::vector<std::ptrdiff_t> n = marked_segments(m, wanted, {});
+  EXPECT_GT(n[0], 0);
+  EXPECT_EQ(std::ranges::count(n, n[0]), 4);
+  EXPECT_EQ(std::ranges::count(n, 0), 8);
+}
+
+TEST(PairedHoles, have_no_marks_on_edges_that_are_images_of_kept_ones) {
+  const UniformField same(4);
+  const Remeshed m("box", 4, same);
+  HoleMarkOptions mark;
+  mark.keep_edge.assign(12, 0);
+  mark.keep_edge[5] = 1;
+  EXPECT_EQ(std::ranges::count(marked_segments(m, std::vector<double>(m.before.mesh.node_xyz.size(), 2), mark), 0), 4);
+}
+
 TEST(PairedHoles, are_images_where_they_are_filled_tile_by_tile) {
   const UniformField finer(0.9);
   Remeshed m("box", 2, finer);
