@@ -39,7 +39,8 @@ class LoopTracer {
     for (int i = 0; i < kMaxRefinements && refine_crossing_sides(); ++i) {
     }
     std::vector<LoopSide> result;
-    for (const TracedSide& s : sides_) result.push_back({s.a.uv, s.b.uv});
+    for (const TracedSide& s : sides_)
+      result.push_back({s.a.uv, s.b.uv, s.a.coedge == s.b.coedge ? s.a.coedge : kNone});
     return result;
   }
 
@@ -101,7 +102,7 @@ class LoopTracer {
   /// Halves the sides that cross others on their trimming curves. False: there is none, or none that can be halved.
   bool refine_crossing_sides() {
     std::vector<LoopSide> plain;
-    for (const TracedSide& s : sides_) plain.push_back({s.a.uv, s.b.uv});
+    for (const TracedSide& s : sides_) plain.push_back({s.a.uv, s.b.uv, kNone});
     std::vector<char> crosses(sides_.size(), 0);
     throw_if_late();
     for (const auto& [i, k] : crossing_sides(plain)) crosses[i] = crosses[k] = 1;

@@ -17,6 +17,7 @@
 #include "sizing/cell_limit.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
+#include "sizing/raster_neck.h"
 #include "sizing/raster_strip.h"
 
 namespace st {
@@ -132,9 +133,29 @@ class RasterTasks {
       patch.keeps_floor = limits->has_own_min;
       if (is_reversed != limits_.is_material_ahead) patch.flip();
     }
-    if (strip && !limits_.edge_is_ruled[strip->edges[0]] && !limits_.edge_is_ruled[strip->edges[1]] &&
-        !(limits_.is_mere_split(strip->edges[0]) && limits_.is_mere_split(strip->edges[1])))
-      raster_strip(*strip, *limits, pack_cause(CauseKind::kFace, f), boxes);
+    raster_narrow_parts(f, strip, boxes);
+  }
+
+  void raster_narrow_parts(FaceId f, const Strip* strip, std::vector<RasterBox>& boxes) const {
+    const auto counts = [&](EdgeId a, EdgeId b) {
+      return !limits_.edge_is_ruled[a] && !limits_.edge_is_ruled[b] &&
+             !(limits_.is_mere_split(a) && limits_.is_mere_split(b));
+    };
+    const std::vector<EdgeId>& edge = model_.tables().coedge_edge;
+    const std::int32_t cause = pack_cause(CauseKind::kFace, f);
+    if (!strip)
+      raster_necks(
+          *model_.surface(f), *loops_[f], *limits_.face[f], cause,
+          [&](CoedgeId a, CoedgeId b) { return counts(edge[a], edge[b]) && !meet_in_corner(edge[a], edge[b]); }, boxes);
+    else if (counts(strip->edges[0], strip->edges[1]))
+      raster_strip(*strip, *limits_.face[f], cause, boxes);
+  }
+
+  /// Two edges with a common vertex: towards it triangles are as flat at any size.
+  bool meet_in_corner(EdgeId a, EdgeId b) const {
+    const VertexId* v = &model_.tables().edge_vertices[2 * static_cast<std::size_t>(a)];
+    const VertexId* w = &model_.tables().edge_vertices[2 * static_cast<std::size_t>(b)];
+    return a != b && (v[0] == w[0] || v[0] == w[1] || v[1] == w[0] || v[1] == w[1]);
   }
 
   /// Null where the face is none.

@@ -327,6 +327,15 @@ std::vector<TopoDS_Shape> loose_faces() {
           side({0, y, 0}, py, pz, z, x), side({0, 0, 0}, pz, px, x, y), side({0, 0, z}, pz, px, x, y)};
 }
 
+TopoDS_Shape spiked_plate() {
+  BRepBuilderAPI_MakePolygon polygon;
+  for (const gp_Pnt2d& p : {gp_Pnt2d(0, 0), gp_Pnt2d(10, -0.5), gp_Pnt2d(10, -6), gp_Pnt2d(16, -6), gp_Pnt2d(16, 6),
+                            gp_Pnt2d(10, 6), gp_Pnt2d(10, 0.5)})
+    polygon.Add(gp_Pnt(p.X(), p.Y(), 0));
+  polygon.Close();
+  return BRepBuilderAPI_MakeFace(polygon.Wire()).Shape();
+}
+
 /// A bar of 20 x 4 with a blunt edge along y = 4 whose width grows from 0.02 at x = 0 to 1 at x = 20.
 TopoDS_Shape tapered_bar() {
   const auto section = [](double x, double width) {
@@ -691,6 +700,8 @@ const std::map<std::string, Factory>& factories() {
       {"spindle_torus", [] { return BRepPrimAPI_MakeTorus(3, 5).Shape(); }},
       {"thin_plate", [] { return box(10, 10, 0.02); }},
       {"notched_plate", [] { return BRepAlgoAPI_Cut(box(10, 10, 1), moved(box(2, 2, 2), 9, 4, -0.5)).Shape(); }},
+      {"framed_plate", [] { return BRepAlgoAPI_Cut(box(10, 10, 3), moved(box(4, 4, 5), 3, 0.1, -1)).Shape(); }},
+      {"spiked_plate", spiked_plate},
       {"wedge_strip", [] { return tapered_bar(); }},
       {"helical_ribbon", helical_ribbon},
       {"thin_crescent",

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/ids.h"
 #include "base/vec.h"
 
 namespace st {
@@ -13,6 +14,7 @@ namespace st {
 /// A side of a loop polygon.
 struct LoopSide {
   Vec2 a, b;
+  CoedgeId coedge = kNone;  ///< on whose trimming curve it lies, if that is known
 };
 
 /// All loops of a face as sides in (u,v), searchable by v. Without sides the whole parameter rectangle is inside.

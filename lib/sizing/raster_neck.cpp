@@ -1,0 +1,151 @@
+#include "sizing/raster_neck.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/box_tree.h"
+#include "sizing/line_stretch.h"
+
+namespace st {
+namespace {
+
+constexpr double kWidthsPerLength = 2;  // of the triangles: right-angled ones have an angle of 27 degrees
+constexpr double kResolved = 0.17;      // of the smallest length: narrower necks are not worth resolving
+constexpr double kMostWidth = 0.36;     // of the largest length: across wider ones no angle is below 20 degrees
+constexpr double kFacing = 0.9;         // cosine, of the way across and what is square to a side
+constexpr double kTaper = 0.05;         // width over length; towards a point triangles are as flat at any size
+constexpr double kMostTaper = 0.3;      // more is a corner
+constexpr double kStep = 0.25;          // of the largest length: from one place to the next where nothing is near,
+constexpr double kSides = 3;            // or so many sides, which are shorter where edges turn
+constexpr int kMostPieces = 2000;       // of one side
+
+/// Of a loop, in space.
+struct Side {
+  Vec3 a, along, inward;  // along, inward: unit
+  double length = 0;
+  CoedgeId coedge = kNone;
+};
+
+/// The way across a face from a place on a side.
+struct Way {
+  Vec3 across;
+  double width = 0, taper = 0;
+};
+
+Vec3 nearest_on(const Side& s, Vec3 x) { return s.a + std::clamp(dot(x - s.a, s.along), 0.0, s.length) * s.along; }
+
+std::vector<Side> sides_in_space(const Surface& surface, const LoopPolygons& loops) {
+  std::vector<Side> sides;
+  Vec2 last{};
+  Vec3 end;  // of the side before, at `last`
+  for (const LoopSide& s : loops.sides()) {
+    if (s.coedge == kNone) continue;
+    const bool goes_on = !sides.empty() && s.a.x == last.x && s.a.y == last.y;
+    const Vec3 a = goes_on ? end : surface.point(s.a);
+    last = s.b, end = surface.point(s.b);
+    const SurfacePoint middle = surface.evaluate(0.5 * (s.a + s.b));
+    const Vec3 along = normalized(end - a), inward = normalized(cross(cross(middle.du, middle.dv), along));
+    if (norm2(along) > 0 && norm2(inward) > 0) sides.push_back({a, along, inward, distance(a, end), s.coedge});
+  }
+  return sides;
+}
+
+class Necks {
+ public:
+  Necks(std::vector<Side> sides, const SamplingLimits& limits, const std::function<bool(CoedgeId, CoedgeId)>& counts)
+      : sides_(std::move(sides)), limits_(limits), counts_(counts) {
+    std::vector<Box3> boxes;
+    for (const Side& s : sides_) {
+      boxes.emplace_back();
+      boxes.back().add(s.a);
+      boxes.back().add(s.a + s.length * s.along);
+    }
+    tree_ = BoxTree(boxes);
+  }
+
+  void add_boxes(std::int32_t cause, std::vector<RasterBox>& boxes) const {
+    double at = 0;
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      const Side& side = sides_[i];
+      const double step = std::min(kStep * limits_.max_length, kSides * side.length);
+      if (i == 0 || side.coedge != sides_[i - 1].coedge) at = 0.5 * std::min(side.length, step);
+      for (int n = 0; at < side.length && n < kMostPieces; ++n) {
+        const std::optional<Way> way = way_from(i, at);
+        const double length = way ? length_of(*way) : 0;
+        if (length > 0) boxes.push_back(box_of(side, at, *way, length, cause));
+        at += length > 0 ? length : step;
+      }
+      at = std::max(at - side.length, 0.0);
+    }
+  }
+
+ private:
+  /// To the nearest side that faces this one.
+  std::optional<Way> way_from(std::size_t i, double at) const {
+    const Side& side = sides_[i];
+    const Vec3 x = side.a + at * side.along;
+    double nearest2 = std::pow(kMostWidth * limits_.max_length, 2);
+    std::optional<Way> way;
+    tree_.visit_near(
+        x, [&](std::int32_t node, double d2) { return d2 < nearest2 && is_ahead(node, d2, x, side.inward); },
+        [&](std::int32_t k) {
+          const Side& other = sides_[k];
+          if (dot(side.inward, other.inward) > -kFacing) return;
+          const Vec3 across = nearest_on(other, x) - x;
+          const double d2 = norm2(across), facing = kFacing * std::sqrt(d2);
+          if (!(d2 < nearest2) || !(d2 > 0) || dot(across, side.inward) < facing || -dot(across, other.inward) < facing)
+            return;
+          nearest2 = d2;
+          way.reset();
+          if (counts_(side.coedge, other.coedge))
+            way = Way{across, std::sqrt(d2), norm(cross(side.along, other.along))};
+        });
+    return way;
+  }
+
+  /// Whether a box reaches into the cone about the way across.
+  bool is_ahead(std::int32_t node, double d2, Vec3 x, Vec3 inward) const {
+    const Box3& box = tree_.nodes()[node].box;
+    const Vec3 furthest{inward.x > 0 ? box.hi.x : box.lo.x, inward.y > 0 ? box.hi.y : box.lo.y,
+                        inward.z > 0 ? box.hi.z : box.lo.z};
+    const double ahead = dot(furthest - x, inward);
+    return ahead > 0 && ahead * ahead >= kFacing * kFacing * d2;
+  }
+
+  /// 0: none is asked for.
+  double length_of(const Way& way) const {
+    const double least_width = kResolved * limits_.min_length;
+    if (!(way.width > least_width) || way.taper > kMostTaper) return 0;
+    const double least = way.taper > kTaper ? limits_.min_length : kWidthsPerLength * least_width;
+    return std::max(kWidthsPerLength * way.width, least);
+  }
+
+  RasterBox box_of(const Side& side, double at, const Way& way, double length, std::int32_t cause) const {
+    const Vec3 x = side.a + at * side.along;
+    const auto point_at = [&](double share) { return side.a + share * side.length * side.along; };
+    return {x + 0.5 * way.across,
+            static_cast<float>(0.5 * limits_.cell_per_length * length),
+            static_cast<float>(length),
+            cause,
+            {},
+            stretch_along(point_at, 0.5, side.length, length, {limits_.max_aspect, limits_.max_length, limits_.alpha}),
+            reach_of(0.5 * std::min(length, side.length) * side.along, 0.5 * way.across)};
+  }
+
+  std::vector<Side> sides_;
+  const SamplingLimits& limits_;
+  const std::function<bool(CoedgeId, CoedgeId)>& counts_;
+  BoxTree tree_;
+};
+
+}  // namespace
+
+void raster_necks(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
+                  const std::function<bool(CoedgeId a, CoedgeId b)>& counts, std::vector<RasterBox>& boxes) {
+  std::vector<Side> sides = sides_in_space(surface, loops);
+  if (!sides.empty()) Necks(std::move(sides), limits, counts).add_boxes(cause, boxes);
+}
+
+}  // namespace st
