@@ -68,7 +68,7 @@ std::string flags_of_mapping(const void* address) {
   return {};
 }
 
-TEST(LargePages, are_asked_for_where_arrays_of_megabytes_lie) {
+TEST(FreedMemory, and_the_rest_of_the_heap_lie_in_large_pages) {
   if (!std::filesystem::exists("/sys/kernel/mm/transparent_hugepage") || memory_limit() < 8e9)
     GTEST_SKIP() << "SKIPPED: this machine has no large pages on request, or less than 8 GB of memory";
   prepare_heap();
