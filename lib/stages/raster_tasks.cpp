@@ -123,9 +123,9 @@ class RasterTasks {
     const Strip* strip = strip_of(f);
     SamplingLimits own = *limits;
     if (strip && strip->is_one_edge()) own.min_length = own.max_length;  // how it bends across tells nothing either
-    raster_face(*model_.surface(f), loops_[f].emplace(loop_polygons(model_, f, limits_)), own,
-                pack_cause(CauseKind::kFace, f), boxes, limits_.wants_gaps ? &patches : nullptr,
-                chord ? &*chord : nullptr);
+    const auto surface = model_.surface(f);
+    raster_face(*surface, loops_[f].emplace(loop_polygons(model_, f, limits_)), own, pack_cause(CauseKind::kFace, f),
+                boxes, limits_.wants_gaps ? &patches : nullptr, chord ? &*chord : nullptr);
     if (is_reversed)
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
     for (GapPatch& patch : patches) {
@@ -133,10 +133,10 @@ class RasterTasks {
       patch.keeps_floor = limits->has_own_min;
       if (is_reversed != limits_.is_material_ahead) patch.flip();
     }
-    raster_narrow_parts(f, strip, boxes);
+    raster_narrow_parts(f, *surface, strip, boxes);
   }
 
-  void raster_narrow_parts(FaceId f, const Strip* strip, std::vector<RasterBox>& boxes) const {
+  void raster_narrow_parts(FaceId f, const Surface& surface, const Strip* strip, std::vector<RasterBox>& boxes) const {
     const auto counts = [&](EdgeId a, EdgeId b) {
       return !limits_.edge_is_ruled[a] && !limits_.edge_is_ruled[b] &&
              !(limits_.is_mere_split(a) && limits_.is_mere_split(b));
@@ -145,7 +145,7 @@ class RasterTasks {
     const std::int32_t cause = pack_cause(CauseKind::kFace, f);
     if (!strip)
       raster_necks(
-          *model_.surface(f), *loops_[f], *limits_.face[f], cause,
+          surface, *loops_[f], *limits_.face[f], cause,
           [&](CoedgeId a, CoedgeId b) { return counts(edge[a], edge[b]) && !meet_in_corner(edge[a], edge[b]); }, boxes);
     else if (counts(strip->edges[0], strip->edges[1]))
       raster_strip(*strip, *limits_.face[f], cause, boxes);

@@ -56,8 +56,8 @@ void HoleMarker::request_lengths(const SizeField& field) {
   int hint = 0;
   for (NodeId n = 0; n < n_nodes; ++n) {
     if (!is_needed[n]) continue;
-    wanted_[n] = field.local(mesh_.mesh.node_xyz[n], hint);
-    if (options_.metrics) wanted_[n] = {field.size(mesh_.mesh.node_xyz[n], hint), kAnyLength, {}};
+    const Vec3 x = mesh_.mesh.node_xyz[n];
+    wanted_[n] = options_.metrics ? LocalSize{field.size(x, hint), kAnyLength, {}} : field.local(x, hint);
   }
   std::vector<LocalSize> on_edges(wanted_.begin(), wanted_.begin() + n_on_edges);
   share(executor_, on_edges);
