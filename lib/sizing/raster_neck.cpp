@@ -21,46 +21,22 @@ constexpr double kStep = 0.25;          // of the largest length: from one place
 constexpr double kSides = 3;            // or so many sides, which are shorter where edges turn
 constexpr int kMostPieces = 2000;       // of one side
 
-/// Of a loop, in space.
-struct Side {
-  Vec3 a, along, inward;  // along, inward: unit
-  double length = 0;
-  CoedgeId coedge = kNone;
-};
-
 /// The way across a face from a place on a side.
 struct Way {
   Vec3 across;
   double width = 0, taper = 0;
 };
 
-Vec3 nearest_on(const Side& s, Vec3 x) { return s.a + std::clamp(dot(x - s.a, s.along), 0.0, s.length) * s.along; }
-
-std::vector<Side> sides_in_space(const Surface& surface, const LoopPolygons& loops) {
-  std::vector<Side> sides;
-  Vec2 last{};
-  Vec3 end;  // of the side before, at `last`
-  for (const LoopSide& s : loops.sides()) {
-    if (s.coedge == kNone) continue;
-    const bool goes_on = !sides.empty() && s.a.x == last.x && s.a.y == last.y;
-    const Vec3 a = goes_on ? end : surface.point(s.a);
-    last = s.b, end = surface.point(s.b);
-    const SurfacePoint middle = surface.evaluate(0.5 * (s.a + s.b));
-    const Vec3 along = normalized(end - a), inward = normalized(cross(cross(middle.du, middle.dv), along));
-    if (norm2(along) > 0 && norm2(inward) > 0) sides.push_back({a, along, inward, distance(a, end), s.coedge});
-  }
-  return sides;
-}
-
 class Necks {
  public:
-  Necks(std::vector<Side> sides, const SamplingLimits& limits, const std::function<bool(CoedgeId, CoedgeId)>& counts)
-      : sides_(std::move(sides)), limits_(limits), counts_(counts) {
+  Necks(std::span<const SpaceSide> sides, const SamplingLimits& limits,
+        const std::function<bool(CoedgeId, CoedgeId)>& counts)
+      : sides_(sides), limits_(limits), counts_(counts) {
     std::vector<Box3> boxes;
-    for (const Side& s : sides_) {
+    for (const SpaceSide& s : sides_) {
       boxes.emplace_back();
       boxes.back().add(s.a);
-      boxes.back().add(s.a + s.length * s.along);
+      boxes.back().add(s.end());
     }
     tree_ = BoxTree(boxes);
   }
@@ -68,7 +44,7 @@ class Necks {
   void add_boxes(std::int32_t cause, std::vector<RasterBox>& boxes) const {
     double at = 0;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const Side& side = sides_[i];
+      const SpaceSide& side = sides_[i];
       const double step = std::min(kStep * limits_.max_length, kSides * side.length);
       if (i == 0 || side.coedge != sides_[i - 1].coedge) at = 0.5 * std::min(side.length, step);
       for (int n = 0; at < side.length && n < kMostPieces; ++n) {
@@ -84,16 +60,16 @@ class Necks {
  private:
   /// To the nearest side that faces this one.
   std::optional<Way> way_from(std::size_t i, double at) const {
-    const Side& side = sides_[i];
+    const SpaceSide& side = sides_[i];
     const Vec3 x = side.a + at * side.along;
     double nearest2 = std::pow(kMostWidth * limits_.max_length, 2);
     std::optional<Way> way;
     tree_.visit_near(
         x, [&](std::int32_t node, double d2) { return d2 < nearest2 && is_ahead(node, d2, x, side.inward); },
         [&](std::int32_t k) {
-          const Side& other = sides_[k];
+          const SpaceSide& other = sides_[k];
           if (dot(side.inward, other.inward) > -kFacing) return;
-          const Vec3 across = nearest_on(other, x) - x;
+          const Vec3 across = other.nearest_to(x) - x;
           const double d2 = norm2(across), facing = kFacing * std::sqrt(d2);
           if (!(d2 < nearest2) || !(d2 > 0) || dot(across, side.inward) < facing || -dot(across, other.inward) < facing)
             return;
@@ -122,7 +98,7 @@ class Necks {
     return std::max(kWidthsPerLength * way.width, least);
   }
 
-  RasterBox box_of(const Side& side, double at, const Way& way, double length, std::int32_t cause) const {
+  RasterBox box_of(const SpaceSide& side, double at, const Way& way, double length, std::int32_t cause) const {
     const Vec3 x = side.a + at * side.along;
     const auto point_at = [&](double share) { return side.a + share * side.length * side.along; };
     return {x + 0.5 * way.across,
@@ -134,7 +110,7 @@ class Necks {
             reach_of(0.5 * std::min(length, side.length) * side.along, 0.5 * way.across)};
   }
 
-  std::vector<Side> sides_;
+  std::span<const SpaceSide> sides_;
   const SamplingLimits& limits_;
   const std::function<bool(CoedgeId, CoedgeId)>& counts_;
   BoxTree tree_;
@@ -142,10 +118,9 @@ class Necks {
 
 }  // namespace
 
-void raster_necks(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
+void raster_necks(std::span<const SpaceSide> sides, const SamplingLimits& limits, std::int32_t cause,
                   const std::function<bool(CoedgeId a, CoedgeId b)>& counts, std::vector<RasterBox>& boxes) {
-  std::vector<Side> sides = sides_in_space(surface, loops);
-  if (!sides.empty()) Necks(std::move(sides), limits, counts).add_boxes(cause, boxes);
+  if (!sides.empty()) Necks(sides, limits, counts).add_boxes(cause, boxes);
 }
 
 }  // namespace st

@@ -19,6 +19,7 @@
 #include "sizing/raster_face.h"
 #include "sizing/raster_neck.h"
 #include "sizing/raster_strip.h"
+#include "sizing/raster_tip.h"
 
 namespace st {
 namespace {
@@ -133,10 +134,13 @@ class RasterTasks {
       patch.keeps_floor = limits->has_own_min;
       if (is_reversed != limits_.is_material_ahead) patch.flip();
     }
-    raster_narrow_parts(f, *surface, strip, boxes);
+    const std::vector<SpaceSide> sides = sides_in_space(*surface, *loops_[f]);
+    raster_narrow_parts(f, sides, strip, boxes);
+    drop_tips(sides, *limits, n_before, boxes);
   }
 
-  void raster_narrow_parts(FaceId f, const Surface& surface, const Strip* strip, std::vector<RasterBox>& boxes) const {
+  void raster_narrow_parts(FaceId f, std::span<const SpaceSide> sides, const Strip* strip,
+                           std::vector<RasterBox>& boxes) const {
     const auto counts = [&](EdgeId a, EdgeId b) {
       return !limits_.edge_is_ruled[a] && !limits_.edge_is_ruled[b] &&
              !(limits_.is_mere_split(a) && limits_.is_mere_split(b));
@@ -145,7 +149,7 @@ class RasterTasks {
     const std::int32_t cause = pack_cause(CauseKind::kFace, f);
     if (!strip)
       raster_necks(
-          surface, *loops_[f], *limits_.face[f], cause,
+          sides, *limits_.face[f], cause,
           [&](CoedgeId a, CoedgeId b) { return counts(edge[a], edge[b]) && !meet_in_corner(edge[a], edge[b]); }, boxes);
     else if (counts(strip->edges[0], strip->edges[1]))
       raster_strip(*strip, *limits_.face[f], cause, boxes);

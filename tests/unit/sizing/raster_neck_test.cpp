@@ -43,7 +43,7 @@ std::vector<RasterBox> boxes_of(const LoopPolygons& loops, const SamplingLimits&
   const PlaneSurface plane(kNeckFrame, -1, 11, -1, 11);
   std::vector<RasterBox> boxes;
   raster_necks(
-      plane, loops, limits, 7, [&](CoedgeId, CoedgeId) { return counts; }, boxes);
+      sides_in_space(plane, loops), limits, 7, [&](CoedgeId, CoedgeId) { return counts; }, boxes);
   return boxes;
 }
 
