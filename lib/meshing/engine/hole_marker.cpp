@@ -52,7 +52,7 @@ void HoleMarker::request_lengths(const SizeField& field) {
   char was_stretched = is_stretched_ || (executor_.is_root() && has_long_edges());
   share(executor_, was_stretched);
   options_.was_stretched = was_stretched != 0;
-  options_.metrics = field.has_metrics() ? &field : nullptr;
+  if (field.has_metrics()) options_.metrics = &request_along_sides(field);
   int hint = 0;
   for (NodeId n = 0; n < n_nodes; ++n) {
     if (!is_needed[n]) continue;
@@ -63,6 +63,13 @@ void HoleMarker::request_lengths(const SizeField& field) {
   share(executor_, on_edges);
   std::copy(on_edges.begin(), on_edges.end(), wanted_.begin());
   options_.becomes_stretched = is_stretched_ ? faces_without_stretch() : std::vector<char>();
+}
+
+/// Of the sides of the share, and all segments of edges.
+const SideRequests& HoleMarker::request_along_sides(const SizeField& metrics) {
+  std::vector<std::array<NodeId, 2>> segments;
+  for (const CadSegment& s : mesh_.segments) segments.push_back({s.low, s.high});
+  return along_sides_.emplace(mesh_.mesh, share_.begin, share_.end, segments, metrics);
 }
 
 /// Whether the mesh has more edges far longer than they were made for than a mesh without stretch has.
@@ -80,9 +87,9 @@ bool HoleMarker::has_long_edges() const {
 
 /// Of a side, times what it is shorter as stretched sizes see it.
 double HoleMarker::squeezed_length(NodeId a, NodeId b) const {
-  const Vec3 x = mesh_.mesh.node_xyz[a], y = mesh_.mesh.node_xyz[b], d = y - x;
+  const Vec3 d = mesh_.mesh.node_xyz[b] - mesh_.mesh.node_xyz[a];
   if (options_.metrics)
-    return length_in_metric(*options_.metrics, x, y) * 0.5 * (wanted_[a].length + wanted_[b].length);
+    return options_.metrics->ratio(a, b, kAnyLength, kAnyLength) * 0.5 * (wanted_[a].length + wanted_[b].length);
   const double of_a = dot(wanted_[a].squeeze(), d), of_b = dot(wanted_[b].squeeze(), d);
   return std::sqrt(norm2(d) - 0.5 * (of_a * of_a + of_b * of_b));
 }

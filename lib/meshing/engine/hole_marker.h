@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ class HoleMarker {
 
  private:
   void request_lengths(const SizeField& field);
+  const SideRequests& request_along_sides(const SizeField& metrics);
   bool has_long_edges() const;
   double squeezed_length(NodeId a, NodeId b) const;
   bool has_marks(FaceId f) const;
@@ -56,7 +58,8 @@ class HoleMarker {
   MeshShare share_;
   HoleMarkOptions options_;
   const Executor& executor_;
-  std::vector<LocalSize> wanted_;  // [n_nodes] requested lengths, of the nodes that the share needs
+  std::optional<SideRequests> along_sides_;  // of metrics
+  std::vector<LocalSize> wanted_;            // [n_nodes] requested lengths, of the nodes that the share needs
   bool is_stretched_ = false;
   HoleMarks marks_;
   std::vector<FaceId> dirty_faces_;

@@ -63,9 +63,7 @@ class Marker {
 
   /// Length over the request, as sizes see it.
   double ratio(NodeId a, NodeId b) const {
-    if (options_.metrics)
-      return length_in_metric(*options_.metrics, mesh_.node_xyz[a], mesh_.node_xyz[b], options_.most_along[a],
-                              options_.most_along[b]);
+    if (options_.metrics) return options_.metrics->ratio(a, b, options_.most_along[a], options_.most_along[b]);
     const double length =
         options_.squeeze.empty() ? distance(mesh_.node_xyz[a], mesh_.node_xyz[b]) : squeezed_length(a, b);
     return length / (0.5 * (wanted_[a] + wanted_[b]));
@@ -261,14 +259,6 @@ class Marker {
 };
 
 }  // namespace
-
-double length_in_metric(const SizeField& metrics, Vec3 a, Vec3 b, double most_at_a, double most_at_b) {
-  int hint = 0;
-  const Vec3 way = b - a;
-  const double length =
-      std::min(most_at_a, metrics.length_along(a, way, hint)) + std::min(most_at_b, metrics.length_along(b, way, hint));
-  return 2 * norm(way) / length;
-}
 
 std::int64_t HoleMarks::n_triangles() const { return std::count(triangle.begin(), triangle.end(), 1); }
 

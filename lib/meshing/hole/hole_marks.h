@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "meshing/hole/hole_mesh.h"
+#include "meshing/hole/side_requests.h"
 #include "meshing/topology/periodic_pairs.h"
-#include "sizing/size_field.h"
 
 namespace st {
 
@@ -21,7 +21,7 @@ struct HoleMarkOptions {
   std::span<const Vec3> earlier_xyz = {};  ///< empty, or [n_nodes] before the geometry moved: edges that it made longer
                                            ///< or shorter count, too
   std::vector<Vec3> squeeze = {};          ///< empty, or [n_nodes] of stretched sizes, see base/local_size.h
-  const SizeField* metrics = nullptr;      ///< sizes that are metrics in space, by which edges are judged along
+  const SideRequests* metrics = nullptr;   ///< of sizes that are metrics in space, by which edges are judged along
                                            ///< themselves; null: they are none
   std::vector<double> most_along = {};     ///< [n_nodes] of metrics: longest request in any direction
   bool was_stretched = false;              ///< the mesh was made for stretched sizes, or these are
@@ -39,9 +39,6 @@ struct HoleMarks {
                                ///< of these are marked
   std::int64_t n_triangles() const;
 };
-
-/// The length of an edge from `a` to `b`, over what metrics ask for in its direction, up to `most_along` at each.
-double length_in_metric(const SizeField& metrics, Vec3 a, Vec3 b, double most_at_a = 1e300, double most_at_b = 1e300);
 
 /// The part of the whole mesh that a rank has, and the part of that which it marks. A rank's mesh has all nodes on
 /// vertices and edges, and a consecutive share of the triangles with their nodes, by their order in the whole mesh.

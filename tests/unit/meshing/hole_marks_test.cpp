@@ -84,10 +84,10 @@ class OneMetric : public UniformField {
   double along_;
 };
 
-HoleMarkOptions in_metric(const OneMetric& metric, const ShapeMesh& box) {
+HoleMarkOptions in_metric(const OneMetric& metric, const SideRequests& along, const ShapeMesh& box) {
   HoleMarkOptions options;
   options.layers = 1;
-  options.metrics = &metric;
+  options.metrics = &along;
   options.most_along.assign(box.mesh.node_xyz.size(), metric.longest());
   return options;
 }
@@ -107,7 +107,8 @@ TEST(HoleMarks, of_metrics_take_triangles_whose_sides_fit_but_not_their_shape) {
       if (const double side = distance(seen[k], seen[(k + 1) % 3]); side < 0.7 || side > 1.4) return false;
     return triangle_quality(seen[0], seen[1], seen[2]) < 0.59;
   };
-  HoleMarkOptions options = in_metric(metric, box);
+  const SideRequests along(box.mesh, 0, box.mesh.n_triangles(), {}, metric);
+  HoleMarkOptions options = in_metric(metric, along, box);
   options.keep_edge.assign(static_cast<std::size_t>(box.model.tables().n_edges()), 1);
   const HoleMarks marks = mark_holes(holes, box.wanted(metric), options);
   int n_flat = 0;
@@ -123,7 +124,8 @@ TEST(HoleMarks, of_metrics_leave_what_was_made_for_them) {
   ShapeMesh box("box", 0.03);
   const double side = box.field.min_size();
   const OneMetric metric(side, 3 * side);
-  HoleMarkOptions options = in_metric(metric, box);
+  const SideRequests along(box.mesh, 0, box.mesh.n_triangles(), {}, metric);
+  HoleMarkOptions options = in_metric(metric, along, box);
   options.was_stretched = true;
   EXPECT_EQ(mark_holes(HoleMesh(box.mesh, box.model.tables()), box.wanted(metric), options).n_triangles(), 0);
 }
@@ -133,7 +135,8 @@ TEST(HoleMarks, of_metrics_take_segments_that_hold_rows_apart) {
   const HoleMesh holes(box.mesh, box.model.tables());
   const OneMetric metric(box.field.min_size() / 1.3, box.field.min_size() / 1.3);
   const HoleMarks as_lengths = mark_holes(holes, box.wanted(metric), {});
-  const HoleMarks marks = mark_holes(holes, box.wanted(metric), in_metric(metric, box));
+  const SideRequests along(box.mesh, 0, box.mesh.n_triangles(), {}, metric);
+  const HoleMarks marks = mark_holes(holes, box.wanted(metric), in_metric(metric, along, box));
   EXPECT_EQ(std::ranges::count(as_lengths.segment, 1), 0);
   EXPECT_EQ(std::ranges::count(marks.segment, 1), static_cast<std::ptrdiff_t>(holes.segments.size()));
 }
