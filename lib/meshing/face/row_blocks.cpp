@@ -10,6 +10,7 @@
 #include "meshing/face/row_layer.h"
 #include "meshing/face/row_line.h"
 #include "meshing/face/row_map.h"
+#include "meshing/face/stretch.h"
 
 namespace st {
 namespace {
@@ -166,11 +167,15 @@ class RowBlock {
     }
   }
 
-  /// The quadrilateral a, b, d, c between columns i and i+1, cut by its shorter diagonal.
+  /// The quadrilateral a, b, d, c between columns i and i+1, cut by its shorter diagonal, which metrics measure.
   bool force(std::size_t i, const NextLine& next) {
     const std::int32_t a = line_.nodes[i], b = line_.nodes[i + 1];
     const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
-    if (distance(x(a), x(d)) <= kEven * distance(x(b), x(c))) return layer_.lay({{a, b, d}, {d, c, a}});
+    const auto length = [&](std::int32_t from, std::int32_t to) {
+      if (!w_.field->has_metrics()) return distance(x(from), x(to));
+      return std::sqrt(length2(x(to) - x(from), m_.nodes[c], m_.nodes[d]));
+    };
+    if (length(a, d) <= kEven * length(b, c)) return layer_.lay({{a, b, d}, {d, c, a}});
     return layer_.lay({{a, b, c}, {d, c, b}});
   }
   /// Three triangles over two segments.

@@ -8,6 +8,7 @@
 
 #include "base/predicates.h"
 #include "meshing/face/row_layer.h"
+#include "meshing/face/row_line.h"
 
 namespace st {
 namespace {
@@ -51,7 +52,14 @@ class Ladder {
   /// Through space and over the surface: both sides of a face around a nose are near each other.
   bool is_narrow(std::size_t i) const {
     const double most = kNarrow * segment(i);
-    return distance(x(c_.bottom[i]), x(c_.top[i])) < most && way_over(c_.bottom[i], c_.top[i]) < most;
+    return distance(x(c_.bottom[i]), x(c_.top[i])) < most && way_over(c_.bottom[i], c_.top[i]) < most && !is_askew(i);
+  }
+  /// To metrics.
+  bool is_askew(std::size_t i) const {
+    const MeshNode& foot = node(c_.bottom[i]);
+    const std::size_t k = std::min(i, n() - 2);
+    return is_oblique(*w_.field, w_.field->local_on(foot.x, foot.normal, w_.hint),
+                      x(c_.bottom[k + 1]) - x(c_.bottom[k]), x(c_.top[i]) - foot.x);
   }
   double way_over(std::int32_t from, std::int32_t to) const {
     double way = 0;

@@ -30,6 +30,7 @@ constexpr double kFalling = 0.75;                 // of a column's greatest heig
 constexpr double kRisen = 1.5;                    // over its least height before,
 constexpr double kAhead = 10;                     // if an edge lies within that many heights
 constexpr double kAlong = 0.94;                   // cosine to the direction of a stretch: the row is along it
+constexpr double kMostOblique = 0.8;              // cosine between directions that metrics see
 constexpr double kMiss = 0.01;                    // of a height, by which a node may miss its place
 constexpr double kBetween[] = {0.25, 0.5, 0.75};  // of a quadrilateral's length: where room is looked for
 constexpr int kSmoothing = 3;                     // passes over the heights
@@ -213,16 +214,17 @@ class LineMaker {
     const NextLine::Column &c = next_.columns[i], &d = next_.columns[i + 1];
     if (!c.is_placed || !d.is_placed) return false;
     if (!is_upright(node(i), node(i + 1), d.node, c.node)) return false;
-    return distance(c.node.x, d.node.x) > kNarrowing * width(i) && aspect(i) > kTooSquare && !is_too_long(i) &&
+    return distance(c.node.x, d.node.x) > kNarrowing * width(i) && aspect(i) > kTooSquare && is_as_asked(i) &&
            is_free_between(i);
   }
 
-  /// For the length asked for at its far side.
-  bool is_too_long(std::size_t i) const {
+  /// Not too long for the sizes at its far side, nor oblique.
+  bool is_as_asked(std::size_t i) const {
     const Vec3 a = next_.columns[i].node.x, b = next_.columns[i + 1].node.x;
     const LocalSize local = w_.field->local_on(0.5 * (a + b), next_.columns[i].node.normal, w_.hint);
     const bool is_along = std::abs(dot(local.direction, b - a)) > kAlong * distance(a, b);
-    return distance(a, b) > kTooLong * (is_along ? local.along : local.in(b - a));
+    return distance(a, b) <= kTooLong * (is_along ? local.along : local.in(b - a)) &&
+           !is_oblique(*w_.field, local, b - a, a - node(i).x);
   }
 
   double aspect(std::size_t i) const {
@@ -303,6 +305,14 @@ bool is_upright(const MeshNode& a, const MeshNode& b, const MeshNode& c, const M
     if (!(angle > kLeastAngle && angle < kMostAngle)) return false;
   }
   return true;
+}
+
+bool is_oblique(const SizeField& field, const LocalSize& local, Vec3 along, Vec3 up) {
+  if (!field.has_metrics()) return false;
+  const Vec3 squeeze = local.squeeze();
+  const auto product = [&](Vec3 a, Vec3 b) { return dot(a, b) - dot(squeeze, a) * dot(squeeze, b); };
+  const double cosine2 = product(along, up) * product(along, up) / (product(along, along) * product(up, up));
+  return cosine2 > kMostOblique * kMostOblique;
 }
 
 bool step_on_surface(const FaceWork& work, const MeshNode& a, Vec3 d, double length, MeshNode& p) {

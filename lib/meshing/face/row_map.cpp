@@ -117,7 +117,7 @@ class Mapping {
            dot(a.normal, c.normal) > std::cos(w_.max_turning) && is_asked(a, b, c, d, 0.5 * length, 0.5 * height);
   }
 
-  /// Whether its mean length and height are what the field asks for at its middle.
+  /// Whether its mean length and height are what the field asks for at its middle, and not oblique to that.
   bool is_asked(const MeshNode& a, const MeshNode& b, const MeshNode& c, const MeshNode& d, double length,
                 double height) {
     const LocalSize local = w_.field->local_on(0.25 * (a.x + b.x + c.x + d.x), a.normal, w_.hint);
@@ -125,7 +125,8 @@ class Mapping {
       const double asked = local.in(way);
       return own >= kShortest * asked && own <= kLongest * asked;
     };
-    return fits(length, b.x - a.x + c.x - d.x) && fits(height, d.x - a.x + c.x - b.x);
+    const Vec3 along = b.x - a.x + c.x - d.x, up = d.x - a.x + c.x - b.x;
+    return fits(length, along) && fits(height, up) && !is_oblique(*w_.field, local, along, up);
   }
 
   FaceWork& w_;

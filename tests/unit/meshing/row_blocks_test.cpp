@@ -174,6 +174,35 @@ TEST(RowBlocks, are_the_same_wherever_a_closed_loop_begins) {
   for (int first = 26; first < 36; ++first) EXPECT_EQ(laid_in_circle(first), n) << first;
 }
 
+TEST(RowBlocks, are_not_laid_obliquely_to_metrics) {
+  for (const int n_rows : {4, 40}) {
+    for (const double angle : {-20, 20}) {
+      const SlantedField metric(angle, true), lengths(angle, false);
+      RowCase oblique({metric.band_of(n_rows)}, metric), laid({metric.band_of(n_rows)}, lengths);
+      lay_row_blocks(oblique.work);
+      lay_row_blocks(laid.work);
+      EXPECT_EQ(oblique.n_laid(), 0) << n_rows << " rows, " << angle;
+      EXPECT_GT(laid.n_laid(), 0) << n_rows << " rows, " << angle;
+    }
+  }
+}
+
+TEST(RowBlocks, are_cut_by_the_diagonal_that_is_shorter_in_metrics) {
+  for (const double angle : {-4, 4}) {
+    const SlantedField metric(angle, true);
+    RowCase face({metric.band_of(4)}, metric);
+    lay_row_blocks(face.work);
+    EXPECT_EQ(face.n_laid(), 2 * 10 * 4) << angle;
+    for (const PlaneTriangle& t : face.work.mesh.triangles) {
+      if (t.state != kLaid) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 d = face.work.mesh.nodes[t.v[k]].x - face.work.mesh.nodes[t.v[(k + 1) % 3]].x;
+        EXPECT_LE(std::sqrt(length2(d, face.work.mesh.nodes[t.v[k]])), 1.35 * 0.1) << angle;
+      }
+    }
+  }
+}
+
 TEST(RowBlocks, are_none_where_lengths_are_equal) {
   const WallField field(0.5, 0, 0.5);
   RowCase face({band(20, 10, {5}, {5})}, field);

@@ -88,4 +88,25 @@ inline std::vector<double> growing(double at, double slope, double end) {
   return y;
 }
 
+/// Six times as long along a direction at an angle to the x axis; a metric in space, or none.
+class SlantedField : public WallField {
+ public:
+  SlantedField(double angle_deg, bool has_metrics)
+      : WallField(0.1, 0, 0.6), angle_(radians(angle_deg)), has_metrics_(has_metrics) {}
+  LocalSize local(Vec3, int&) const override { return {0.1, 0.6, {std::cos(angle_), std::sin(angle_), 0}}; }
+  bool has_metrics() const override { return has_metrics_; }
+  /// Of as many rows, between sides as long as asked for.
+  std::vector<Vec2> band_of(int n_rows) const {
+    int hint = 0;
+    const double height = length_along({}, {0, 1, 0}, hint);
+    std::vector<double> side;
+    for (int k = 1; k <= n_rows; ++k) side.push_back(height * k);
+    return band(10, 10 * length_along({}, {1, 0, 0}, hint), side, side);
+  }
+
+ private:
+  double angle_;
+  bool has_metrics_;
+};
+
 }  // namespace st::test
