@@ -1142,12 +1142,27 @@ class SurfaceFinder {
     const std::vector<std::vector<WingEdge>> lines = lines_of(model_, chain);
     if (lines.size() < 2) return false;
     const std::vector<EdgeId> rims = rims_of(chain);
-    const auto is_rim = [&](const WingEdge& w) { return std::ranges::count(rims, w.edge) > 0; };
+    const auto may_be_rim = [&](const WingEdge& w) { return std::ranges::count(rims, w.edge) > 0; };
+    const auto is_across = [&](const std::vector<WingEdge>& line) { return std::ranges::all_of(line, may_be_rim); };
+    const std::size_t n = surfaces_.size(), n_rest = rest_.size();
     for (const std::vector<WingEdge>& line : lines)
-      if (std::ranges::all_of(line, is_rim))
+      if (!is_across(line)) find_with_noses(line);
+    const std::span found = std::span(std::as_const(surfaces_)).subspan(n);
+    const bool has_noses = !found.empty();
+    const auto is_end = [&](const std::vector<WingEdge>& line) {
+      return std::ranges::all_of(line, [&](const WingEdge& w) {
+        return std::ranges::any_of(found, [&](const LiftingSurface& s) { return is_rim(model_, w.edge, s); });
+      });
+    };
+    std::vector<std::vector<WingEdge>> others;  // ends of a chain around a fin may lie along its trailing edge
+    for (const std::vector<WingEdge>& line : lines)
+      if (is_across(line) && has_noses && !is_end(line))
+        others.push_back(line);
+      else if (is_across(line))
         rest_.push_back({line, {kRimOfEnd, false}});
-      else
-        find_with_noses(line);
+    for (Rest& rest : std::span(rest_).subspan(n_rest))
+      if (rest.why.may_be_wing && is_end(rest.edges)) rest.why = {kRimOfEnd, false};
+    for (const std::vector<WingEdge>& line : others) find_with_noses(line);
     return true;
   }
 

@@ -116,6 +116,9 @@ std::vector<std::vector<WingEdge>> lines_of(const Model& model, std::span<const 
     for (std::size_t j = i + 1; j < ends.size() && ends[j].vertex == ends[i].vertex; ++j)
       if (dot(ends[i].out, ends[j].out) < -kGoesOn)
         sets.join(static_cast<std::int32_t>(ends[i].edge), static_cast<std::int32_t>(ends[j].edge));
+  Joiner at_base(sets);
+  for (std::size_t i = 0; i < chain.size(); ++i)
+    if (chain[i].base != kNone) at_base.add(chain[i].base, i);
   return sets_of(sets, chain);
 }
 

@@ -15,7 +15,8 @@ namespace st {
 /// go on in about one line across a notch beside one face, no wider than the longer of them. Local.
 std::vector<std::vector<WingEdge>> trailing_chains(const Model& model, std::span<const WingEdge> edges);
 
-/// The edges of a chain that meet at vertices and go on there, turning by 45 degrees at most; by first edge. Local.
+/// The edges of a chain that meet at vertices and go on there, turning by 45 degrees at most, or have one base; by
+/// first edge. Local.
 std::vector<std::vector<WingEdge>> lines_of(const Model& model, std::span<const WingEdge> chain);
 
 /// Where the edges of a chain run: straight from place to place.

@@ -128,6 +128,14 @@ SPANS = {
     "bowed_vane_air": [0.45],  # leans, and turns by 20 degrees, within 0.4
     "curved_cut_wing": [4],
     "paddle_blade": [0.85],
+    "forward_with_extension": [2.65, 2.65],  # from the body on, with the crank
+    "foil_with_bulb_and_tips": [0.98, 0.72, 0.72],  # strut, foils
+    "shrouded_stator": 7 * [0.45],
+    "kayak_paddle": [0.46, 0.46],
+    "blade_with_tabs": [4.51],
+    "curved_board": [2.89],
+    "rotor_in_fin": [3.03, 0.38, 0.38, 0.38, 0.38, 0.38],
+    "bevelled_fins": 4 * [0.41],  # noses have bases, too, which are wider
 }
 # Noses before slots and flaps, where the trailing edge is another part's or none.
 NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing": 0.36, "gapped_aileron": 1.3,
@@ -202,6 +210,16 @@ class WingShapes(ToolTest):
             found = [wing["span"] for wing in done.json()["lifting_surfaces"]]
             self.assertEqual([round(span, 2) for span in found], spans, name)
             self.assertRegex(done.err, rf"warning: .* edges = \[{edges}\], trailing_edge = true", name)
+
+    def test_a_fork_and_a_mast_that_is_cut_off_are_warned_of(self):
+        done = self.raster("forked_tip", "rans")  # roots of the winglets lie in each other
+        found = sorted(wing["span"] for wing in done.json()["lifting_surfaces"])
+        for got, asked in zip(found, (0.46, 0.96, 3.01), strict=True):
+            self.assertAlmostEqual(got, asked, delta=0.01)
+        self.assertRegex(done.err, "warning: no nose is seen before [0-9.]+ % of the span at edge")
+        (self.folder / "geometry.hdf").unlink()
+        done = self.raster("wing_mast", "rans")
+        self.assertRegex(done.err, r"warning: 2 trailing edges, 8.001 long, .* trailing_edge = true")
 
     def test_a_wing_without_its_tail_is_warned_of(self):
         done = self.raster("cut_tail", "rans")  # its base is 6.6 % of the chord

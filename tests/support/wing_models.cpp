@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "geometry/brep/compound.h"
+#include "late_wings.h"
 #include "rare_wings.h"
 #include "unusual_wings.h"
 #include "wing_sections.h"
@@ -922,7 +923,7 @@ const Makers& wings() {
 Makers models() {
   Makers all = wings();
   for (const Makers* more :
-       {&round_models(), &rough_models(), &cut_models(), &rare_models(), &unusual_models(), &parts()})
+       {&round_models(), &rough_models(), &cut_models(), &rare_models(), &unusual_models(), &late_models(), &parts()})
     all.insert(more->begin(), more->end());
   return all;
 }

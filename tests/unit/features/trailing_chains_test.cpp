@@ -32,6 +32,9 @@ TEST(TrailingChains, part_in_lines_at_corners) {
   const Model model = test::make_model("box");
   const std::vector<WingEdge> edges = all_edges_as_trailing(model, 1);
   EXPECT_EQ(lines_of(model, edges).size(), 12u);
+  std::vector<WingEdge> of_base = edges;  // two of them along one face
+  of_base[2].base = of_base[7].base = 0;
+  EXPECT_EQ(lines_of(model, of_base).size(), 11u);
   const Model split = test::make_model("wing_with_cut_base");
   std::vector<WingEdge> upper;  // an edge cut into four
   for (const WingEdge& w : all_edges_as_trailing(split, 1)) {
