@@ -163,7 +163,9 @@ class FaceContacts {
     if (t_.face_type[f] != t_.face_type[g] && is_plane(f) && is_plane(g)) return false;
     if (n_sampled_++ >= kMostSampled) return false;
     const auto on_a = surface_of(a, f), on_b = surface_of(b, g);
-    return lies_on(*on_a, *on_b, box, tolerance) || lies_on(*on_b, *on_a, box, tolerance);
+    // of one surface, as a wing and a flap that was cut out of it are, with a slot between
+    return (lies_on(*on_a, *on_b, box, tolerance) || lies_on(*on_b, *on_a, box, tolerance)) &&
+           overlap(f, g, box, tolerance);
   }
   /// Planes that bound their solids on the same side, such as the end caps of two bodies beside each other. Faces that
   /// touch look opposite ways; only bodies at one place look alike.

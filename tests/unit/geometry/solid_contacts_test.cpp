@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <BRepAlgoAPI_Cut.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <TopExp.hxx>
 
@@ -40,6 +41,22 @@ TEST(SolidContacts, are_none_between_the_sides_of_a_thin_plate_in_a_large_domain
   ASSERT_EQ(tables.n_faces(), 12);
   EXPECT_LT(0.004, 1e-6 * tables.box().diagonal()) << "one place by the domain";
   EXPECT_TRUE(occt::find_touching_solids(model, tables).self_touching.empty());
+}
+
+TEST(SolidContacts, are_none_across_a_slot_in_a_spline_though_both_sides_have_its_surface) {
+  const auto spline_box = [](gp_Pnt at, double dx, double dy, double dz) {
+    return BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeBox(at, dx, dy, dz).Shape(), true).Shape();
+  };
+  const TopoDS_Shape frame =
+      BRepAlgoAPI_Cut(spline_box(gp_Pnt(0, 0, 0), 4, 4, 1), BRepPrimAPI_MakeBox(gp_Pnt(1, 1, -1), 2, 2, 3).Shape())
+          .Shape();
+  const auto groups_with = [&](const TopoDS_Shape& other) {
+    occt::ImportedShape model = imported(occt::compound_of(std::vector<TopoDS_Shape>{frame, other}));
+    return occt::find_touching_solids(model, occt::make_tables(model, "test").tables).groups;
+  };
+  EXPECT_TRUE(groups_with(spline_box(gp_Pnt(1.1, 1.1, 0), 1.8, 1.8, 1)).empty()) << "a flap";
+  EXPECT_EQ(groups_with(spline_box(gp_Pnt(0.5, 0.2, 1), 0.4, 0.4, 1)).size(), 1u) << "a block on it";
+  EXPECT_EQ(groups_with(spline_box(gp_Pnt(-1, 3, 1), 3, 2, 1)).size(), 1u) << "a block across its rim";
 }
 
 }  // namespace
