@@ -11,6 +11,7 @@
 #include "base/disjoint_sets.h"
 #include "features/cut_bases.h"
 #include "features/smooth_edges.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -25,9 +26,8 @@ double width_of(const Strip& strip) { return strip.stations[strip.stations.size(
 class BaseStripFinder {
  public:
   BaseStripFinder(const Model& model, std::span<const Strip> strips)
-      : model_(model), t_(model.tables()), strips_(strips) {
+      : model_(model), t_(model.tables()), strips_(strips), faces_at_(t_) {
     for (std::size_t i = 0; i < strips.size(); ++i) index_[strips[i].face] = i;
-    t_.edge_faces(offsets_, edge_faces_);
   }
 
   std::vector<Strip> run() {
@@ -43,19 +43,16 @@ class BaseStripFinder {
  private:
   /// The other strip of which an edge is a long one; nothing where the surface has a corner there.
   const Strip* beyond(const Strip& strip, EdgeId e) const {
-    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k) {
-      const auto own = index_.find(edge_faces_[k]);
-      if (edge_faces_[k] == strip.face || own == index_.end()) continue;
+    for (const FaceId f : faces_at_[e]) {
+      const auto own = index_.find(f);
+      if (f == strip.face || own == index_.end()) continue;
       const Strip& other = strips_[own->second];
       if ((other.edges[0] == e || other.edges[1] == e) && is_smooth(e)) return &other;
     }
     return nullptr;
   }
 
-  bool is_smooth(EdgeId e) const {
-    return is_smooth_half_way(model_, e, std::span(edge_faces_).subspan(offsets_[e], offsets_[e + 1] - offsets_[e]),
-                              kSmooth);
-  }
+  bool is_smooth(EdgeId e) const { return is_smooth_half_way(model_, e, faces_at_[e], kSmooth); }
 
   void add_cut_bases(std::vector<Strip>& all) const {
     std::vector<std::uint8_t> is_strip(static_cast<std::size_t>(t_.n_faces()), 0);
@@ -100,14 +97,14 @@ class BaseStripFinder {
 
   /// Beyond an edge of a face, whether there is a corner or not; nothing where it is much wider or narrower on.
   std::optional<Quad> quad_beyond(FaceId from, EdgeId e) const {
-    if (offsets_[e + 1] - offsets_[e] != 2 || t_.edge_is_degenerate[e]) return std::nullopt;
-    const FaceId f = edge_faces_[offsets_[e]] == from ? edge_faces_[offsets_[e] + 1] : edge_faces_[offsets_[e]];
+    if (faces_at_[e].size() != 2 || t_.edge_is_degenerate[e]) return std::nullopt;
+    const FaceId f = faces_at_.beyond(e, from);
     const auto loop = t_.edges_of(f);
     if (f == from || t_.loops(f).size() != 1 || loop.size() != 4) return std::nullopt;
     const auto at = static_cast<std::size_t>(std::ranges::find(loop, e) - loop.begin());
     const Quad quad{f, loop[(at + 2) % 4], {loop[(at + 1) % 4], loop[(at + 3) % 4]}};
     const auto is_side = [&](EdgeId side) {
-      return !t_.edge_is_degenerate[side] && offsets_[side + 1] - offsets_[side] == 2 &&
+      return !t_.edge_is_degenerate[side] && faces_at_[side].size() == 2 &&
              t_.edge_vertices[2 * side] != t_.edge_vertices[2 * side + 1];
     };
     const double a = t_.edge_length[e], b = t_.edge_length[quad.beyond];
@@ -193,8 +190,7 @@ class BaseStripFinder {
   const ModelTables& t_;
   std::span<const Strip> strips_;
   std::map<FaceId, std::size_t> index_;
-  std::vector<std::int32_t> offsets_;
-  std::vector<FaceId> edge_faces_;
+  EdgeFaces faces_at_;
 };
 
 }  // namespace

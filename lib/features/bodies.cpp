@@ -6,6 +6,7 @@
 
 #include "base/disjoint_sets.h"
 #include "features/concave_edges.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -23,12 +24,9 @@ class BodyFinder {
   }
 
   Bodies run(std::span<const std::uint8_t> is_concave) {
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    t_.edge_faces(offsets, faces);
+    const EdgeFaces faces_at(t_);
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      if (!is_concave[e] && !t_.edge_is_degenerate[e] && offsets[e + 1] - offsets[e] == 2)
-        join(faces[offsets[e]], faces[offsets[e] + 1]);
+      if (!is_concave[e] && !t_.edge_is_degenerate[e] && faces_at[e].size() == 2) join(faces_at[e][0], faces_at[e][1]);
     return assemble();
   }
 

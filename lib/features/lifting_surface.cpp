@@ -26,6 +26,7 @@
 #include "features/station_gaps.h"
 #include "features/thin_surface.h"
 #include "features/trailing_chains.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -869,8 +870,7 @@ FaceId mirror_of(const std::vector<WingEdge>& chain) {
 class SmoothTails {
  public:
   SmoothTails(const ModelTables& t, std::span<const WingEdge> edges)
-      : t_(t), is_leading_(static_cast<std::size_t>(t.n_edges()), 0) {
-    t.edge_faces(offsets_, edge_faces_);
+      : t_(t), is_leading_(static_cast<std::size_t>(t.n_edges()), 0), faces_at_(t) {
     for (const WingEdge& w : edges)
       if (w.kind == WingEdgeKind::kLeading) is_leading_[static_cast<std::size_t>(w.edge)] = 1;
   }
@@ -884,16 +884,14 @@ class SmoothTails {
         if (vertex(e, k) == vertex(own.edge, 0) || vertex(e, k) == vertex(own.edge, 1)) return false;
       return true;
     };
-    for (std::int32_t k = offsets_[own.edge]; k < offsets_[own.edge + 1]; ++k)
-      if (std::ranges::any_of(t_.edges_of(edge_faces_[static_cast<std::size_t>(k)]), is_other)) return true;
-    return false;
+    return std::ranges::any_of(faces_at_[own.edge],
+                               [&](FaceId f) { return std::ranges::any_of(t_.edges_of(f), is_other); });
   }
 
  private:
   const ModelTables& t_;
   std::vector<std::uint8_t> is_leading_;  // [n_edges] smooth, in a nose
-  std::vector<std::int32_t> offsets_;     // into edge_faces_, by edge
-  std::vector<FaceId> edge_faces_;
+  EdgeFaces faces_at_;
 };
 
 /// Edges at which profiles are cut.
@@ -910,8 +908,7 @@ class SurfaceFinder {
  public:
   SurfaceFinder(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges, const Facets& facets,
                 FinderMemory& memory)
-      : model_(model), roles_(roles), edges_(edges), facets_(facets), memory_(memory) {
-    model.tables().edge_faces(offsets_, edge_faces_);
+      : model_(model), roles_(roles), edges_(edges), facets_(facets), memory_(memory), faces_at_(model.tables()) {
     for (const FaceRole role : roles.role) is_wall_.push_back(role == FaceRole::kWall);
   }
 
@@ -960,7 +957,7 @@ class SurfaceFinder {
     const auto is_at_nose = [&](const WingEdge& w) {
       return std::ranges::any_of(surfaces_, [&](const LiftingSurface& s) {
         const auto is_own = [&](FaceId f) { return std::ranges::binary_search(s.faces, f); };
-        return std::ranges::any_of(faces_at(w.edge), is_own) && runs_along_nose(model_, w, s);
+        return std::ranges::any_of(faces_at_[w.edge], is_own) && runs_along_nose(model_, w, s);
       });
     };
     if (std::ranges::all_of(rest.edges, is_at_nose))
@@ -983,9 +980,7 @@ class SurfaceFinder {
     const ModelTables& t = model_.tables();
     const auto e = static_cast<std::size_t>(w.edge);
     if (t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1]) return true;
-    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k)
-      if (t.face_type[edge_faces_[static_cast<std::size_t>(k)]] != SurfaceType::kPlane) return false;
-    return true;
+    return std::ranges::all_of(faces_at_[w.edge], [&](FaceId f) { return t.face_type[f] == SurfaceType::kPlane; });
   }
 
   /// Blades whose trailing edge is round, with a smooth edge in it, and whose other end is round, too: else that would
@@ -1068,14 +1063,9 @@ class SurfaceFinder {
         return model_.tables().face_type[f] == SurfaceType::kPlane &&
                std::abs(dot(MirrorPlane(model_, f).normal, along)) > kAcrossSpan;
       };
-      if (!w.is_declared && std::ranges::any_of(faces_at(w.edge), is_across)) rims.push_back(w.edge);
+      if (!w.is_declared && std::ranges::any_of(faces_at_[w.edge], is_across)) rims.push_back(w.edge);
     }
     return rims;
-  }
-
-  std::span<const FaceId> faces_at(EdgeId e) const {
-    return std::span(edge_faces_)
-        .subspan(static_cast<std::size_t>(offsets_[e]), static_cast<std::size_t>(offsets_[e + 1] - offsets_[e]));
   }
 
   /// Plane faces at which an edge of a chain ends, and on which none lies, ascending.
@@ -1096,7 +1086,7 @@ class SurfaceFinder {
         const auto& at = planes_at_[static_cast<std::size_t>(t.edge_vertices[2 * e + k])];
         planes.insert(planes.end(), at.begin(), at.end());
       }
-      own.insert(own.end(), edge_faces_.begin() + offsets_[e], edge_faces_.begin() + offsets_[e + 1]);
+      own.insert(own.end(), faces_at_[w.edge].begin(), faces_at_[w.edge].end());
     }
     sort_once(planes);
     std::sort(own.begin(), own.end());
@@ -1270,7 +1260,7 @@ class SurfaceFinder {
     body.trailing.resize(chain.size());
     for (std::size_t k = 0; k < chain.size(); ++k) {
       body.trailing[k].edge = chain[k].edge;
-      for (const FaceId f : faces_at(chain[k].edge))
+      for (const FaceId f : faces_at_[chain[k].edge])
         if (t.face_box[f].diagonal() > diagonal) return std::nullopt;  // spares the search on machine parts
     }
     const std::vector<std::uint8_t> is_own = find_own_faces(t, memory_.concave_edges(), is_wall_, body);
@@ -1312,10 +1302,10 @@ class SurfaceFinder {
     };
     const auto is_beyond = [&](FaceId f, double length) {
       return t.face_width[f] < kNarrowStrip * length &&
-             std::ranges::any_of(t.edges_of(f), [&](EdgeId e) { return std::ranges::any_of(faces_at(e), is_spline); });
+             std::ranges::any_of(t.edges_of(f), [&](EdgeId e) { return std::ranges::any_of(faces_at_[e], is_spline); });
     };
     return std::ranges::any_of(chain, [&](const WingEdge& w) {
-      return std::ranges::any_of(faces_at(w.edge), [&](FaceId f) { return is_spline(f) || is_beyond(f, w.length); });
+      return std::ranges::any_of(faces_at_[w.edge], [&](FaceId f) { return is_spline(f) || is_beyond(f, w.length); });
     });
   }
 
@@ -1385,8 +1375,7 @@ class SurfaceFinder {
   std::vector<CutEnd> ends_;                // of cuts through the facets
   std::map<FaceId, Facets> whole_;          // by symmetry plane
   std::map<FaceId, ProfileCutter> cutter_;  // of these; kNone: of the facets themselves
-  std::vector<std::int32_t> offsets_;       // into edge_faces_, by edge
-  std::vector<FaceId> edge_faces_;
+  EdgeFaces faces_at_;
   std::vector<std::vector<FaceId>> planes_at_;  // by vertex; empty: not known yet
   std::vector<std::uint8_t> is_wall_;           // by face
   std::vector<LiftingSurface> surfaces_;

@@ -1,16 +1,15 @@
 #include "features/own_faces.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 
 std::vector<std::uint8_t> find_own_faces(const ModelTables& t, std::span<const std::uint8_t> is_concave,
                                          std::span<const std::uint8_t> is_allowed, const LiftingSurface& surface) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces, todo;
-  t.edge_faces(offsets, edge_faces);
+  const EdgeFaces faces_at(t);
+  std::vector<FaceId> todo;
   std::vector<std::uint8_t> is_own(static_cast<std::size_t>(t.n_faces()), 0);
   const auto take_faces_at = [&](EdgeId e) {
-    for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) {
-      const FaceId f = edge_faces[k];
+    for (const FaceId f : faces_at[e]) {
       if (!is_allowed[f] || is_own[f]) continue;
       is_own[f] = 1;
       todo.push_back(f);
@@ -28,13 +27,12 @@ std::vector<std::uint8_t> find_own_faces(const ModelTables& t, std::span<const s
 
 std::vector<std::uint8_t> find_body_faces(const ModelTables& t, std::span<const std::uint8_t> is_concave,
                                           std::span<const std::uint8_t> is_wall, const LiftingSurface& surface) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces;
-  t.edge_faces(offsets, edge_faces);
+  const EdgeFaces faces_at(t);
   std::vector<std::uint8_t> is_allowed(is_wall.begin(), is_wall.end());
   for (const FaceId f : surface.faces)
     for (const EdgeId e : t.edges_of(f))
-      for (std::int32_t k = offsets[e]; is_concave[e] && k < offsets[e + 1]; ++k) is_allowed[edge_faces[k]] = 0;
+      if (is_concave[e])
+        for (const FaceId g : faces_at[e]) is_allowed[g] = 0;
   for (const FaceId f : surface.faces) is_allowed[f] = 1;
   return find_own_faces(t, is_concave, is_allowed, surface);
 }

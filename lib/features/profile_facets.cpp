@@ -22,9 +22,8 @@ MirrorPlane::MirrorPlane(const Model& model, FaceId face) {
 }
 
 ProfileFacets::ProfileFacets(const Model& model, const FaceRoles& roles, const ProfileLimits& limits)
-    : model_(model), roles_(roles), limits_(limits) {
+    : model_(model), roles_(roles), limits_(limits), faces_at_(model.tables()) {
   is_known_.resize(static_cast<std::size_t>(model.tables().n_faces()), 0);
-  model.tables().edge_faces(offsets_, edge_faces_);
 }
 
 void ProfileFacets::add_along(std::span<const WingEdge> edges, const Executor& executor) {
@@ -71,17 +70,19 @@ std::vector<std::uint8_t> ProfileFacets::walls_of_next(std::span<const Cut> cuts
 std::vector<std::vector<WingEdge>> ProfileFacets::by_body(std::span<const WingEdge> edges) const {
   DisjointSets bodies(static_cast<std::int64_t>(is_known_.size()));
   const auto is_wall = [&](FaceId f) { return roles_.role[f] == FaceRole::kWall; };
-  for (std::size_t e = 0; e + 1 < offsets_.size(); ++e)
-    for (std::int32_t k = offsets_[e], wall = kNone; k < offsets_[e + 1]; ++k) {
-      if (!is_wall(edge_faces_[k])) continue;
-      if (wall != kNone) bodies.join(wall, edge_faces_[k]);
-      wall = edge_faces_[k];
+  for (EdgeId e = 0; e < model_.tables().n_edges(); ++e) {
+    FaceId wall = kNone;
+    for (const FaceId f : faces_at_[e]) {
+      if (!is_wall(f)) continue;
+      if (wall != kNone) bodies.join(wall, f);
+      wall = f;
     }
+  }
   std::map<FaceId, std::vector<WingEdge>> by_first;
   for (const WingEdge& w : edges)
-    for (std::int32_t k = offsets_[w.edge]; k < offsets_[w.edge + 1]; ++k) {
-      if (!is_wall(edge_faces_[k])) continue;
-      by_first[bodies.find(edge_faces_[k])].push_back(w);
+    for (const FaceId f : faces_at_[w.edge]) {
+      if (!is_wall(f)) continue;
+      by_first[bodies.find(f)].push_back(w);
       break;
     }
   std::vector<std::vector<WingEdge>> all;
@@ -183,8 +184,7 @@ bool ProfileFacets::is_at(FaceId f, Vec3 x) const {
 
 /// Those that are not known; `x`: that come near it (null: any).
 void ProfileFacets::take_walls_at(EdgeId e, const Vec3* x, std::vector<std::uint8_t>& taken) {
-  for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k) {
-    const FaceId f = edge_faces_[k];
+  for (const FaceId f : faces_at_[e]) {
     if (is_known_[f] || roles_.role[f] != FaceRole::kWall || (x && !is_at(f, *x))) continue;
     is_known_[f] = taken[f] = 1;
   }

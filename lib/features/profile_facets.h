@@ -12,6 +12,7 @@
 #include "features/face_roles.h"
 #include "features/profile.h"
 #include "features/wing_edges.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/model/facets.h"
 
 namespace st {
@@ -77,8 +78,7 @@ class ProfileFacets {
   const Model& model_;
   const FaceRoles& roles_;
   const ProfileLimits limits_;
-  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
-  std::vector<FaceId> edge_faces_;
+  EdgeFaces faces_at_;
   std::vector<std::uint8_t> is_known_;  // [n_faces] their facets are there, or will be next
   std::vector<MirrorPlane> mirrors_;    // on which edges lie: a cut goes on in the image
   Facets facets_;

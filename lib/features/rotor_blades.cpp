@@ -13,6 +13,7 @@
 #include "features/arc_table.h"
 #include "features/edge_places.h"
 #include "features/turn_axis.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -67,11 +68,11 @@ class BladeFinder {
         is_excluded_(is_excluded),
         wings_(wings),
         is_done_(wings.size(), 0),
+        faces_at_(t_),
         places_(t_.n_edges()) {
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
       if (!t_.edge_is_degenerate[e]) by_length_.push_back(e);
     std::ranges::stable_sort(by_length_, {}, [&](EdgeId e) { return t_.edge_length[e]; });
-    t_.edge_faces(offsets_, edge_faces_);
   }
 
   bool run() {
@@ -148,8 +149,7 @@ class BladeFinder {
     const double t = ArcTable(*curve).parameter_at(0.5);
     const CurvePoint p = curve->evaluate(t);
     EdgeFrame frame{p.x, normalized(p.d1), {}};
-    for (std::int32_t k = offsets_[e]; k < offsets_[e + 1]; ++k) {
-      const FaceId f = edge_faces_[k];
+    for (const FaceId f : faces_at_[e]) {
       for (const CoedgeId c : t_.coedges(f)) {
         if (t_.coedge_edge[c] != e) continue;
         const Vec3 n = surface_normal(*model_.surface(f), model_.pcurve(f, c)->point(t));
@@ -195,8 +195,8 @@ class BladeFinder {
     std::map<FaceId, int> n_edges;
     for (const EdgeId e : t_.edges_of(f)) {
       const EdgeId image = t_.edge_is_degenerate[e] ? kNone : image_of(e, turn, reach).edge;
-      for (std::int32_t k = image == kNone ? 0 : offsets_[image]; image != kNone && k < offsets_[image + 1]; ++k)
-        ++n_edges[edge_faces_[k]];
+      if (image == kNone) continue;
+      for (const FaceId g : faces_at_[image]) ++n_edges[g];
     }
     const auto most = std::ranges::max_element(n_edges, {}, [](const auto& own) { return own.second; });
     return most == n_edges.end() ? kNone : most->first;
@@ -350,9 +350,8 @@ class BladeFinder {
   std::span<const std::uint8_t> is_excluded_;
   std::vector<LiftingSurface>& wings_;
   std::vector<std::uint8_t> is_done_;  // by surface: is alike with its sisters
-  std::vector<EdgeId> by_length_;      // not degenerate, the shortest first
-  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
-  std::vector<FaceId> edge_faces_;
+  EdgeFaces faces_at_;
+  std::vector<EdgeId> by_length_;              // not degenerate, the shortest first
   std::vector<std::optional<Places>> places_;  // by edge; made when first asked
 };
 

@@ -15,6 +15,7 @@
 #include "features/profile.h"
 #include "features/profile_facets.h"
 #include "features/span_edges.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -77,9 +78,8 @@ bool has_same_tail(const Draft& own, const Draft& other) { return runs_along(own
 /// Cuts along one edge.
 class TailMeasurer {
  public:
-  TailMeasurer(const Model& model, const FaceRoles& roles) : model_(model), roles_(roles), facets_(model, roles) {
-    model.tables().edge_faces(offsets_, edge_faces_);
-  }
+  TailMeasurer(const Model& model, const FaceRoles& roles)
+      : model_(model), roles_(roles), facets_(model, roles), faces_at_(model.tables()) {}
 
   std::optional<Draft> run(const SpanEdge& span_edge) {
     leave_other_bodies(span_edge.edge);
@@ -96,8 +96,7 @@ class TailMeasurer {
   /// Cuts search all facets that are there: those of faces that the last edges did not reach are dropped, so that a
   /// hundred blades take a hundred times as long as one.
   void leave_other_bodies(EdgeId e) {
-    const std::span faces(edge_faces_.data() + offsets_[e], edge_faces_.data() + offsets_[e + 1]);
-    if (std::ranges::none_of(faces, [&](FaceId f) { return facets_.knows(f); })) facets_.clear();
+    if (std::ranges::none_of(faces_at_[e], [&](FaceId f) { return facets_.knows(f); })) facets_.clear();
   }
 
   /// Spares facets of bodies that are none.
@@ -253,8 +252,7 @@ class TailMeasurer {
   const Model& model_;
   const FaceRoles& roles_;
   FacetStore facets_;
-  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
-  std::vector<FaceId> edge_faces_;
+  EdgeFaces faces_at_;
   std::map<FaceId, std::optional<Vec2>> nose_guess_, tail_guess_;  // (u,v) of the last one on each face
 };
 

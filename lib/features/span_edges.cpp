@@ -10,6 +10,7 @@
 #include "base/eigen.h"
 #include "base/share.h"
 #include "features/smooth_edges.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -38,11 +39,11 @@ class SpanEdgeFinder {
       : model_(model),
         t_(model.tables()),
         roles_(roles),
+        faces_at_(t_),
         is_taken_(is_taken),
         is_smooth_(static_cast<std::size_t>(t_.n_edges())),
         is_sampled_(static_cast<std::size_t>(t_.n_faces())),
         samples_(is_sampled_.size()) {
-    t_.edge_faces(offsets_, edge_faces_);
     is_turned_ = is_material_ahead(t_, roles);
   }
 
@@ -57,11 +58,6 @@ class SpanEdgeFinder {
   }
 
  private:
-  std::span<const FaceId> faces_at(EdgeId e) const {
-    return std::span(edge_faces_)
-        .subspan(static_cast<std::size_t>(offsets_[e]), static_cast<std::size_t>(offsets_[e + 1] - offsets_[e]));
-  }
-
   bool is_free_form(FaceId f) const {
     constexpr std::array kAnalytic = {SurfaceType::kPlane, SurfaceType::kCylinder, SurfaceType::kCone,
                                       SurfaceType::kSphere, SurfaceType::kTorus};
@@ -70,7 +66,7 @@ class SpanEdgeFinder {
 
   bool is_candidate(EdgeId e) {
     if (t_.edge_is_degenerate[e] || t_.edge_length[e] < kLeastLength * roles_.reference_diagonal) return false;
-    const auto at = faces_at(e);
+    const auto at = faces_at_[e];
     if (at.size() != 2 || !is_free_form(at[0]) || !is_free_form(at[1])) return false;
     const VertexId a = t_.edge_vertices[2 * e], b = t_.edge_vertices[2 * e + 1];
     if (a != b && distance(t_.vertex_xyz[a], t_.vertex_xyz[b]) < kStraight * t_.edge_length[e]) return false;
@@ -79,17 +75,18 @@ class SpanEdgeFinder {
 
   bool is_smooth(EdgeId e) {
     std::atomic<Known>& known = is_smooth_[static_cast<std::size_t>(e)];
-    if (known == Known::kNotYet) known = is_smooth_half_way(model_, e, faces_at(e), kSmooth) ? Known::kYes : Known::kNo;
+    if (known == Known::kNotYet)
+      known = is_smooth_half_way(model_, e, faces_at_[e], kSmooth) ? Known::kYes : Known::kNo;
     return known == Known::kYes;
   }
 
   /// Its faces, and those beyond their edges, without walls that turn away there.
   std::vector<FaceId> faces_around(EdgeId e) {
-    std::vector<FaceId> faces(faces_at(e).begin(), faces_at(e).end());
+    std::vector<FaceId> faces(faces_at_[e].begin(), faces_at_[e].end());
     if (faces[0] == faces[1]) faces.pop_back();
     for (std::size_t k = 0, n = faces.size(); k < n; ++k)
       for (const EdgeId next : t_.edges_of(faces[k]))
-        for (const FaceId f : faces_at(next))
+        for (const FaceId f : faces_at_[next])
           if (faces.size() < kMostFaces && std::ranges::count(faces, f) == 0 && is_free_form(f) && is_smooth(next))
             faces.push_back(f);
     return faces;
@@ -202,9 +199,8 @@ class SpanEdgeFinder {
   const Model& model_;
   const ModelTables& t_;
   const FaceRoles& roles_;
-  bool is_turned_ = false;             // normals point into the material
-  std::vector<std::int32_t> offsets_;  // into edge_faces_, by edge
-  std::vector<FaceId> edge_faces_;
+  bool is_turned_ = false;  // normals point into the material
+  EdgeFaces faces_at_;
   std::span<const std::uint8_t> is_taken_;     // [n_faces] of a lifting surface that is known
   std::vector<std::atomic<Known>> is_smooth_;  // [n_edges] between the faces there
   std::vector<std::once_flag> is_sampled_;     // [n_faces]

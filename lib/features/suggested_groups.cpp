@@ -9,6 +9,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/eigen.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -182,15 +183,13 @@ class GroupSuggester {
   }
 
   void find_neighbours() {
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    t_.edge_faces(offsets, faces);
+    const EdgeFaces faces_at(t_);
     touched_.resize(bodies_.body.size());
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      for (std::int32_t a = offsets[e]; a < offsets[e + 1]; ++a)
-        for (std::int32_t b = offsets[e]; b < offsets[e + 1]; ++b)
-          if (const std::int32_t body = bodies_.of_face[faces[a]]; body != kNone && bodies_.of_face[faces[b]] != body)
-            ++touched_[static_cast<std::size_t>(body)][faces[b]];
+      for (const FaceId a : faces_at[e])
+        for (const FaceId b : faces_at[e])
+          if (const std::int32_t body = bodies_.of_face[a]; body != kNone && bodies_.of_face[b] != body)
+            ++touched_[static_cast<std::size_t>(body)][b];
   }
 
   /// The group of most of the edges around a body, of those that `counts`.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/disjoint_sets.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -58,17 +59,15 @@ class Joiner {
 
 void join_across_notches(const Model& model, std::span<const WingEdge> edges, DisjointSets& sets) {
   const ModelTables& t = model.tables();
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces;
-  t.edge_faces(offsets, edge_faces);
+  const EdgeFaces faces_at(t);
   std::map<FaceId, std::vector<std::int32_t>> at_face;
   std::vector<std::array<End, 2>> ends;
   for (const WingEdge& w : edges) {
     const auto own = static_cast<std::int32_t>(ends.size());
     ends.push_back(ends_of(model, w.edge));
     const bool may_be_plate = w.base != kNone && std::abs(w.angle - kPi / 2) < kSquare;
-    for (std::int32_t k = offsets[w.edge]; k < offsets[w.edge + 1]; ++k)
-      if (!may_be_plate && edge_faces[k] != w.base) at_face[edge_faces[k]].push_back(own);
+    for (const FaceId f : faces_at[w.edge])
+      if (!may_be_plate && f != w.base) at_face[f].push_back(own);
   }
   for (const auto& [face, own] : at_face)
     for (std::size_t a = 0; a < own.size(); ++a)

@@ -11,6 +11,7 @@
 #include "base/disjoint_sets.h"
 #include "base/eigen.h"
 #include "features/profile.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -32,13 +33,10 @@ Vec3 place_on(const Curve& curve, int i) {
 
 /// Used once, by a wall.
 std::vector<EdgeId> free_edges(const ModelTables& t, const FaceRoles& roles) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
+  const EdgeFaces faces_at(t);
   std::vector<EdgeId> free;
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (!t.edge_is_degenerate[e] && offsets[e + 1] - offsets[e] == 1 &&
-        roles.role[faces[static_cast<std::size_t>(offsets[e])]] == FaceRole::kWall)
+    if (!t.edge_is_degenerate[e] && faces_at[e].size() == 1 && roles.role[faces_at[e][0]] == FaceRole::kWall)
       free.push_back(e);
   return free;
 }
@@ -197,9 +195,7 @@ std::vector<EdgeId> find_sheet_edges(const Model& model, const FaceRoles& roles)
 std::vector<EdgeId> find_seams_of_blades(const Model& model, const FaceRoles& roles,
                                          std::span<const LiftingSurface> wings) {
   const ModelTables& t = model.tables();
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces;
-  t.edge_faces(offsets, edge_faces);
+  const EdgeFaces faces_at(t);
   const auto is_free = [&](FaceId f) {
     const auto has_face = [&](const LiftingSurface& wing) { return std::ranges::count(wing.faces, f) > 0; };
     return roles.role[f] == FaceRole::kWall && t.face_type[f] == SurfaceType::kBspline &&
@@ -210,9 +206,7 @@ std::vector<EdgeId> find_seams_of_blades(const Model& model, const FaceRoles& ro
   std::vector<EdgeId> found;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
     if (t.edge_is_degenerate[e] || t.edge_length[e] < kLeastLength * roles.reference_diagonal) continue;
-    const auto at =
-        std::span(edge_faces)
-            .subspan(static_cast<std::size_t>(offsets[e]), static_cast<std::size_t>(offsets[e + 1] - offsets[e]));
+    const auto at = faces_at[e];
     if (at.size() != 2 || is_done[at[0]] || !is_free(at[0]) || !is_free(at[1])) continue;
     const auto is_shared = [&](EdgeId own) { return std::ranges::count(t.edges_of(at[1]), own) > 0; };
     if (at[0] != at[1] && std::ranges::count_if(t.edges_of(at[0]), is_shared) < 2) continue;

@@ -1,4 +1,5 @@
 #include "sizing/model_limits.h"
+#include "geometry/model/edge_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,16 +163,14 @@ class LimitsMaker {
   }
 
   void collect_edges() {
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    t_.edge_faces(offsets, faces);
-    for (std::size_t e = 0; e < static_cast<std::size_t>(t_.n_edges()); ++e) {
+    const EdgeFaces faces_at(t_);
+    for (EdgeId e = 0; e < t_.n_edges(); ++e) {
       Limits own;
-      for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k) own = finest(own, face_.curve[faces[k]]);
-      if (offsets[e] == offsets[e + 1]) own = wall_;
+      for (const FaceId f : faces_at[e]) own = finest(own, face_.curve[f]);
+      if (faces_at[e].empty()) own = wall_;
       if (own && own->alpha == wall_.alpha)  // bent as the body is that ends there
-        for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-          if (const Body* body = body_of(faces[k])) own->alpha = std::max(own->alpha, body_alpha(*body));
+        for (const FaceId f : faces_at[e])
+          if (const Body* body = body_of(f)) own->alpha = std::max(own->alpha, body_alpha(*body));
       if (t_.edge_is_degenerate[e]) own.reset();
       edge_.push_back(own);
     }

@@ -10,6 +10,7 @@
 
 #include "base/eigen.h"
 #include "geometry/model/cad_tolerance.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -257,14 +258,12 @@ double volume_of_tolerances(const ModelTables& tables, const ChordError& chords,
 /// What sewn edges leave open of the CAD's own volume, the sum of its faces' cones from one point: a strip along each
 /// edge, as wide as its faces are apart there and as given tolerances allow.
 double volume_of_gaps(const ModelTables& tables, const std::vector<double>& given) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  tables.edge_faces(offsets, faces);
+  const EdgeFaces faces_at(tables);
   const Vec3 apex = tables.box().center();
   double volume = 0;
   for (EdgeId e = 0; e < tables.n_edges(); ++e) {
     double gap = tables.edge_tolerance[e];
-    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) gap = std::min(gap, given[faces[i]]);
+    for (const FaceId f : faces_at[e]) gap = std::min(gap, given[f]);
     const double height = std::max(distance(tables.vertex_xyz[tables.edge_vertices[2 * e]], apex),
                                    distance(tables.vertex_xyz[tables.edge_vertices[2 * e + 1]], apex));
     volume += gap * tables.edge_length[e] * height / 3;

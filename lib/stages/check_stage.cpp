@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "base/required_unit.h"
 #include "base/threads.h"
+#include "geometry/model/edge_faces.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"
 #include "io/hdf5/artifact.h"
@@ -53,12 +54,10 @@ struct CadSide {
   std::vector<std::uint8_t> may_be_open, may_be_nonmanifold;
 
   CadSide(GeometryArtifact&& g, const std::string& path) : sewing(sewing_tolerance(g)), model(stored_model(g, path)) {
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    model.tables().edge_faces(offsets, faces);
+    const EdgeFaces faces_at(model.tables());
     for (EdgeId e = 0; e < model.tables().n_edges(); ++e) {
-      may_be_open.push_back(offsets[e + 1] - offsets[e] == 1);
-      may_be_nonmanifold.push_back(offsets[e + 1] - offsets[e] > 2);
+      may_be_open.push_back(faces_at[e].size() == 1);
+      may_be_nonmanifold.push_back(faces_at[e].size() > 2);
     }
   }
   CadEdges edges() const { return {model.tables().edge_vertices, may_be_open, may_be_nonmanifold}; }

@@ -15,6 +15,7 @@
 #include "features/ridge_edges.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/model/joined_tables.h"
 #include "io/foreign/triangulation_reader.h"
 #include "stages/cad_view.h"
@@ -59,12 +60,10 @@ bool are_alike(const ModelTables& t, FaceId a, FaceId b) {
 std::vector<std::uint8_t> edges_inside(const ModelTables& t) {
   std::vector<std::uint8_t> is_inside(static_cast<std::size_t>(t.n_edges()), 0);
   const std::vector<std::uint8_t> is_kept = kept_edges(t);
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
+  const EdgeFaces faces_at(t);
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    is_inside[e] = !is_kept[e] && !t.edge_is_degenerate[e] && offsets[e + 1] - offsets[e] == 2 &&
-                   are_alike(t, faces[offsets[e]], faces[offsets[e] + 1]);
+    is_inside[e] = !is_kept[e] && !t.edge_is_degenerate[e] && faces_at[e].size() == 2 &&
+                   are_alike(t, faces_at[e][0], faces_at[e][1]);
   return is_inside;
 }
 
@@ -165,17 +164,14 @@ class HarmFinder {
 
 /// Keeps smooth edges between faces that some edge is to go from: others are in no union.
 void keep_smooth(const ModelTables& t, JoinRequest& request, SmoothEdges& is_smooth) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
-  const auto sides = [&](EdgeId e) { return std::span(faces).subspan(static_cast<std::size_t>(offsets[e]), 2); };
+  const EdgeFaces faces_at(t);
   std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t.n_faces()), 0);
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (request.may_join[e] && request.urgency[e] > 0)
-      for (const FaceId f : sides(e)) is_wanted[f] = 1;
+      for (const FaceId f : faces_at[e]) is_wanted[f] = 1;
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     request.may_join[e] = request.may_join[e] &&
-                          std::ranges::all_of(sides(e), [&](FaceId f) { return is_wanted[f] != 0; }) && is_smooth(e);
+                          std::ranges::all_of(faces_at[e], [&](FaceId f) { return is_wanted[f] != 0; }) && is_smooth(e);
 }
 
 /// Narrow faces between edges that stay are apart: their widths ask for lengths, and those of a union would not.

@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "base/text.h"
+#include "geometry/model/edge_faces.h"
 #include "stages/raster_options.h"
 #include "stages/size_tally.h"
 
@@ -59,16 +60,13 @@ std::vector<double> curvature_floors(const ModelTables& t, const std::vector<Lif
     own[line.wing] = std::min(own[line.wing], kOfNose * std::min(length, kDefaultNose * line.chord));
     chord[line.wing] = std::min(chord[line.wing], line.chord);
   }
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces;
-  t.edge_faces(offsets, edge_faces);
+  const EdgeFaces faces_at(t);
   for (std::size_t w = 0; w < wings.size(); ++w) {
     const auto is_own = [&](FaceId f) { return std::ranges::binary_search(wings[w].faces, f); };
     for (const FaceId wing_face : wings[w].faces)
       for (const EdgeId e : t.edges_of(wing_face))
-        for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-          if (const FaceId f = edge_faces[k]; is_own(f) || face_width(t, f) < kNarrow * chord[w])
-            floors[f] = std::min(floors[f], own[w]);
+        for (const FaceId f : faces_at[e])
+          if (is_own(f) || face_width(t, f) < kNarrow * chord[w]) floors[f] = std::min(floors[f], own[w]);
   }
   return floors;
 }

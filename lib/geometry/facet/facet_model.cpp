@@ -7,6 +7,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/sort_once.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/model/rectangle_width.h"
 #include "geometry/shape/known_neighbours.h"
 #include "geometry/shape/polyline.h"
@@ -228,15 +229,13 @@ class FacetModelMaker {
   }
 
   void find_shells() {
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    tables_.edge_faces(offsets, faces);
+    const EdgeFaces faces_at(tables_);
     DisjointSets sets(tables_.n_faces());
     std::vector<std::uint8_t> is_open(charts_.size(), 0);
     for (EdgeId e = 0; e < tables_.n_edges(); ++e)
-      for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) {
-        sets.join(faces[offsets[e]], faces[i]);
-        if (offsets[e + 1] - offsets[e] != 2) is_open[faces[i]] = 1;
+      for (const FaceId f : faces_at[e]) {
+        sets.join(faces_at[e][0], f);
+        if (faces_at[e].size() != 2) is_open[f] = 1;
       }
     tables_.face_shell.resize(charts_.size());
     tables_.face_solid.assign(charts_.size(), kNone);

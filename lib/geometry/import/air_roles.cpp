@@ -13,6 +13,7 @@
 #include "geometry/brep/compound.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/import/air_pieces.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 
@@ -58,13 +59,11 @@ void give_roles(ImportedShape& model, OwnAir& air) {
 
 /// Far field and planes have no free edge.
 bool is_closed(const ModelTables& t, const OwnAir& air) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
+  const EdgeFaces faces_at(t);
   return std::none_of(air.farfield.begin(), air.farfield.end(), [&](FaceId f) {
     const auto edges = t.edges_of(f);
     return std::any_of(edges.begin(), edges.end(),
-                       [&](EdgeId e) { return offsets[e + 1] - offsets[e] < 2 && !t.edge_is_degenerate[e]; });
+                       [&](EdgeId e) { return faces_at[e].size() < 2 && !t.edge_is_degenerate[e]; });
   });
 }
 

@@ -18,6 +18,7 @@
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/model/cad_tolerance.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/model/sameness.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/projection.h"
@@ -92,13 +93,11 @@ class CrossingFaces {
     });
     for (const std::optional<FaceCrossing>& crossing : within)
       if (crossing) found_.push_back(*crossing);
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    t_.edge_faces(offsets, faces);
+    const EdgeFaces faces_at(t_);
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
     for (EdgeId e = 0; e < t_.n_edges(); ++e) {
-      if (t_.edge_is_degenerate[e] || offsets[e + 1] - offsets[e] != 2) continue;
-      const FaceId f = faces[offsets[e]], g = faces[offsets[e] + 1];
+      if (t_.edge_is_degenerate[e] || faces_at[e].size() != 2) continue;
+      const FaceId f = faces_at[e][0], g = faces_at[e][1];
       if (f == g || known_.contains(std::minmax(f, g))) continue;
       if (turn_back(e, f, g)) look_for_overlap(e, f, g);
       if (is_formula(t_.face_type[f]) && is_formula(t_.face_type[g])) continue;

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "geometry/brep/compound.h"
+#include "geometry/model/edge_faces.h"
 #include "geometry/model/model_editor.h"
 #include "geometry/model/model_impl.h"
 #include "geometry/model/model_tables.h"
@@ -121,24 +122,22 @@ gp_Trsf trsf_of(const Similarity& m) {
 
 /// Throws Error(kGeometry) where the faces in `moves` have edges or vertices in common with the others.
 void require_apart(const ModelTables& t, const std::vector<char>& moves) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
+  const EdgeFaces faces_at(t);
   std::vector<FaceId> at_vertex[2];  // a face at each vertex that stays, that moves
   at_vertex[0].assign(t.n_vertices(), kNone);
   at_vertex[1] = at_vertex[0];
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i)
+    for (const FaceId f : faces_at[e])
       for (const int end : {0, 1})
-        at_vertex[moves[faces[i]] ? 1 : 0][t.edge_vertices[2 * static_cast<std::size_t>(e) + end]] = faces[i];
+        at_vertex[moves[f] ? 1 : 0][t.edge_vertices[2 * static_cast<std::size_t>(e) + end]] = f;
   const auto fail = [&](const std::string& what, FaceId moving, FaceId staying) {
     throw Error(ExitCode::kGeometry, "the model would tear at " + what + ": " + t.face_label(moving) + " would move, " +
                                          t.face_label(staying) +
                                          " next to it would not; select whole bodies, or move everything");
   };
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    for (std::int32_t i = offsets[e] + 1; i < offsets[e + 1]; ++i)
-      if (const FaceId a = faces[offsets[e]], b = faces[i]; moves[a] != moves[b])
+    for (const FaceId b : faces_at[e])
+      if (const FaceId a = faces_at[e][0]; moves[a] != moves[b])
         fail(t.edge_label(e), moves[a] ? a : b, moves[a] ? b : a);
   for (VertexId v = 0; v < t.n_vertices(); ++v)
     if (at_vertex[0][v] != kNone && at_vertex[1][v] != kNone)

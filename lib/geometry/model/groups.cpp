@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "geometry/model/edge_faces.h"
 #include "geometry/model/entity_groups.h"
 #include "geometry/model/group_selection.h"
 #include "geometry/model/model.h"
@@ -180,18 +181,16 @@ std::vector<EmptyGroup> apply_groups(const std::vector<GroupRule>& rules, ModelT
 
 std::vector<EdgeId> edges_between(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,
                                   const ModelTables& t) {
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
+  const EdgeFaces faces_at(t);
   const auto separates = [&](FaceId f, FaceId g) {
     return a[f] && b[g] && (t.labels.face_group[f] != t.labels.face_group[g] || (!b[f] && !a[g]));
   };
   std::vector<EdgeId> result;
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
     bool is_between = false;
-    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i)
-      for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-        is_between = is_between || (i != k && separates(faces[i], faces[k]));
+    const auto at = faces_at[e];
+    for (std::size_t i = 0; i < at.size(); ++i)
+      for (std::size_t k = 0; k < at.size(); ++k) is_between = is_between || (i != k && separates(at[i], at[k]));
     if (is_between) result.push_back(e);
   }
   return result;

@@ -1,4 +1,5 @@
 #include "meshing/engine/mesh_plan.h"
+#include "geometry/model/edge_faces.h"
 
 #include <utility>
 
@@ -33,13 +34,11 @@ MeshPlan plan_again(const MeshTopology& topology, std::vector<FaceId> faces, Edg
   const ModelTables& t = topology.tables();
   std::vector<char> again(t.n_faces(), 0);
   for (const FaceId f : faces) again[f] = 1;
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> edge_faces;
-  t.edge_faces(offsets, edge_faces);
+  const EdgeFaces faces_at(t);
   MeshPlan plan{{}, std::move(faces), std::move(edges), std::move(patches), {}};
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    bool all = !t.edge_is_degenerate[e] && offsets[e + 1] > offsets[e] && (keep_edge.empty() || !keep_edge[e]);
-    for (std::int32_t i = offsets[e]; i < offsets[e + 1]; ++i) all = all && again[edge_faces[i]];
+    bool all = !t.edge_is_degenerate[e] && !faces_at[e].empty() && (keep_edge.empty() || !keep_edge[e]);
+    for (const FaceId f : faces_at[e]) all = all && again[f];
     if (all) plan.edges.push_back(e);
   }
   return plan;

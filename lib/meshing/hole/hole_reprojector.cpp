@@ -11,6 +11,7 @@
 #include "base/eigen.h"
 #include "base/error.h"
 #include "features/arc_table.h"
+#include "geometry/model/edge_faces.h"
 #include "mesh/quality.h"
 #include "meshing/hole/moved_smoothing.h"
 #include "meshing/topology/mesh_topology.h"
@@ -109,17 +110,15 @@ class Mover {
       if (old_.node_entity_dim[n] > kInFace || old_.node_entity[n] < 0 ||
           old_.node_entity[n] >= limit[old_.node_entity_dim[n]])
         fail("it lacks the entity of node " + std::to_string(n));
-    std::vector<std::int32_t> offsets;
-    std::vector<FaceId> faces;
-    t_.edge_faces(offsets, faces);
+    const EdgeFaces faces_at(t_);
     std::vector<FaceId> edge_seen(t_.n_edges(), kNone), vertex_seen(t_.n_vertices(), kNone);
     FaceId current = kNone;
     for (std::size_t i = 0; i < old_.triangles.size(); ++i) {
       const FaceId f = old_.triangle_face[i];
       if (f != current)
         for (EdgeId e : edges_of(current = f))
-          for (std::int32_t k = offsets[e]; k < offsets[e + 1]; ++k)
-            for (EdgeId near : edges_of(faces[k])) {
+          for (const FaceId beside : faces_at[e])
+            for (EdgeId near : edges_of(beside)) {
               edge_seen[near] = f;
               vertex_seen[t_.edge_vertices[2 * near]] = vertex_seen[t_.edge_vertices[2 * near + 1]] = f;
             }

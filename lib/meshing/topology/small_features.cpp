@@ -13,6 +13,7 @@
 #include "features/arc_table.h"
 #include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
+#include "geometry/model/edge_faces.h"
 
 namespace st {
 namespace {
@@ -38,8 +39,8 @@ class EdgeMerger {
         field_(field),
         face_limit_(face_limit),
         below_(below),
+        faces_at_(t_),
         sets_(t_.n_vertices()) {
-    t_.edge_faces(face_offsets_, faces_);
     is_merged_.assign(t_.n_edges(), 0);
     cluster_.resize(t_.n_vertices());
     for (VertexId v = 0; v < t_.n_vertices(); ++v) cluster_[v].add(t_.vertex_xyz[v]);
@@ -72,10 +73,9 @@ class EdgeMerger {
  private:
   /// The smallest of its faces.
   double limit_of(EdgeId e, double size) const {
-    if (face_offsets_[e] == face_offsets_[e + 1]) return below_ * size;
+    if (faces_at_[e].empty()) return below_ * size;
     double limit = std::numeric_limits<double>::infinity();
-    for (std::int32_t i = face_offsets_[e]; i < face_offsets_[e + 1]; ++i)
-      limit = std::min(limit, face_limit_[faces_[i]].at(size));
+    for (const FaceId f : faces_at_[e]) limit = std::min(limit, face_limit_[f].at(size));
     return limit;
   }
 
@@ -160,8 +160,7 @@ class EdgeMerger {
   const SizeField& field_;
   const std::vector<MergeLimit>& face_limit_;
   double below_;
-  std::vector<std::int32_t> face_offsets_;  // faces of each edge
-  std::vector<FaceId> faces_;
+  EdgeFaces faces_at_;
   int hint_ = 0;
   DisjointSets sets_;
   std::vector<Box3> cluster_;               // of each set, at its root
@@ -177,12 +176,11 @@ class EdgeMerger {
 class StripMerger {
  public:
   StripMerger(const ModelTables& t, const std::vector<EdgeId>& merged_edges)
-      : t_(t), sets_(t.n_vertices()), taken_(t.n_edges(), 0) {
+      : t_(t), sets_(t.n_vertices()), taken_(t.n_edges(), 0), faces_at_(t) {
     for (const EdgeId e : merged_edges) sets_.join(t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]);
-    t.edge_faces(offsets_, faces_);
     for (EdgeId e = 0; e < t.n_edges(); ++e)
-      if (!t.edge_is_degenerate[e] && offsets_[e + 1] - offsets_[e] == 2)
-        for (int k = 0; k < 2; ++k) contacts_.push_back(contact(e, k, {faces_[offsets_[e]], faces_[offsets_[e] + 1]}));
+      if (!t.edge_is_degenerate[e] && faces_at_[e].size() == 2)
+        for (int k = 0; k < 2; ++k) contacts_.push_back(contact(e, k, {faces_at_[e][0], faces_at_[e][1]}));
     std::sort(contacts_.begin(), contacts_.end());
   }
 
@@ -191,7 +189,7 @@ class StripMerger {
     const auto is_narrow = [&](FaceId f) {
       return std::any_of(narrow.begin(), narrow.end(), [&](const Strip& s) { return s.face == f; });
     };
-    const FaceId a = other_face(strip.edges[0], strip.face), b = other_face(strip.edges[1], strip.face);
+    const FaceId a = faces_at_.beyond(strip.edges[0], strip.face), b = faces_at_.beyond(strip.edges[1], strip.face);
     if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]] || is_narrow(a) || is_narrow(b)) return false;
     for (const EdgeId e : strip.edges)
       for (int k = 0; k < 2; ++k)
@@ -212,15 +210,11 @@ class StripMerger {
   Contact contact(EdgeId e, int k, FacePair f) {
     return {sets_.find(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
   }
-  FaceId other_face(EdgeId e, FaceId f) const {
-    return faces_[offsets_[e]] == f ? faces_[offsets_[e] + 1] : faces_[offsets_[e]];
-  }
 
   const ModelTables& t_;
   DisjointSets sets_;
   std::vector<char> taken_;
-  std::vector<std::int32_t> offsets_;
-  std::vector<FaceId> faces_;
+  EdgeFaces faces_at_;
   std::vector<Contact> contacts_;  // sorted
 };
 
