@@ -114,16 +114,21 @@ class SpanEdgeFinder {
     const auto surface = model_.surface(f);
     const Vec2 low{surface->u_min(), surface->v_min()}, way = Vec2{surface->u_max(), surface->v_max()} - low;
     const double sign = (t_.face_is_reversed[f] != 0) != is_turned_ ? -1 : 1;
-    samples.all.reserve(kGrid * kGrid);
+    samples.all.resize(kGrid * kGrid);
     samples.box.resize((kGrid * kGrid + kPiece - 1) / kPiece);
-    for (int i = 0; i < kGrid; ++i)
-      for (int k = 0; k < kGrid; ++k) {
-        const SurfacePoint p =
-            surface->evaluate({low.x + way.x * (i + 0.5) / kGrid, low.y + way.y * (k + 0.5) / kGrid});
+    std::array<Vec2, kGrid> row;
+    std::array<SurfacePoint, kGrid> points;
+    for (int k = 0; k < kGrid; ++k) {
+      for (int i = 0; i < kGrid; ++i) row[i] = {low.x + way.x * (i + 0.5) / kGrid, low.y + way.y * (k + 0.5) / kGrid};
+      surface->evaluate_batch(row, points);
+      for (int i = 0; i < kGrid; ++i) {
+        const SurfacePoint& p = points[i];
+        const std::size_t at = static_cast<std::size_t>(i) * kGrid + k;
         samples.whole.add(p.x);
-        samples.box[samples.all.size() / kPiece].add(p.x);
-        samples.all.push_back({p.x, sign * normalized(cross(p.du, p.dv))});
+        samples.box[at / kPiece].add(p.x);
+        samples.all[at] = {p.x, sign * normalized(cross(p.du, p.dv))};
       }
+    }
     return samples;
   }
 

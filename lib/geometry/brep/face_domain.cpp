@@ -12,6 +12,7 @@
 
 #include "geometry/brep/shape_queries.h"
 #include "geometry/brep/wire_walk.h"
+#include "geometry/shape/bspline.h"
 #include "geometry/shape/loop_polygons.h"
 
 namespace st::occt {
@@ -154,15 +155,26 @@ Box3 sampled_box(const FaceDomain& d) {
   if (d.surface->is_planar() || loops.sides().empty()) return box;
   const double du = (d.bounds.u_max - d.bounds.u_min) / d.n_u, dv = (d.bounds.v_max - d.bounds.v_min) / d.n_v;
   Vec3 sag;
+  std::vector<Vec2> places;  // of the samples inside at one v, with their neighbours along u; then those at v - dv, v +
+                             // dv
+  std::vector<Vec3> points;
   for (int j = 1; j < d.n_v; ++j) {
     const double v = d.bounds.v_min + j * dv;
-    for (int i = 1; i < d.n_u; ++i) {
-      const double u = d.bounds.u_min + i * du;
-      if (!loops.contains({u, v})) continue;
-      const Vec3 x = d.surface->point({u, v});
-      box.add(x);
-      add_sag(sag, d.surface->point({u - du, v}), x, d.surface->point({u + du, v}));
-      add_sag(sag, d.surface->point({u, v - dv}), x, d.surface->point({u, v + dv}));
+    std::vector<double> u;
+    for (int i = 1; i < d.n_u; ++i)
+      if (const double at = d.bounds.u_min + i * du; loops.contains({at, v})) u.push_back(at);
+    places.clear();
+    for (const double at : u) places.insert(places.end(), {{at - du, v}, {at, v}, {at + du, v}});
+    for (const double beside : {v - dv, v + dv})
+      for (const double at : u) places.push_back({at, beside});
+    points.resize(places.size());
+    point_batch(*d.surface, places, points);
+    const Vec3 *before = points.data() + 3 * u.size(), *after = before + u.size();
+    for (std::size_t k = 0; k < u.size(); ++k) {
+      const Vec3* x = &points[3 * k + 1];
+      box.add(*x);
+      add_sag(sag, x[-1], *x, x[1]);
+      add_sag(sag, before[k], *x, after[k]);
     }
   }
   enlarge(box, 2.0 * sag);  // along u and along v

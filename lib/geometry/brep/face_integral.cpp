@@ -77,30 +77,36 @@ class Integrator {
     return std::fabs(a.area - b.area) <= tolerance && std::fabs(a.volume - b.volume) <= tolerance * reach_ / 3;
   }
 
-  FaceIntegral density(double u, double v) const {
-    const SurfacePoint p = d_.surface->evaluate({u, v});
+  FaceIntegral density(const SurfacePoint& p) const {
     const Vec3 n = cross(p.du, p.dv);
     return {norm(n), dot(p.x - origin_, n) / 3};
   }
 
-  /// Integral of the density over [u0, u1] at v, one Gauss rule.
-  FaceIntegral along_u(double u0, double u1, double v) const {
+  void add_places(double u0, double u1, double v) {
+    for (const double x : kX) places_.push_back({0.5 * (u0 + u1) + 0.5 * (u1 - u0) * x, v});
+  }
+
+  /// Integral of the density over [u0, u1], one Gauss rule, from the surface at its places.
+  FaceIntegral along_u(double u0, double u1, const SurfacePoint* p) const {
     FaceIntegral sum;
-    for (int k = 0; k < kGauss; ++k) sum = sum + kW[k] * density(0.5 * (u0 + u1) + 0.5 * (u1 - u0) * kX[k], v);
+    for (int k = 0; k < kGauss; ++k) sum = sum + kW[k] * density(p[k]);
     return 0.5 * (u1 - u0) * sum;
   }
 
   /// Integral from the lower bound to u: whole intervals and the rest of the last one (beyond the bounds:
   /// extrapolated).
-  FaceIntegral primitive(double u, double v) const {
+  FaceIntegral primitive(double u, double v) {
+    std::size_t n_whole = 0;
+    if (u > u_.front())
+      while (n_whole + 2 < u_.size() && !(u <= u_[n_whole + 1])) ++n_whole;
+    places_.clear();
+    for (std::size_t i = 0; i < n_whole; ++i) add_places(u_[i], u_[i + 1], v);
+    add_places(u_[n_whole], u, v);
+    points_.resize(places_.size());
+    d_.surface->evaluate_batch(places_, points_);
     FaceIntegral sum;
-    if (u <= u_.front()) return along_u(u_.front(), u, v);
-    for (std::size_t i = 0; i + 1 < u_.size(); ++i) {
-      const bool is_last = i + 2 == u_.size() || u <= u_[i + 1];
-      sum = sum + along_u(u_[i], is_last ? u : u_[i + 1], v);
-      if (is_last) break;
-    }
-    return sum;
+    for (std::size_t i = 0; i < n_whole; ++i) sum = sum + along_u(u_[i], u_[i + 1], &points_[i * kGauss]);
+    return sum + along_u(u_[n_whole], u, &points_[n_whole * kGauss]);
   }
 
   /// `n` equal intervals between neighbouring knots.
@@ -168,7 +174,7 @@ class Integrator {
   }
 
   /// Boundary integral of the primitive times dv, one Gauss rule.
-  FaceIntegral boundary(const Geom2dAdaptor_Curve& curve, double t0, double t1) const {
+  FaceIntegral boundary(const Geom2dAdaptor_Curve& curve, double t0, double t1) {
     FaceIntegral sum;
     gp_Pnt2d p;
     gp_Vec2d d;
@@ -180,7 +186,7 @@ class Integrator {
   }
 
   FaceIntegral adapt(const Geom2dAdaptor_Curve& curve, double t0, double t1, FaceIntegral whole, double tolerance,
-                     int depth) const {
+                     int depth) {
     const double middle = 0.5 * (t0 + t1);
     const FaceIntegral a = boundary(curve, t0, middle), b = boundary(curve, middle, t1);
     if (depth == 0 || agree(a + b, whole, tolerance)) return a + b;
@@ -191,6 +197,8 @@ class Integrator {
   Vec3 origin_;
   double reach_ = 0;  ///< of the face from the origin, about
   std::vector<double> u_;
+  std::vector<Vec2> places_;  // along u at one v, of primitive()
+  std::vector<SurfacePoint> points_;
 };
 
 }  // namespace

@@ -10,7 +10,6 @@
 namespace st {
 namespace {
 
-constexpr int kMaxOrder = 26;  // OpenCASCADE's largest degree is 25
 constexpr int kBucketsPerSpan = 2;
 constexpr double kKnotRoundings = 4;  // epsilons by which a parameter may miss a knot
 constexpr double kNoPiece = 1e-12;    // of the bounds: shorter pieces at their ends are rounding
@@ -176,6 +175,8 @@ BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool i
       n_v_(n_v),
       is_rational_(is_rational),
       stride_(is_rational ? 4 : 3),
+      order_u_(u_.degree() + 1),
+      order_v_(v_.degree() + 1),
       kernels_(patch_kernels(v_.degree() + 1, stride_)) {
   ST_ASSERT(n_v_ >= v_.first_pole(v_.n_spans() - 1) + v_.degree() + 1);
   ST_ASSERT(poles_.size() >= static_cast<std::size_t>(n_v_) * (u_.first_pole(u_.n_spans() - 1) + u_.degree() + 1));
@@ -190,61 +191,24 @@ BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool i
   v_breaks_ = v_.c0_knots();
 }
 
-BsplineSurface::Place BsplineSurface::locate(Vec2 uv) const {
-  Place place;
-  const int iu = u_.locate(uv.x, last_u_, place.s), iv = v_.locate(uv.y, last_v_, place.t);
-  place.rate_u = u_.rate(iu);
-  place.rate_v = v_.rate(iv);
-  place.coefficients = patch(iu, iv);
-  return place;
+void BsplineSurface::meet(Vec2& uv) const {
+  if (!met_.u.holds(uv.x)) met_.u = u_.span(met_.iu = u_.find(uv.x));
+  if (!met_.v.holds(uv.y)) met_.v = v_.span(met_.iv = v_.find(uv.y));
+  met_.coefficients = patch(met_.iu, met_.iv);
 }
 
 const double* BsplineSurface::add_patch(int iu, int iv) const {
-  const std::size_t size = static_cast<std::size_t>(u_.degree() + 1) * (v_.degree() + 1) * stride_;
-  auto own = std::make_unique<double[]>(size + 1);
-  convert(iu, iv, own.get());
+  auto own = std::make_unique_for_overwrite<double[]>(static_cast<std::size_t>(order_u_) * order_v_ * stride_ + 1);
+  kernels_.convert(poles_[static_cast<std::size_t>(u_.first_pole(iu)) * n_v_ + v_.first_pole(iv)].x, n_v_, u_.basis(iu),
+                   order_u_, v_.basis(iv), order_v_, own.get());
   const double* known = nullptr;
   auto& patch = data_->patch[static_cast<std::size_t>(iu) * v_.n_spans() + iv];
   if (patch.compare_exchange_strong(known, own.get(), std::memory_order_acq_rel)) return own.release();
   return known;  // another thread was first; it found the same
 }
 
-void BsplineSurface::convert(int iu, int iv, double* out) const {
-  const int nu = u_.degree() + 1, nv = v_.degree() + 1;
-  const double *bu = u_.basis(iu), *bv = v_.basis(iv);
-  Pole half[kMaxOrder * kMaxOrder];
-  const auto add = [](double factor, const Pole& p, Pole& sum) {
-    for (int x = 0; x < 4; ++x) sum.x[x] += factor * p.x[x];
-  };
-  for (int j = 0; j < nu; ++j) {
-    const Pole* row = &poles_[static_cast<std::size_t>(u_.first_pole(iu) + j) * n_v_ + v_.first_pole(iv)];
-    for (int c = 0; c < nv; ++c) {
-      Pole sum{};
-      for (int l = 0; l < nv; ++l) add(bv[l * nv + c], row[l], sum);
-      half[j * nv + c] = sum;
-    }
-  }
-  for (int b = 0; b < nu; ++b)
-    for (int c = 0; c < nv; ++c) {
-      Pole sum{};
-      for (int j = 0; j < nu; ++j) add(bu[j * nu + b], half[j * nv + c], sum);
-      std::copy_n(sum.x, stride_, out + (b * nv + c) * stride_);
-    }
-}
-
-Vec3 BsplineSurface::point(Vec2 uv) const {
-  const Place at = locate(uv);
-  double p[4];
-  kernels_.point(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, p);
-  if (is_rational_) return {p[0] / p[3], p[1] / p[3], p[2] / p[3]};
-  return {p[0], p[1], p[2]};
-}
-
-SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
-  const Place at = locate(uv);
-  double out[12];
-  kernels_.first(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, out);
-  const double *p = out, *pu = out + 4, *pv = out + 8, ru = at.rate_u, rv = at.rate_v;
+SurfacePoint BsplineSurface::first_of(const double* values) const {
+  const double *p = values, *pu = values + 4, *pv = values + 8, ru = met_.u.rate, rv = met_.v.rate;
   SurfacePoint r{{p[0], p[1], p[2]}, ru * Vec3{pu[0], pu[1], pu[2]}, rv * Vec3{pv[0], pv[1], pv[2]}};
   if (is_rational_) {
     const double w = 1.0 / p[3];
@@ -255,17 +219,54 @@ SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
   return r;
 }
 
+Vec3 BsplineSurface::point_of(const double* p) const {
+  if (is_rational_) return {p[0] / p[3], p[1] / p[3], p[2] / p[3]};
+  return {p[0], p[1], p[2]};
+}
+
+Vec3 BsplineSurface::point(Vec2 uv) const {
+  const Local at = locate(uv);
+  double p[4];
+  kernels_.point(met_.coefficients, order_u_, order_v_, at.s, at.t, p);
+  return point_of(p);
+}
+
+SurfacePoint BsplineSurface::evaluate(Vec2 uv) const {
+  const Local at = locate(uv);
+  double values[12];
+  kernels_.first(met_.coefficients, order_u_, order_v_, at.s, at.t, values);
+  return first_of(values);
+}
+
+template <class Take>
+void BsplineSurface::visit_batch(std::span<const Vec2> uv, const Take& take) const {
+  double rows[8 * kMaxOrder], values[12];
+  const double* of = nullptr;  // the patch of the rows
+  for (std::size_t i = 0; i < uv.size(); ++i) {
+    const Local at = locate(uv[i]);
+    if (met_.coefficients != of || uv[i].y != uv[i - 1].y)
+      kernels_.rows(of = met_.coefficients, order_u_, order_v_, at.t, rows);
+    kernels_.first_of_rows(rows, order_u_, at.s, values);
+    take(i, values);
+  }
+}
+
 void BsplineSurface::evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const {
   ST_ASSERT(uv.size() == out.size());
-  for (std::size_t i = 0; i < uv.size(); ++i) out[i] = BsplineSurface::evaluate(uv[i]);
+  visit_batch(uv, [&](std::size_t i, const double* values) { out[i] = first_of(values); });
+}
+
+void BsplineSurface::point_batch(std::span<const Vec2> uv, std::span<Vec3> out) const {
+  ST_ASSERT(uv.size() == out.size());
+  visit_batch(uv, [&](std::size_t i, const double* values) { out[i] = point_of(values); });
 }
 
 SurfacePoint2 BsplineSurface::evaluate2(Vec2 uv) const {
-  const Place at = locate(uv);
+  const Local at = locate(uv);
   double out[24];
-  kernels_.second(at.coefficients, u_.degree() + 1, v_.degree() + 1, at.s, at.t, out);
+  kernels_.second(met_.coefficients, order_u_, order_v_, at.s, at.t, out);
   const double *p = out, *pu = out + 4, *pv = out + 8, *puu = out + 12, *puv = out + 16, *pvv = out + 20;
-  const double a = at.rate_u, b = at.rate_v;
+  const double a = met_.u.rate, b = met_.v.rate;
   const auto v3 = [](const double* w, double f) { return f * Vec3{w[0], w[1], w[2]}; };
   SurfacePoint2 r{v3(p, 1), v3(pu, a), v3(pv, b), v3(puu, 2 * a * a), v3(puv, a * b), v3(pvv, 2 * b * b)};
   if (is_rational_) {
@@ -278,6 +279,11 @@ SurfacePoint2 BsplineSurface::evaluate2(Vec2 uv) const {
     r.dvv = w * (r.dvv - 2 * wv * r.dv - (2 * b * b * pvv[3]) * r.x);
   }
   return r;
+}
+
+void point_batch(const Surface& surface, std::span<const Vec2> uv, std::span<Vec3> out) {
+  if (const auto* own = dynamic_cast<const BsplineSurface*>(&surface)) return own->point_batch(uv, out);
+  for (std::size_t i = 0; i < uv.size(); ++i) out[i] = surface.point(uv[i]);
 }
 
 }  // namespace st

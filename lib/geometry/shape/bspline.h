@@ -27,7 +27,7 @@ class KnotSpans {
   /// cache.
   int locate(double t, int& last, double& s) const {
     const Span* span = &spans_[last];
-    if (!(t >= span->start && t < span->end)) {
+    if (!span->holds(t)) {
       last = find(t);
       span = &spans_[last];
     }
@@ -46,19 +46,21 @@ class KnotSpans {
   const std::vector<double>& c0_knots() const { return c0_knots_; }
   /// Different knots from first to last, ascending: n_spans() + 1 values.
   const std::vector<double>& distinct_knots() const { return knots_; }
+
+  struct Span {
+    double start, end;  ///< a few roundings below the knots: a bound that misses a kink by rounding gets the
+                        ///< derivatives of its inside
+    double middle, rate;
+    bool holds(double t) const { return t >= start && t < end; }
+  };
+  const Span& span(int i) const { return spans_[i]; }
+  /// Span that holds `t`, which is wrapped on return; the first or last one beyond them.
+  int find(double& t) const;
   /// Different knots between `lo` and `hi`, ascending, repeated along the period; none that misses an end by rounding
   /// only.
   std::vector<double> knots_between(double lo, double hi) const;
 
  private:
-  struct Span {
-    double start, end;  ///< a few roundings below the knots: a bound that misses a kink by rounding gets the
-                        ///< derivatives of its inside
-    double middle, rate;
-  };
-  /// Span that holds `t`, which is wrapped on return.
-  int find(double& t) const;
-
   int degree_;
   double period_, lo_, hi_, rounding_, buckets_per_t_;
   std::vector<Span> spans_;
@@ -110,24 +112,36 @@ class BsplineSurface : public Surface {
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
   SurfacePoint2 evaluate2(Vec2 uv) const override;
+  /// At a third of the cost of single calls where neighbours in the list have one v and lie in one patch.
   void evaluate_batch(std::span<const Vec2> uv, std::span<SurfacePoint> out) const override;
+  /// The same of point().
+  void point_batch(std::span<const Vec2> uv, std::span<Vec3> out) const;
   std::vector<double> u_knots() const override { return u_.knots_between(u_min_, u_max_); }
   std::vector<double> v_knots() const override { return v_.knots_between(v_min_, v_max_); }
 
  private:
-  /// Local parameters of (u,v), the spans' rates, and the coefficients of the patch that holds them.
-  struct Place {
-    double s, t, rate_u, rate_v;
-    const double* coefficients;
+  /// Local parameters in the patch met last.
+  struct Local {
+    double s, t;
   };
-  Place locate(Vec2 uv) const;
+  Local locate(Vec2 uv) const {
+    if (!met_.u.holds(uv.x) || !met_.v.holds(uv.y)) meet(uv);
+    return {(uv.x - met_.u.middle) * met_.u.rate, (uv.y - met_.v.middle) * met_.v.rate};
+  }
+  /// Goes to the patch that holds (u,v), which is wrapped on return.
+  void meet(Vec2& uv) const;
+  /// Of what the kernels gave.
+  SurfacePoint first_of(const double* values) const;
+  Vec3 point_of(const double* values) const;
+  /// take(i, values) gets what the first kernel gives at each of `uv`.
+  template <class Take>
+  void visit_batch(std::span<const Vec2> uv, const Take& take) const;
   const double* patch(int iu, int iv) const {
     const double* const known =
         data_->patch[static_cast<std::size_t>(iu) * v_.n_spans() + iv].load(std::memory_order_acquire);
     return known ? known : add_patch(iu, iv);
   }
   const double* add_patch(int iu, int iv) const;
-  void convert(int iu, int iv, double* out) const;
 
   /// What copies have in common.
   struct Data {
@@ -148,8 +162,18 @@ class BsplineSurface : public Surface {
   int n_v_;
   bool is_rational_;
   int stride_;  // doubles per coefficient
+  int order_u_, order_v_;
   PatchKernels kernels_;
-  mutable int last_u_ = 0, last_v_ = 0;
+  /// The patch met last, and its spans: those before the first hold nothing.
+  struct Met {
+    KnotSpans::Span u{1, 0, 0, 0}, v{1, 0, 0, 0};
+    int iu = 0, iv = 0;
+    const double* coefficients = nullptr;
+  };
+  mutable Met met_;
 };
+
+/// surface.point() at each of `uv`, as BsplineSurface::point_batch(); `out` has as many places.
+void point_batch(const Surface& surface, std::span<const Vec2> uv, std::span<Vec3> out);
 
 }  // namespace st

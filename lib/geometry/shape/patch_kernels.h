@@ -4,6 +4,8 @@
 
 namespace st {
 
+constexpr int kMaxOrder = 26;  // OpenCASCADE's largest degree is 25
+
 /// A coefficient is `stride` doubles (x, y, z and, where stride is 4, the weight), but four are read: an array of
 /// coefficients needs one more double behind it when stride is 3. Results have four doubles per value, too; without a
 /// weight the fourth means nothing.
@@ -11,6 +13,17 @@ struct PatchKernels {
   /// x(s,t) = sum c[i][j] s^i t^j of orders n_u, n_v. `out`: x | x, xs, xt | x, xs, xt, xss/2, xst, xtt/2.
   using Patch = void (*)(const double* c, int n_u, int n_v, double s, double t, double* out);
   Patch point, first, second;
+  /// Sums over t alone: `out` has x(t) and xt(t) per row i, 8 n_u doubles; then x, xs, xt along s, as `first` gives
+  /// them.
+  using Rows = void (*)(const double* c, int n_u, int n_v, double t, double* out);
+  Rows rows;
+  using Row = void (*)(const double* rows, int n_u, double s, double* out);
+  Row first_of_rows;
+  /// Power coefficients of a patch from poles of four doubles, `n_row` of them per row: `basis_u`, `basis_v` as
+  /// KnotSpans::basis(). `out`: n_u n_v coefficients of `stride` doubles; writes one double beyond where stride is 3.
+  using Convert = void (*)(const double* poles, int n_row, const double* basis_u, int n_u, const double* basis_v,
+                           int n_v, double* out);
+  Convert convert;
   /// x(s) = sum c[i] s^i of order n, with four doubles per coefficient whatever the stride; divided by the weight where
   /// that is 4. `rate` = ds/dt. `out`: x, dx/dt, d2x/dt2.
   using Line = void (*)(const double* c, int n, double s, double rate, double* out);

@@ -73,6 +73,54 @@ void patch_first(const double* c, int n_u, int n_v, double s, double t, double* 
 }
 
 template <int kOrder, int kStride>
+void patch_rows(const double* c, int n_u, int n_v, double t, double* out) {
+  const int n = kOrder ? kOrder : n_v;
+  for (int i = 0; i < n_u; ++i) {
+    const double* row = c + i * n * kStride;
+    V4 d = load(row + (n - 1) * kStride), q = d * t + load(row + (n - 2) * kStride);
+    for (int j = n - 3; j >= 0; --j) {
+      d = d * t + q;
+      q = q * t + load(row + j * kStride);
+    }
+    store(out + 8 * i, q);
+    store(out + 8 * i + 4, d);
+  }
+}
+
+inline void patch_first_of_rows(const double* rows, int n_u, double s, double* out) {
+  V4 x{}, xs{}, xt{};
+  for (int i = n_u - 1; i >= 0; --i) {
+    xs = xs * s + x;
+    x = x * s + load(rows + 8 * i);
+    xt = xt * s + load(rows + 8 * i + 4);
+  }
+  store(out, x);
+  store(out + 4, xs);
+  store(out + 8, xt);
+}
+
+template <int kOrder, int kStride>
+void patch_convert(const double* poles, int n_row, const double* basis_u, int n_u, const double* basis_v, int n_v,
+                   double* out) {
+  const int n = kOrder ? kOrder : n_v;
+  double half[kMaxOrder * kMaxOrder * 4];
+  for (int i = 0; i < n_u; ++i) {
+    const double* row = poles + static_cast<long>(i) * n_row * 4;
+    for (int c = 0; c < n; ++c) {
+      V4 sum{};
+      for (int l = 0; l < n; ++l) sum = sum + basis_v[l * n + c] * load(row + l * 4);
+      store(half + (i * n + c) * 4, sum);
+    }
+  }
+  for (int b = 0; b < n_u; ++b)
+    for (int c = 0; c < n; ++c) {
+      V4 sum{};
+      for (int i = 0; i < n_u; ++i) sum = sum + basis_u[i * n_u + b] * load(half + (i * n + c) * 4);
+      store(out + (b * n + c) * kStride, sum);
+    }
+}
+
+template <int kOrder, int kStride>
 void patch_second(const double* c, int n_u, int n_v, double s, double t, double* out) {
   const int n = kOrder ? kOrder : n_v;
   V4 x{}, xs{}, xt{}, xss{}, xst{}, xtt{};
@@ -138,7 +186,12 @@ void rational_line_second(const double* c, int n_given, double s, double rate, d
 
 template <int kOrder, int kStride>
 PatchKernels kernels_of() {
-  return {patch_point<kOrder, kStride>, patch_first<kOrder, kStride>, patch_second<kOrder, kStride>,
+  return {patch_point<kOrder, kStride>,
+          patch_first<kOrder, kStride>,
+          patch_second<kOrder, kStride>,
+          patch_rows<kOrder, kStride>,
+          patch_first_of_rows,
+          patch_convert<kOrder, kStride>,
           kStride == 4 ? rational_line_second<kOrder> : line_second<kOrder>};
 }
 

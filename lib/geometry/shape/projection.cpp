@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/shape/bspline.h"
 #include "geometry/shape/samples.h"
 #include "geometry/shape/surface_forms.h"
 
@@ -82,9 +83,14 @@ SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Bounds& 
 void sample(const Surface& surface, const Bounds& b, SurfaceGrid& grid) {
   grid.u = sample_parameters(b.lo.x, b.hi.x, surface.u_knots());
   grid.v = sample_parameters(b.lo.y, b.hi.y, surface.v_knots());
-  grid.x.reserve(grid.u.size() * grid.v.size());
-  for (const double u : grid.u)
-    for (const double v : grid.v) grid.x.push_back(surface.point({u, v}));
+  grid.x.resize(grid.u.size() * grid.v.size());
+  std::vector<Vec2> row(grid.u.size());
+  std::vector<Vec3> x(grid.u.size());
+  for (std::size_t j = 0; j < grid.v.size(); ++j) {
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = {grid.u[i], grid.v[j]};
+    point_batch(surface, row, x);
+    for (std::size_t i = 0; i < row.size(); ++i) grid.x[i * grid.v.size() + j] = x[i];
+  }
 }
 
 /// Grid samples no further from the target than their eight neighbours.

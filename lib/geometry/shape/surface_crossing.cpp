@@ -42,11 +42,15 @@ struct Cell {
 class Grid {
  public:
   Grid(const Surface& s, int n) : s_(s), n_(n) {
+    const auto n_along = static_cast<std::size_t>(n) + 1;
     std::vector<Vec2> uv;
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) uv.push_back(at(i, j));
+    for (int j = 0; j <= n; ++j)
+      for (int i = 0; i <= n; ++i) uv.push_back(at(i, j));  // in rows of one v, which are cheap
+    std::vector<SurfacePoint> rows(uv.size());
+    s.evaluate_batch(uv, rows);
     points_.resize(uv.size());
-    s.evaluate_batch(uv, points_);
+    for (std::size_t j = 0; j < n_along; ++j)
+      for (std::size_t i = 0; i < n_along; ++i) points_[i * n_along + j] = rows[j * n_along + i];
     for (const SurfacePoint& p : points_) box_.add(p.x);
   }
   Vec2 at(double i, double j) const {
@@ -112,6 +116,8 @@ class SelfCrossing {
       closed_u_ = closed_u_ && distance(grid.x(0, k), grid.x(n, k)) <= near;
       closed_v_ = closed_v_ && distance(grid.x(k, 0), grid.x(k, n)) <= near;
     }
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) boxes_.push_back(grid.box(i, i + 1, j, j + 1));
   }
 
   std::optional<CommonPoint> find() {
@@ -135,11 +141,10 @@ class SelfCrossing {
     const int n = grid_.n();
     for (int i = a.i; i < std::min(a.i + kBlock, n); ++i)
       for (int j = a.j; j < std::min(a.j + kBlock, n); ++j) {
-        const Box3 box = grid_.box(i, i + 1, j, j + 1);
         for (int k = b.i; k < std::min(b.i + kBlock, n); ++k)
           for (int l = b.j; l < std::min(b.j + kBlock, n); ++l)
-            if (!found_ && n_tried_ < kMostTried && are_apart({i, j}, {k, l}) &&
-                meet(box, grid_.box(k, k + 1, l, l + 1)) && cross_in({i, j}, {k, l}))
+            if (!found_ && n_tried_ < kMostTried && meet(boxes_[i * n + j], boxes_[k * n + l]) &&
+                are_apart({i, j}, {k, l}) && cross_in({i, j}, {k, l}))
               try_from({i, j}, {k, l});
       }
   }
@@ -204,6 +209,7 @@ class SelfCrossing {
   double tolerance_;
   const std::function<bool(Vec2)>& is_inside_;
   bool closed_u_ = true, closed_v_ = true;
+  std::vector<Box3> boxes_;  // [n * n] of the cells
   int n_tried_ = 0;
   std::optional<CommonPoint> found_;
 };
@@ -215,14 +221,16 @@ class Pinch {
 
   /// The first line at which the normal turns over, and the surface shrinks.
   std::optional<Vec3> find(double tolerance, const std::function<bool(Vec2)>& is_inside) const {
-    for (const double across : {0.3, 0.6})
+    for (const double across : {0.3, 0.6}) {
+      const std::vector<Vec3> normals = normals_along(across);
       for (int k = 1; k + 2 < kLines; ++k) {
         const double a = static_cast<double>(k) / kLines, b = static_cast<double>(k + 1) / kLines;
-        if (!(dot(normal(a, across), normal(b, across)) < -kTurned)) continue;
+        if (!(dot(normals[k - 1], normals[k]) < -kTurned)) continue;
         const double at = turn(a, b, across);
         if (length(at) <= tolerance && is_inside(uv(a, across)) && is_inside(uv(b, across)))
           return s_.point(uv(at, across));
       }
+    }
     return std::nullopt;
   }
 
@@ -237,6 +245,16 @@ class Pinch {
   Vec3 normal(double along, double across) const {
     const SurfacePoint p = s_.evaluate(uv(along, across));
     return normalized(cross(p.du, p.dv));
+  }
+  /// At k / kLines along, 0 < k < kLines - 1.
+  std::vector<Vec3> normals_along(double across) const {
+    std::vector<Vec2> places;
+    for (int k = 1; k + 1 < kLines; ++k) places.push_back(uv(static_cast<double>(k) / kLines, across));
+    std::vector<SurfacePoint> points(places.size());
+    s_.evaluate_batch(places, points);
+    std::vector<Vec3> normals;
+    for (const SurfacePoint& p : points) normals.push_back(normalized(cross(p.du, p.dv)));
+    return normals;
   }
   double turn(double a, double b, double across) const {
     const Vec3 before = normal(a, across);

@@ -1,6 +1,7 @@
 #include "meshing/face/plane_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -79,10 +80,15 @@ double PlaneAxis::inverse(double p) const {
 
 PlaneMap::PlaneMap(const Surface& s) {
   double means_u[kProbe] = {}, means_v[kProbe] = {}, su = 0, sv = 0;
+  const double du = (s.u_max() - s.u_min()) / kProbe, dv = (s.v_max() - s.v_min()) / kProbe;
+  std::array<Vec2, kProbe * kProbe> places;  // in rows of one v, which are cheap
+  std::array<SurfacePoint, kProbe * kProbe> points;
+  for (int j = 0; j < kProbe; ++j)
+    for (int i = 0; i < kProbe; ++i) places[kProbe * j + i] = {s.u_min() + (i + 0.5) * du, s.v_min() + (j + 0.5) * dv};
+  s.evaluate_batch(places, points);
   for (int i = 0; i < kProbe; ++i)
     for (int j = 0; j < kProbe; ++j) {
-      const double du = (s.u_max() - s.u_min()) / kProbe, dv = (s.v_max() - s.v_min()) / kProbe;
-      const SurfacePoint p = s.evaluate({s.u_min() + (i + 0.5) * du, s.v_min() + (j + 0.5) * dv});
+      const SurfacePoint& p = points[kProbe * j + i];
       su += norm(p.du);
       sv += norm(p.dv);
       means_u[i] += norm(p.du);

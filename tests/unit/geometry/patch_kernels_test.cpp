@@ -53,6 +53,44 @@ TEST(PatchKernels, sum_the_terms_of_every_order) {
       }
 }
 
+TEST(PatchKernels, rows_give_the_bits_of_a_point) {
+  for (int n_u : {2, 3, 6, 9})
+    for (int n_v : {2, 3, 4, 5, 6, 7, 14})
+      for (int stride : {3, 4}) {
+        const std::vector<double> c = coefficients(n_u * n_v * stride);
+        const PatchKernels k = patch_kernels(n_v, stride);
+        std::vector<double> rows(8 * static_cast<std::size_t>(n_u));
+        double p[12], q[12];
+        k.rows(c.data(), n_u, n_v, -0.8, rows.data());
+        for (double s : {0.6, -1.0, 0.1}) {
+          k.first(c.data(), n_u, n_v, s, -0.8, p);
+          k.first_of_rows(rows.data(), n_u, s, q);
+          for (int i = 0; i < 12; ++i)
+            if (i % 4 < stride) {
+              EXPECT_EQ(p[i], q[i]);
+            }
+        }
+      }
+}
+
+TEST(PatchKernels, convert_poles_by_the_bases) {
+  const int n_u = 3, n_v = 4, n_row = 7;
+  const std::vector<double> poles = coefficients(n_u * n_row * 4), u = coefficients(n_u * n_u),
+                            v = coefficients(n_v * n_v);
+  for (int stride : {3, 4}) {
+    std::vector<double> c(static_cast<std::size_t>(n_u) * n_v * stride + 1);
+    patch_kernels(n_v, stride).convert(poles.data(), n_row, u.data(), n_u, v.data(), n_v, c.data());
+    for (int b = 0; b < n_u; ++b)
+      for (int d = 0; d < n_v; ++d)
+        for (int x = 0; x < stride; ++x) {
+          double sum = 0;
+          for (int i = 0; i < n_u; ++i)
+            for (int l = 0; l < n_v; ++l) sum += u[i * n_u + b] * v[l * n_v + d] * poles[(i * n_row + l) * 4 + x];
+          EXPECT_NEAR(c[(b * n_v + d) * stride + x], sum, 1e-11);
+        }
+  }
+}
+
 TEST(PatchKernels, give_the_same_bits_on_every_processor) {
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2")) {
@@ -77,6 +115,16 @@ TEST(PatchKernels, give_the_same_bits_on_every_processor) {
         a.line_second(c.data(), n, s, 1.7, p);
         b.line_second(c.data(), n, s, 1.7, q);
         expect_same(12);
+        double rows_p[72], rows_q[72];
+        a.rows(c.data(), n, n, s, rows_p);
+        b.rows(c.data(), n, n, s, rows_q);
+        a.first_of_rows(rows_p, n, 0.9 * s, p);
+        b.first_of_rows(rows_q, n, 0.9 * s, q);
+        expect_same(12);
+        std::vector<double> patch_p(n * n * 4 + 1), patch_q(patch_p);
+        a.convert(c.data(), n, c.data(), n, c.data() + 1, n, patch_p.data());
+        b.convert(c.data(), n, c.data(), n, c.data() + 1, n, patch_q.data());
+        for (int i = 0; i < n * n * stride; ++i) EXPECT_EQ(patch_p[i], patch_q[i]);
       }
     }
 #else

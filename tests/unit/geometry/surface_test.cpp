@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/shape/analytic.h"
+#include "geometry/shape/bspline.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -181,14 +182,18 @@ TEST(EvaluateBatch, is_evaluate_at_each_point) {
     const auto model = test::make_model(shape);
     const auto s = model.surface(0);
     std::vector<Vec2> uv;
-    for (int k = 0; k < 20; ++k)
-      uv.push_back({s->u_min() + (s->u_max() - s->u_min()) * k / 19.0,
-                    s->v_max() + (s->v_min() - s->v_max()) * (k * k % 20) / 19.0});
+    for (const double share : {1.0, 0.37, 0.0})  // rows of one v, in no order of u
+      for (int k = 0; k < 40; ++k)
+        uv.push_back({s->u_min() + (s->u_max() - s->u_min()) * (k * k % 40) / 39.0,
+                      s->v_min() + (s->v_max() - s->v_min()) * (k == 20 ? 0.5 : share)});
     std::vector<SurfacePoint> out(uv.size());
+    std::vector<Vec3> x(uv.size());
     s->evaluate_batch(uv, out);
+    point_batch(*s, uv, x);
     for (std::size_t k = 0; k < uv.size(); ++k) {
       const SurfacePoint p = s->evaluate(uv[k]);
       EXPECT_TRUE(out[k].x == p.x && out[k].du == p.du && out[k].dv == p.dv) << shape;
+      EXPECT_TRUE(x[k] == s->point(uv[k])) << shape;
     }
   }
 }
