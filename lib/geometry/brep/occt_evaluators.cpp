@@ -136,18 +136,23 @@ Handle(Geom_Curve) basis_curve(Handle(Geom_Curve) c) {
 }
 
 std::unique_ptr<Curve> bspline_curve(const Handle(Geom_BSplineCurve) & original, double t_min, double t_max) {
-  const auto c = Handle(Geom_BSplineCurve)::DownCast(original->Copy());
+  Handle(Geom_BSplineCurve) c = original;
   const double period = c->IsPeriodic() ? c->Period() : 0;
-  if (c->IsPeriodic()) c->SetNotPeriodic();
+  if (c->IsPeriodic()) {
+    c = Handle(Geom_BSplineCurve)::DownCast(original->Copy());
+    c->SetNotPeriodic();
+  }
   std::vector<Pole> poles;
   const bool is_rational = c->IsRational();
-  for (int i = 1; i <= c->NbPoles(); ++i) poles.push_back(pole(c->Pole(i), is_rational ? c->Weight(i) : 1.0));
+  poles.reserve(c->NbPoles());
+  for (int i = 1; i <= c->NbPoles(); ++i) poles.push_back(pole(c->Poles()(i), is_rational ? c->Weight(i) : 1.0));
   return std::make_unique<BsplineCurve>(KnotSpans(c->Degree(), flat(c->KnotSequence()), period), poles, is_rational,
                                         t_min, t_max);
 }
 
 std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface) & original, const UvBounds& b) {
-  const auto s = Handle(Geom_BSplineSurface)::DownCast(original->Copy());
+  Handle(Geom_BSplineSurface) s = original;
+  if (s->IsUPeriodic() || s->IsVPeriodic()) s = Handle(Geom_BSplineSurface)::DownCast(original->Copy());
   const double u_period = s->IsUPeriodic() ? s->UPeriod() : 0, v_period = s->IsVPeriodic() ? s->VPeriod() : 0;
   if (s->IsUPeriodic()) s->SetUNotPeriodic();
   if (s->IsVPeriodic()) s->SetVNotPeriodic();
@@ -155,8 +160,9 @@ std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface) & ori
   const bool is_rational = original->IsURational() || original->IsVRational();
   std::vector<Pole> poles;
   poles.reserve(static_cast<std::size_t>(s->NbUPoles()) * s->NbVPoles());
+  const TColgp_Array2OfPnt& given = s->Poles();
   for (int i = 1; i <= s->NbUPoles(); ++i)
-    for (int j = 1; j <= s->NbVPoles(); ++j) poles.push_back(pole(s->Pole(i, j), is_rational ? s->Weight(i, j) : 1.0));
+    for (int j = 1; j <= s->NbVPoles(); ++j) poles.push_back(pole(given(i, j), is_rational ? s->Weight(i, j) : 1.0));
   return std::make_unique<BsplineSurface>(KnotSpans(s->UDegree(), flat(s->UKnotSequence()), u_period),
                                           KnotSpans(s->VDegree(), flat(s->VKnotSequence()), v_period), std::move(poles),
                                           s->NbVPoles(), is_rational,
@@ -207,6 +213,12 @@ std::unique_ptr<Curve2d> make_curve2d(const Handle(Geom2d_Curve) & curve, double
                                          Vec2{l.Direction().X(), l.Direction().Y()});
   }
   return std::make_unique<AdaptorCurve2d>(c);
+}
+
+std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface) {
+  UvBounds b{};
+  surface->Bounds(b.u_min, b.u_max, b.v_min, b.v_max);
+  return make_surface(surface, b);
 }
 
 std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, const UvBounds& b) {

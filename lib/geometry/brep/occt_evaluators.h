@@ -19,6 +19,8 @@ struct UvBounds {
 std::unique_ptr<Curve> make_curve(const Handle(Geom_Curve) & curve, double t_min, double t_max);
 std::unique_ptr<Curve2d> make_curve2d(const Handle(Geom2d_Curve) & curve, double t_min, double t_max);
 std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, const UvBounds& bounds);
+/// Within its own bounds.
+std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface);
 
 /// Kind of the basis surface (trimming unwrapped).
 SurfaceType surface_type(const Handle(Geom_Surface) & surface);

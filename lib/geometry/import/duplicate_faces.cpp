@@ -172,10 +172,12 @@ void remove_duplicate_solids(ImportedShape& model, std::vector<ImportFinding>& f
 }
 
 void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  const std::vector<std::vector<int>> alike = faces_of_same_edges(model);
+  if (alike.empty()) return;
   const double place = kSamePlace * rough_box(model.shape).diagonal();
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
   bool is_changed = false;
-  for (const std::vector<int>& faces : faces_of_same_edges(model)) {
+  for (const std::vector<int>& faces : alike) {
     std::vector<Candidate> kept;
     for (const int id : faces) {
       const Candidate face = candidate(model.faces(id), id);
@@ -198,6 +200,7 @@ void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findin
 
 void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings) {
   const std::vector<Candidate> faces = candidates(model);
+  if (faces.empty()) return;
   const double place = kSamePlace * rough_box(model.shape).diagonal();
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
   std::vector<char> is_removed(faces.size(), 0);

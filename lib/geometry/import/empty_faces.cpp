@@ -119,12 +119,13 @@ void remove_empty_faces(ImportedShape& model, std::vector<ImportFinding>& findin
       surface_type(BRep_Tool::Surface(TopoDS::Face(model.faces(1)))) == SurfaceType::kPlane)
     return;  // nothing to be sewn to
   const TopTools_MapOfShape bounding = bounding_faces(model.shape);
-  const double diagonal = rough_box(model.shape).diagonal();
+  std::optional<double> diagonal;  // once needed
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
   int n_removed = 0;
   for (int i = 1; i <= model.faces.Extent(); ++i) {
     if (bounding.Contains(model.faces(i))) continue;
-    const std::optional<Box3> box = empty_box(TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD)), diagonal);
+    if (!diagonal) diagonal = rough_box(model.shape).diagonal();
+    const std::optional<Box3> box = empty_box(TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD)), *diagonal);
     if (!box) continue;
     ++n_removed;
     reshape->Remove(model.faces(i));

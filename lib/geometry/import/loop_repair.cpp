@@ -64,13 +64,16 @@ double chord_length(const CurveRange& r) {
   return length;
 }
 
-double gap_to(const CurveRange& r, const Handle(Geom_Surface) & surface, const Handle(Geom2d_Curve) & pcurve) {
+/// `point`: of the surface at a place in (u,v).
+template <class Point>
+double gap_to(const CurveRange& r, const Handle(Geom2d_Curve) & pcurve, const Point& point) {
   double gap = 0;
-  for (int k = 0; k < kSamples; ++k) {
-    const gp_Pnt2d uv = pcurve->Value(at(r, k));
-    gap = std::max(gap, r.curve->Value(at(r, k)).Distance(surface->Value(uv.X(), uv.Y())));
-  }
+  for (int k = 0; k < kSamples; ++k)
+    gap = std::max(gap, distance(vec(r.curve->Value(at(r, k))), point(pcurve->Value(at(r, k)))));
   return gap;
+}
+double gap_to(const CurveRange& r, const Handle(Geom_Surface) & surface, const Handle(Geom2d_Curve) & pcurve) {
+  return gap_to(r, pcurve, [&](const gp_Pnt2d& uv) { return vec(surface->Value(uv.X(), uv.Y())); });
 }
 
 /// The trimming curve of a pole must be one point of the surface.
@@ -88,22 +91,24 @@ bool is_lost_pole(const TopoDS_Edge& edge, const TopoDS_Face& face, double harml
   return extent > std::max({harmless, 10 * kAccurate});
 }
 
-bool is_lost_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, double harmless) {
+/// `surface`: of the face.
+bool is_lost_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, const Surface& surface, double harmless) {
   if (BRep_Tool::Degenerated(edge)) return is_lost_pole(edge, face, harmless);
   double t0, t1;
   CurveRange r;
   const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
   r.curve = BRep_Tool::Curve(edge, r.t0, r.t1);
   if (pcurve.IsNull() || r.curve.IsNull() || t0 != r.t0 || t1 != r.t1) return false;
-  const double gap = gap_to(r, BRep_Tool::Surface(face), pcurve);
+  const double gap = gap_to(r, pcurve, [&](const gp_Pnt2d& uv) { return surface.point({uv.X(), uv.Y()}); });
   return gap > harmless && gap > kLost * chord_length(r);
 }
 
 bool is_lost(const TopoDS_Face& face, double harmless) {
   for (TopoDS_Iterator w(face); w.More(); w.Next())
     if (w.Value().ShapeType() == TopAbs_WIRE && !can_be_walked(TopoDS::Wire(w.Value()), face)) return true;
+  const auto surface = make_surface(BRep_Tool::Surface(face));
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
-    if (is_lost_edge(TopoDS::Edge(e.Current()), face, harmless)) return true;
+    if (is_lost_edge(TopoDS::Edge(e.Current()), face, *surface, harmless)) return true;
   return false;
 }
 

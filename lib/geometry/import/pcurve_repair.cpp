@@ -12,8 +12,13 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
 
+#include "base/threads.h"
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/loop_crossing.h"
@@ -50,17 +55,22 @@ struct Gap {
   Vec3 xyz;  ///< on the space curve
 };
 
-Gap largest_gap(const Use& use, const Handle(Geom2d_Curve) & pcurve, int n_samples) {
+/// `point`: of the surface at a place in (u,v).
+template <class Point>
+Gap largest_gap(const Use& use, const Handle(Geom2d_Curve) & pcurve, int n_samples, const Point& point) {
   Gap gap;
   for (int k = 0; k < n_samples; ++k) {
     const double s = 0.5 - 0.5 * std::cos(kPi * k / (n_samples - 1));  // closer at the ends: there curves part
     const double t = use.t0 + (use.t1 - use.t0) * s;
-    const gp_Pnt p = use.curve->Value(t);
-    const gp_Pnt2d uv = pcurve->Value(t);
-    const double d = p.Distance(use.surface->Value(uv.X(), uv.Y()));
-    if (d > gap.distance) gap = {d, vec(p)};
+    const Vec3 p = vec(use.curve->Value(t));
+    const double d = distance(p, point(pcurve->Value(t)));
+    if (d > gap.distance) gap = {d, p};
   }
   return gap;
+}
+Gap largest_gap(const Use& use, const Handle(Geom2d_Curve) & pcurve, int n_samples) {
+  return largest_gap(use, pcurve, n_samples,
+                     [&](const gp_Pnt2d& uv) { return vec(use.surface->Value(uv.X(), uv.Y())); });
 }
 
 /// The multiple of `period` that brings `from` nearest to `to`.
@@ -232,6 +242,30 @@ bool uncross(const TopoDS_Face& face, const std::vector<Change>& changes, double
   return false;
 }
 
+/// visit(use, trimming curve) for the face's edges that their trimming curves leave by more than is harmless, or their
+/// tolerance says.
+template <class Visit>
+void visit_leaving(const TopoDS_Shape& face, double diagonal, const Visit& visit) {
+  Use use;
+  use.face = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  use.surface = BRep_Tool::Surface(use.face);
+  if (GeomAdaptor_Surface(use.surface).GetType() == GeomAbs_Plane) return;
+  const std::unique_ptr<Surface> surface = make_surface(use.surface);
+  for (TopExp_Explorer e(use.face, TopAbs_EDGE); e.More(); e.Next()) {
+    use.edge = TopoDS::Edge(e.Current());
+    if (BRep_Tool::Degenerated(use.edge)) continue;
+    double p0 = 0, p1 = 0;
+    const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(use.edge, use.face, p0, p1);
+    use.curve = BRep_Tool::Curve(use.edge, use.t0, use.t1);
+    if (pcurve.IsNull() || use.curve.IsNull()) continue;
+    const double allowed = std::min(kExcess * BRep_Tool::Tolerance(use.edge), kWide * diagonal);
+    const Gap gap = largest_gap(use, pcurve, kFewSamples, [&](const gp_Pnt2d& uv) {
+      return surface->point({uv.X(), uv.Y()});
+    });
+    if (gap.distance > std::max(kHarmless * diagonal, allowed)) visit(use, pcurve);
+  }
+}
+
 }  // namespace
 
 bool repair_crossing_loops(ImportedShape& model, const ModelOfFile& tables, std::vector<ImportFinding>& findings) {
@@ -254,26 +288,20 @@ bool repair_crossing_loops(ImportedShape& model, const ModelOfFile& tables, std:
 }
 
 void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) {
-  const double diagonal = rough_box(model.shape).diagonal(), harmless = kHarmless * diagonal;
+  const double diagonal = rough_box(model.shape).diagonal();
+  std::vector<std::uint8_t> leaves(model.faces.Extent(), 0);
+  parallel_for(leaves.size(), 1, [&](std::size_t i, std::size_t) {
+    visit_leaving(model.faces(static_cast<int>(i) + 1), diagonal,
+                  [&](const Use&, const Handle(Geom2d_Curve)&) { leaves[i] = 1; });
+  });
+  const auto first = std::find(leaves.begin(), leaves.end(), 1);
   TopTools_IndexedMapOfShape edges;
-  TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
-  for (int f = 1; f <= model.faces.Extent(); ++f) {
-    Use use;
-    use.face = TopoDS::Face(model.faces(f).Oriented(TopAbs_FORWARD));
-    use.surface = BRep_Tool::Surface(use.face);
-    if (GeomAdaptor_Surface(use.surface).GetType() == GeomAbs_Plane) continue;
-    for (TopExp_Explorer e(use.face, TopAbs_EDGE); e.More(); e.Next()) {
-      use.edge = TopoDS::Edge(e.Current());
-      if (BRep_Tool::Degenerated(use.edge)) continue;
-      double p0 = 0, p1 = 0;
-      const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(use.edge, use.face, p0, p1);
-      use.curve = BRep_Tool::Curve(use.edge, use.t0, use.t1);
-      if (pcurve.IsNull() || use.curve.IsNull()) continue;
-      const double allowed = std::min(kExcess * BRep_Tool::Tolerance(use.edge), kWide * diagonal);
-      if (largest_gap(use, pcurve, kFewSamples).distance <= std::max(harmless, allowed)) continue;
+  if (first != leaves.end()) TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
+  for (auto f = static_cast<int>(first - leaves.begin()) + 1; f <= model.faces.Extent(); ++f)  // a repair changes
+                                                                                               // others
+    visit_leaving(model.faces(f), diagonal, [&](const Use& use, const Handle(Geom2d_Curve) & pcurve) {
       repair(use, pcurve, diagonal, entity(edges.FindIndex(use.edge), f), findings);
-    }
-  }
+    });
 }
 
 }  // namespace st::occt

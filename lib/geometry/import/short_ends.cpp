@@ -84,9 +84,8 @@ std::optional<std::vector<Trimming>> trimmings_over(const TopoDS_Edge& edge, con
 
 class EndExtender {
  public:
-  EndExtender(const TopoDS_Shape& shape, std::vector<ImportFinding>& findings) : findings_(findings) {
+  EndExtender(const TopoDS_Shape& shape, std::vector<ImportFinding>& findings) : shape_(shape), findings_(findings) {
     TopExp::MapShapes(shape, TopAbs_EDGE, edges_);
-    least_ = 10 * std::max(kHarmless * rough_box(shape).diagonal(), Precision::Confusion());
   }
 
   void run() {
@@ -101,6 +100,12 @@ class EndExtender {
   }
 
  private:
+  bool is_harmless(double gap) {
+    if (gap <= 10 * Precision::Confusion()) return true;
+    if (!least_) least_ = 10 * kHarmless * rough_box(shape_).diagonal();
+    return gap <= *least_;
+  }
+
   void extend(const TopoDS_Edge& edge, bool is_last, int number) {
     Range range{};
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, range[0], range[1]);
@@ -109,7 +114,7 @@ class EndExtender {
     const gp_Pnt goal = BRep_Tool::Pnt(vertex);
     double& end = range[is_last ? 1 : 0];
     const double gap = curve->Value(end).Distance(goal);
-    if (gap <= least_ || gap > kLongest * curve->Value(range[0]).Distance(curve->Value(range[1]))) return;
+    if (is_harmless(gap) || gap > kLongest * curve->Value(range[0]).Distance(curve->Value(range[1]))) return;
     const std::optional<double> t = parameter_at(curve, end, is_last ? 1 : -1, goal, gap);
     if (!t) return;
     end = *t;
@@ -127,9 +132,10 @@ class EndExtender {
                          "edge that stopped short of its vertex, extended to it"});
   }
 
+  const TopoDS_Shape& shape_;
   std::vector<ImportFinding>& findings_;
   TopTools_IndexedMapOfShape edges_;
-  double least_ = 0;  // gap, unit of the file
+  std::optional<double> least_;  // gap, unit of the file; once needed
 };
 
 }  // namespace
