@@ -7,13 +7,36 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <algorithm>
+#include <cstddef>
 #include <sstream>
+
+#include "base/threads.h"
 
 namespace st::occt {
 
+namespace {
+
+/// As BRepBndLib::Add() of the whole, but faces are on all threads.
+Bnd_Box bnd_box(const TopoDS_Shape& shape) {
+  constexpr std::size_t kAtOnce = 8;
+  Bnd_Box all;
+  std::vector<TopoDS_Shape> faces;
+  for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) faces.push_back(f.Current());
+  std::vector<Bnd_Box> boxes(faces.size());
+  parallel_for(faces.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) BRepBndLib::Add(faces[i], boxes[i], false);
+  });
+  for (const Bnd_Box& box : boxes) all.Add(box);
+  for (TopExp_Explorer e(shape, TopAbs_EDGE, TopAbs_FACE); e.More(); e.Next()) BRepBndLib::Add(e.Current(), all, false);
+  for (TopExp_Explorer v(shape, TopAbs_VERTEX, TopAbs_EDGE); v.More(); v.Next())
+    BRepBndLib::Add(v.Current(), all, false);
+  return all;
+}
+
+}  // namespace
+
 Box3 rough_box(const TopoDS_Shape& shape) {
-  Bnd_Box box;
-  BRepBndLib::Add(shape, box, false);
+  const Bnd_Box box = bnd_box(shape);
   Box3 result;
   if (box.IsVoid()) return result;
   result.add(vec(box.CornerMin()));

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -95,13 +96,18 @@ class CrossingFaces {
       if (crossing) found_.push_back(*crossing);
     const EdgeFaces faces_at(t_);
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);
+    std::vector<Border> borders;
     for (EdgeId e = 0; e < t_.n_edges(); ++e) {
       if (t_.edge_is_degenerate[e] || faces_at[e].size() != 2) continue;
       const FaceId f = faces_at[e][0], g = faces_at[e][1];
-      if (f == g || known_.contains(std::minmax(f, g))) continue;
-      if (turn_back(e, f, g)) look_for_overlap(e, f, g);
-      if (is_formula(t_.face_type[f]) && is_formula(t_.face_type[g])) continue;
-      if (!known_.contains(std::minmax(f, g))) look_beside(e, f, g);
+      if (f != g) borders.push_back({e, f, g, false, {}});
+    }
+    look_at_all(borders);
+    for (const Border& b : borders) {
+      if (known_.contains(std::minmax(b.f, b.g))) continue;
+      if (b.turns_back) look_for_overlap(b.e, b.f, b.g);
+      if (!b.crossing || !known_.insert(std::minmax(b.f, b.g)).second) continue;
+      found_.push_back({std::min(b.f, b.g), std::max(b.f, b.g), false, false, b.crossing->xyz, b.crossing->size});
     }
     return found_;
   }
@@ -115,6 +121,30 @@ class CrossingFaces {
     Vec3 xyz;
     double size;  // distance from the common edge
   };
+
+  /// An edge between two faces.
+  struct Border {
+    EdgeId e;
+    FaceId f, g;
+    bool turns_back;                // both faces go the same way from most of it
+    std::optional<Place> crossing;  // of the faces, beside it
+  };
+
+  /// A face serves one thread at a time.
+  void look_at_all(std::vector<Border>& borders) {
+    std::vector<FaceId> used;
+    for (const Border& b : borders) used.insert(used.end(), {b.f, b.g});
+    std::ranges::sort(used);
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    parallel_for(used.size(), 1, [&](std::size_t i, std::size_t) { domain(used[i]); });
+    std::vector<std::mutex> in_use(domains_.size());
+    parallel_for(borders.size(), 1, [&](std::size_t i, std::size_t) {
+      Border& b = borders[i];
+      const std::scoped_lock lock(in_use[b.f], in_use[b.g]);
+      b.turns_back = turn_back(b.e, b.f, b.g);
+      if (!is_formula(t_.face_type[b.f]) || !is_formula(t_.face_type[b.g])) b.crossing = look_beside(b.e, b.f, b.g);
+    });
+  }
 
   const Domain& domain(FaceId f) {
     if (!domains_[f]) {
@@ -147,7 +177,7 @@ class CrossingFaces {
   }
 
   /// Everywhere along the edge where both faces turn the same way beside it.
-  void look_beside(EdgeId e, FaceId f, FaceId g) {
+  std::optional<Place> look_beside(EdgeId e, FaceId f, FaceId g) {
     bool is_near = false;
     for (int k = 4; k < kStations && !is_near; k += 8) {
       const double station = static_cast<double>(k) / kStations;
@@ -155,12 +185,9 @@ class CrossingFaces {
     }
     for (int k = 1; is_near && k < kStations; ++k) {
       const double station = static_cast<double>(k) / kStations;
-      if (const auto place = crossing_of(section(f, e, station), f, section(g, e, station), g)) {
-        known_.insert(std::minmax(f, g));
-        found_.push_back({std::min(f, g), std::max(f, g), false, false, place->xyz, place->size});
-        return;
-      }
+      if (const auto place = crossing_of(section(f, e, station), f, section(g, e, station), g)) return place;
     }
+    return std::nullopt;
   }
 
   /// Into the face, square to the edge, at a share of the edge; zero where there is no way.
@@ -267,11 +294,16 @@ class CrossingFaces {
     if (a.x.size() < 3 || b.x.size() < 3) return std::nullopt;
     const Vec3 e1 = normalized(cross(a.tangent, std::abs(a.tangent.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0})),
                e2 = cross(a.tangent, e1);
-    const auto flat = [&](Vec3 x) { return Vec2{dot(x - a.x[0], e1), dot(x - a.x[0], e2)}; };
+    const auto flat = [&](const Section& s) {
+      std::vector<Vec2> places;
+      for (const Vec3 x : s.x) places.push_back({dot(x - a.x[0], e1), dot(x - a.x[0], e2)});
+      return places;
+    };
+    const std::vector<Vec2> flat_a = flat(a), flat_b = flat(b);
     for (std::size_t i = 0; i + 1 < a.x.size(); ++i)
       for (std::size_t k = 0; k + 1 < b.x.size(); ++k) {
         if (i == 0 && k == 0) continue;
-        if (!cross_properly({flat(a.x[i]), flat(a.x[i + 1])}, {flat(b.x[k]), flat(b.x[k + 1])})) continue;
+        if (!cross_properly({flat_a[i], flat_a[i + 1]}, {flat_b[k], flat_b[k + 1]})) continue;
         if (const auto place = confirmed(f, 0.5 * (a.uv[i] + a.uv[i + 1]), g, 0.5 * (b.uv[k] + b.uv[k + 1])))
           return place;
       }

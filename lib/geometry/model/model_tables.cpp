@@ -102,13 +102,25 @@ class TableWriter {
       t.edge_range.push_back(t1);
       t.edge_tolerance.push_back(BRep_Tool::Tolerance(e));
       t.edge_is_degenerate.push_back(degenerate);
-      edge_box_.emplace_back();
-      t.edge_length.push_back(0);
-      if (degenerate || c.IsNull()) continue;
-      const std::unique_ptr<Curve> curve = make_curve(c, t0, t1);
-      t.edge_length.back() = arc_length(*curve, t0, t1, 32);
-      edge_box_.back() = sampled_box(*curve);
     }
+    measure_edges();
+  }
+
+  void measure_edges() {
+    constexpr std::size_t kAtOnce = 8;
+    ModelTables& t = tables_;
+    t.edge_length.assign(edges_.Extent(), 0);
+    edge_box_.resize(edges_.Extent());
+    parallel_for(edge_box_.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        double t0 = 0, t1 = 0;
+        const Handle(Geom_Curve) c = BRep_Tool::Curve(TopoDS::Edge(edges_(static_cast<int>(i) + 1)), t0, t1);
+        if (t.edge_is_degenerate[i] || c.IsNull()) continue;
+        const std::unique_ptr<Curve> curve = make_curve(c, t0, t1);
+        t.edge_length[i] = arc_length(*curve, t0, t1, 32);
+        edge_box_[i] = sampled_box(*curve);
+      }
+    });
   }
 
   void fill_faces() {
