@@ -17,7 +17,6 @@
 #include "base/error.h"
 #include "geometry/flite/flite_file.h"
 #include "geometry/flite/flite_reader.h"
-#include "geometry/import/plain_step.h"
 #include "geometry/import/reader_module.h"
 
 namespace st::occt {
@@ -104,8 +103,8 @@ std::string format_of(const std::string& path) {
 }
 
 CadFile read_step(const std::string& path) {
-  const std::optional<CadFile> plain = read_plain_step(path);
-  return plain ? *plain : read_by_module("step_document", path);
+  CadFile plain = read_by_module("plain_step", path);
+  return plain.format.empty() ? read_by_module("step_document", path) : plain;
 }
 
 CadFile read_brep(const std::string& path) {

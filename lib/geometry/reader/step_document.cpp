@@ -15,9 +15,9 @@
 #include "base/error.h"
 #include "base/ids.h"
 #include "geometry/import/part_names.h"
-#include "geometry/import/step_entities.h"
 #include "geometry/import/text_encoding.h"
 #include "geometry/reader/document_parts.h"
+#include "geometry/reader/step_entities.h"
 
 namespace st::occt {
 namespace {

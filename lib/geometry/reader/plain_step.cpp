@@ -1,5 +1,3 @@
-#include "geometry/import/plain_step.h"
-
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Reader.hxx>
 #include <StepBasic_DocumentFile.hxx>
@@ -25,8 +23,9 @@
 
 #include "base/error.h"
 #include "geometry/import/part_names.h"
-#include "geometry/import/step_entities.h"
+#include "geometry/import/reader_module.h"
 #include "geometry/import/text_encoding.h"
+#include "geometry/reader/step_entities.h"
 
 namespace st::occt {
 namespace {
@@ -111,26 +110,26 @@ CadPart part_of(const TopoDS_Shape& shape, const std::string& name) {
 
 }  // namespace
 
-std::optional<CadFile> read_plain_step(const std::string& path) {
-  if (has_words_of_document(path)) return std::nullopt;
+/// A file that holds the shape of one product and says no more of it than its name: what the reader of documents would
+/// make of it, without its libraries. The format stays empty where that one is needed: for colours, layers, names of
+/// faces, edges or solids, assemblies, several products or references to other files.
+extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
+  if (has_words_of_document(path)) return;
   STEPControl_Controller::Init();
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw Error(ExitCode::kInput, path + ": the STEP file cannot be parsed; export the model again");
   const Handle(StepBasic_Product) product = only_product(reader.WS()->Model());
   const std::optional<std::string> name = product.IsNull() ? std::nullopt : name_of(*product);
-  if (!name) return std::nullopt;
-  CadFile file;
-  file.format = "STEP";
+  if (!name) return;
   read_step_units(reader.WS()->Model(), file);
   reader.TransferRoots();
-  if (reader.NbShapes() != 1) return std::nullopt;
+  if (reader.NbShapes() != 1) return;
   const TopoDS_Shape shape = reader.Shape(1);
-  if (shape.IsNull() || !shape.Location().IsIdentity() || !is_one_representation(reader.WS(), shape))
-    return std::nullopt;
+  if (shape.IsNull() || !shape.Location().IsIdentity() || !is_one_representation(reader.WS(), shape)) return;
+  file.format = "STEP";
   file.parts.push_back(part_of(shape, *name));
   read_senses(reader.WS(), file);
-  return file;
 }
 
 }  // namespace st::occt

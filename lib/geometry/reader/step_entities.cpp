@@ -1,4 +1,4 @@
-#include "geometry/import/step_entities.h"
+#include "geometry/reader/step_entities.h"
 
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_Product.hxx>
