@@ -38,8 +38,9 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh, bool
   std::vector<std::pair<FaceId, FaceId>> searches;
   for (FaceId f = 0; f < n_faces; ++f)
     if (is_dirty(f)) searches.push_back({f, f});
-  for (const auto& [f, g] : meeting_pairs(boxes_of_faces(mesh)))
-    if ((is_dirty(f) || is_dirty(g)) && mesh.face_body[f] == mesh.face_body[g]) searches.push_back({f, g});
+  if (n_faces > 1)
+    for (const auto& [f, g] : meeting_pairs(boxes_of_faces(mesh)))
+      if ((is_dirty(f) || is_dirty(g)) && mesh.face_body[f] == mesh.face_body[g]) searches.push_back({f, g});
   return find_pairs({mesh.points, mesh.triangles, mesh.face_begin, mesh.triangle_previous}, WithinGroup::kUnlessAlike,
                     std::move(searches), was_ended);
 }

@@ -1,11 +1,12 @@
 #include "mesh/triangle_tree.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <tuple>
 
 #include "base/assert.h"
@@ -37,6 +38,9 @@ constexpr float kAxisX[kAxes] = {1, 0, 0, kEdge, kEdge, kEdge, kEdge, 0, 0, kCor
 constexpr float kAxisY[kAxes] = {0, 1, 0, kEdge, -kEdge, 0, 0, kEdge, kEdge, kCorner, kCorner, -kCorner, -kCorner};
 constexpr float kAxisZ[kAxes] = {0, 0, 1, 0, 0, kEdge, -kEdge, kEdge, -kEdge, kCorner, -kCorner, kCorner, -kCorner};
 
+/// What holds for all triangles of an empty set.
+constexpr Common kEverything = kOld | ((Common{1} << 2 * kAxes) - 1);
+
 Common directions_near(Vec3 unit_normal) {
   const auto x = static_cast<float>(unit_normal.x), y = static_cast<float>(unit_normal.y),
              z = static_cast<float>(unit_normal.z);
@@ -46,6 +50,63 @@ Common directions_near(Vec3 unit_normal) {
     near |= static_cast<Common>(cosine > kMinCosine) << k | static_cast<Common>(cosine < -kMinCosine) << (k + kAxes);
   }
   return near;
+}
+
+/// Those of some directions, fewer of them than all, that directions_near() has.
+Common directions_near(Vec3 unit_normal, Common of) {
+  const auto x = static_cast<float>(unit_normal.x), y = static_cast<float>(unit_normal.y),
+             z = static_cast<float>(unit_normal.z);
+  Common near = 0;
+  for (Common rest = of & ~kOld; rest != 0; rest &= rest - 1) {
+    const int bit = std::countr_zero(rest), k = bit < kAxes ? bit : bit - kAxes;
+    const float cosine = kAxisX[k] * x + kAxisY[k] * y + kAxisZ[k] * z;
+    near |= static_cast<Common>(bit < kAxes ? cosine > kMinCosine : cosine < -kMinCosine) << bit;
+  }
+  return near;
+}
+
+/// A triangle's normal, not of unit length.
+struct Normal {
+  Vec3 way;
+  double length2;
+  /// nullopt where the triangle has no area.
+  static std::optional<Normal> of(const TriangleGroups& mesh, TriangleId t) {
+    const Triangle& tri = mesh.triangles[t];
+    const Vec3 a = mesh.points[tri.n[0]], b = mesh.points[tri.n[1]], c = mesh.points[tri.n[2]];
+    const Vec3 way = cross(b - a, c - a);
+    const double length2 = norm2(way);
+    const bool has_area =
+        length2 > kSurelyHasArea * kSurelyHasArea * norm2(b - a) * norm2(c - a) || !is_degenerate(mesh.points, tri);
+    return has_area ? std::optional(Normal{way, length2}) : std::nullopt;
+  }
+  bool has_direction() const { return length2 > 0; }
+  Vec3 unit() const { return way / std::sqrt(length2); }
+};
+
+Common age_of(const TriangleGroups& mesh, TriangleId t) {
+  return mesh.previous.empty() || mesh.previous[t] == kNone ? 0 : kOld;
+}
+
+constexpr TriangleId kTrianglesPerPiece = 16'384;
+
+/// Whether WithinGroup::kUnlessAlike compares none within a group: nearly all groups, which need no tree then.
+bool are_alike(const TriangleGroups& mesh, std::int32_t group) {
+  const TriangleId first = mesh.begin[group], n = mesh.begin[group + 1] - first;
+  std::vector<Common> pieces(static_cast<std::size_t>((n + kTrianglesPerPiece - 1) / kTrianglesPerPiece), kEverything);
+  parallel_for(static_cast<std::size_t>(n), kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
+    Common common = kEverything;
+    for (std::size_t i = begin; i < end && common != 0; ++i) {
+      const TriangleId t = first + static_cast<TriangleId>(i);
+      const std::optional<Normal> normal = Normal::of(mesh, t);
+      if (!normal) continue;
+      const Common age = common & age_of(mesh, t);
+      common = age | (normal->has_direction() ? directions_near(normal->unit(), common) : 0);
+    }
+    pieces[begin / kTrianglesPerPiece] = common;
+  });
+  Common all = kEverything;
+  for (const Common piece : pieces) all &= piece;
+  return all != 0;
 }
 
 // --- what a search has found ---
@@ -106,12 +167,14 @@ class TriangleTrees {
         n_groups_(static_cast<std::int32_t>(groups.begin.size()) - 1),
         items_(new Item[groups.triangles.size()]),
         nodes_(new TreeNode[n_groups_ + 2 * groups.triangles.size()]),  // a node has two children, none of them empty
-        n_nodes_(n_groups_) {
+        n_nodes_(n_groups_),
+        n_locks_(std::min(kMostLocks, 1 + groups.triangles.size() / kTrianglesPerLock)),
+        locks_(new std::mutex[n_locks_]) {
     std::vector<Piece> pieces;
     for (std::int32_t g = 0; g < n_groups_; ++g) {
       const TriangleId end = is_wanted[g] ? groups.begin[g + 1] : 0;
-      for (TriangleId t = groups.begin[g]; t < end; t += kItemsPerPiece)
-        pieces.push_back({g, t, std::min(end, t + kItemsPerPiece), {}});
+      for (TriangleId t = groups.begin[g]; t < end; t += kTrianglesPerPiece)
+        pieces.push_back({g, t, std::min(end, t + kTrianglesPerPiece), {}});
       nodes_[g] = {{}, 0, groups.begin[g], groups.begin[g], kNone};
     }
     parallel_for(pieces.size(), 1, [&](std::size_t i, std::size_t) { make_items(pieces[i]); });
@@ -186,23 +249,16 @@ class TriangleTrees {
   static constexpr std::int32_t kLeafSize = 12;
   static constexpr std::int32_t kLargeJob = 20'000;  // triangles: tested by several threads
   static constexpr std::int32_t kMaxLopsided = 8;    // a part smaller than 1/8 of the whole is no split
-  static constexpr TriangleId kItemsPerPiece = 16'384;
-  static constexpr std::size_t kLocks = 256;
+  static constexpr std::size_t kMostLocks = 256, kTrianglesPerLock = 256;
 
   /// Without an id where the triangle has no area.
   Item item_of(TriangleId t) const {
-    const Triangle& tri = mesh_.triangles[t];
-    const Vec3 a = mesh_.points[tri.n[0]], b = mesh_.points[tri.n[1]], c = mesh_.points[tri.n[2]];
-    const Vec3 normal = cross(b - a, c - a);
-    const double length2 = norm2(normal);
-    if (!(length2 > kSurelyHasArea * kSurelyHasArea * norm2(b - a) * norm2(c - a)) && is_degenerate(mesh_.points, tri))
-      return {{}, 0, kNone};
-    Box3 box{a, a};
-    box.add(b);
-    box.add(c);
-    const bool has_directions = rule_ == WithinGroup::kUnlessAlike && length2 > 0;
-    const Common age = mesh_.previous.empty() || mesh_.previous[t] == kNone ? 0 : kOld;
-    return {rounded(box), age | (has_directions ? directions_near(normal / std::sqrt(length2)) : 0), t};
+    const std::optional<Normal> normal = Normal::of(mesh_, t);
+    if (!normal) return {{}, 0, kNone};
+    Box3 box;
+    for (const NodeId n : mesh_.triangles[t].n) box.add(mesh_.points[n]);
+    const bool has_directions = rule_ == WithinGroup::kUnlessAlike && normal->has_direction();
+    return {rounded(box), age_of(mesh_, t) | (has_directions ? directions_near(normal->unit()) : 0), t};
   }
 
   /// Triangles [begin, end) of a group, and the node over their items, which are at the places of the first of them.
@@ -249,7 +305,7 @@ class TriangleTrees {
     if (node.size() <= kLeafSize) return kNone;
     const std::atomic_ref left(node.left);
     if (const std::int32_t known = left.load(std::memory_order_acquire); known != kNone) return known;
-    const std::lock_guard lock(locks_[n % kLocks]);
+    const std::lock_guard lock(locks_[static_cast<std::size_t>(n) % n_locks_]);
     if (const std::int32_t known = left.load(std::memory_order_acquire); known != kNone) return known;
     const int axis = node.box.longest_axis();
     const auto key = [axis](const FloatBox& box) { return box.lo[axis] + box.hi[axis]; };
@@ -282,7 +338,8 @@ class TriangleTrees {
   std::unique_ptr<Item[]> items_;      // by group: where its triangles are
   std::unique_ptr<TreeNode[]> nodes_;  // memory that is not used is never touched
   std::atomic<std::int32_t> n_nodes_;
-  std::array<std::mutex, kLocks> locks_;
+  const std::size_t n_locks_;
+  std::unique_ptr<std::mutex[]> locks_;
 };
 
 /// Runs search(i, PairSearch&) for i in [0, n), on all threads, until all together took more than `most` comparisons;
@@ -317,6 +374,10 @@ std::vector<TrianglePair> find_bounded(std::size_t n, std::int64_t most, bool& w
 std::vector<TrianglePair> find_pairs(const TriangleGroups& groups, WithinGroup rule,
                                      std::vector<std::pair<std::int32_t, std::int32_t>> searches, bool& was_ended) {
   constexpr std::size_t kJobsPerPiece = 4;
+  was_ended = false;
+  if (rule == WithinGroup::kUnlessAlike && searches.size() == 1 && searches[0].first == searches[0].second &&
+      are_alike(groups, searches[0].first))
+    return {};
   std::vector<char> is_wanted(groups.begin.size() - 1, 0);
   for (const auto& [g, h] : searches) is_wanted[g] = is_wanted[h] = 1;
   TriangleTrees trees(groups, rule, is_wanted);

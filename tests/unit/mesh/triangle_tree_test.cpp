@@ -71,5 +71,22 @@ TEST(TriangleTree, compares_nothing_inside_a_part_of_like_normals_where_told_so)
   EXPECT_TRUE(find_pairs({points, triangles, begin}, WithinGroup::kUnlessAlike, {{0, 0}}, was_ended).empty());
 }
 
+TEST(TriangleTree, compares_all_of_a_group_of_which_one_triangle_turns_away) {
+  // two sheets through each other, alike, and one beside them that looks the other way
+  std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, -0.5}, {5, 1, 0.5}, {1, 5, 0.5}};
+  for (const Vec3 x : {Vec3{9, 0, 0}, Vec3{9, 4, 0}, Vec3{13, 0, 0}}) points.push_back(x);
+  const std::vector<Triangle> triangles{{{0, 1, 2}}, {{3, 4, 5}}, {{6, 7, 8}}};
+  const std::int32_t begin[] = {0, 3};
+  std::vector<TriangleId> previous{kNone, kNone, kNone};
+  bool was_ended = true;
+  const auto n_found = [&] {
+    return find_pairs({points, triangles, begin, previous}, WithinGroup::kUnlessAlike, {{0, 0}}, was_ended).size();
+  };
+  EXPECT_EQ(n_found(), 1u);
+  previous = {0, 1, kNone};
+  EXPECT_EQ(n_found(), 0u);
+  EXPECT_FALSE(was_ended);
+}
+
 }  // namespace
 }  // namespace st
