@@ -55,9 +55,10 @@ class FaceMesher {
         if (field.has_metrics()) n.h = n.request = local.length;  // another face at the edge may ask for less
       }
     work_.max_turning = radians(options.max_turning_deg);
-    work_.max_nodes = expected_nodes();
+    work_.max_nodes = most_nodes(0);
+    work_.find_max_nodes = [&] { return most_nodes(expected_nodes()); };
     advance_front(work_);
-    if (work_.mesh.nodes.size() >= work_.max_nodes) {
+    if (work_.is_runaway()) {
       result.cause = FailureCause::kTooManyNodes;
       collect(result);
       return result;
@@ -115,8 +116,8 @@ class FaceMesher {
     return {x, 0.5 * h};
   }
 
-  /// What area over squared length explains, with a wide margin.
-  std::size_t expected_nodes() {
+  /// By area over squared length.
+  double expected_nodes() {
     const double du = (surface_.u_max() - surface_.u_min()) / kAreaProbe,
                  dv = (surface_.v_max() - surface_.v_min()) / kAreaProbe;
     double n = 0;
@@ -128,6 +129,11 @@ class FaceMesher {
         const double share = norm(cross(s.du, s.dv)) * du * dv / (h * h);
         if (std::isfinite(share)) n += share;
       }
+    return n;
+  }
+
+  /// What so many nodes, of the area, and the boundary explain, with a wide margin.
+  std::size_t most_nodes(double n) const {
     const double boundary = static_cast<double>(boundary_.nodes.size());
     return static_cast<std::size_t>(
         std::min(kMaxNodesOfFace, kRunaway * n + kPerBoundary * boundary * boundary + 10000));

@@ -20,6 +20,12 @@ void FaceWork::ask_sizes(MeshNode& n) {
   n.squeeze = squeeze_of(local, n.normal);
 }
 
+bool FaceWork::is_runaway() {
+  if (mesh.nodes.size() < max_nodes) return false;
+  if (find_max_nodes) max_nodes = std::exchange(find_max_nodes, nullptr)();
+  return mesh.nodes.size() >= max_nodes;
+}
+
 void FaceWork::set_surface(const Surface& s) {
   surface = &s;
   plane = PlaneMap(s);

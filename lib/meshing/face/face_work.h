@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -22,9 +24,12 @@ struct FaceWork {
   std::vector<std::pair<std::int32_t, std::int32_t>> segments;  ///< of the loops, plane nodes
   PlaneMap plane;                                               ///< of (u,v)
   double max_turning = 1.0;   ///< radians between the normals of two nodes of a side, where L_min would allow more
-  std::size_t max_nodes = 0;  ///< more is a runaway: the front stops
+  std::size_t max_nodes = 0;  ///< as many are a runaway: the front stops
+  std::function<std::size_t()> find_max_nodes;  ///< asked once, where max_nodes are there: how many are one in the end
   int hint = 0;
 
+  /// Whether there are too many nodes.
+  bool is_runaway();
   /// Sets the surface and the plane.
   void set_surface(const Surface& s);
   /// Of an evaluated node: the normal a little inside where the parametrisation is singular at the boundary.

@@ -241,7 +241,7 @@ class Front {
 
   /// Inserts p unless it is hidden, or too near to a node or a boundary segment.
   bool insert(MeshNode& p, std::int32_t start, double r, double largest) {
-    if (m_.nodes.size() >= w_.max_nodes || !std::isfinite(norm2(p.x) + norm(p.p))) return false;
+    if (w_.is_runaway() || !std::isfinite(norm2(p.x) + norm(p.p))) return false;
     const std::int32_t at = m_.locate(p.p, start);
     if (at == kNone || m_.triangles[at].state == kOutside || m_.triangles[at].state == kLaid) return false;
     const Metric metric = metric_of<kStretched>(p);

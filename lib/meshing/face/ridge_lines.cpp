@@ -171,7 +171,7 @@ class RidgeLayer {
   }
 
   std::int32_t insert(const MeshNode& p, std::int32_t last, std::int32_t seed) {
-    if (m_.nodes.size() >= w_.max_nodes) return kNone;
+    if (w_.is_runaway()) return kNone;
     if (!goes_to(p.p, seed)) return kNone;
     if (!m_.find_cavity(p.p, metric_of(p), triangle_) || is_crowded(p, last)) return kNone;
     m_.nodes.push_back(p);

@@ -16,7 +16,7 @@ constexpr double kNearSide = 0.45;  // nor to edges that must stay
 }  // namespace
 
 std::int32_t RowLayer::insert(const MeshNode& p, std::int32_t from) {
-  if (m_.nodes.size() >= w_.max_nodes) return kNone;
+  if (w_.is_runaway()) return kNone;
   const std::int32_t at = m_.seen_from(from, p.p);
   if (at == kNone || m_.triangles[at].state != kUnfinished || !m_.find_cavity(p.p, metric_of(p), at)) return kNone;
   if (is_crowded(p, distance(p.x, m_.nodes[from].x))) return kNone;

@@ -36,6 +36,21 @@ TEST(FaceWork, evaluates_and_asks_at_the_place_of_a_node) {
   EXPECT_EQ(norm(n.squeeze), 0);
 }
 
+TEST(FaceWork, asks_how_many_nodes_are_a_runaway_where_the_boundary_explains_no_more) {
+  WorkOnPlane plane;
+  int n_asked = 0;
+  plane.work.max_nodes = 2;
+  plane.work.find_max_nodes = [&] { return ++n_asked, std::size_t{3}; };
+  plane.work.mesh.nodes.resize(1);
+  EXPECT_FALSE(plane.work.is_runaway());
+  EXPECT_EQ(n_asked, 0);
+  plane.work.mesh.nodes.resize(2);
+  EXPECT_FALSE(plane.work.is_runaway());
+  plane.work.mesh.nodes.resize(3);
+  EXPECT_TRUE(plane.work.is_runaway());
+  EXPECT_EQ(n_asked, 1);
+}
+
 TEST(FaceWork, measures_edges_and_circles_in_space) {
   WorkOnPlane plane;
   plane.work.mesh.nodes = {plane.node({0, 0}), plane.node({3, 0}), plane.node({0, 4})};
