@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <utility>
 
 #include "base/threads.h"
 #include "geometry/shape/projection.h"
@@ -56,10 +57,12 @@ Vec3 foot_of_middle(const Surface& surface, Vec2 uv_a, Vec2 uv_b, Vec3 a, Vec3 b
 /// Area on the surface between a trimming curve and its chords at the nodes.
 AreaBeside area_beside_chords(const Surface& surface, const Curve2d& pcurve, const std::vector<EdgeNode>& nodes) {
   AreaBeside area;
+  Vec2 to = pcurve.point(nodes.front().t);
+  Vec3 b = surface.point(to);
   for (std::size_t i = 1; i < nodes.size(); ++i) {
     const double t0 = nodes[i - 1].t, t1 = nodes[i].t;
-    const Vec2 from = pcurve.point(t0), to = pcurve.point(t1), middle = pcurve.point(0.5 * (t0 + t1));
-    const Vec3 a = surface.point(from), b = surface.point(to), m = surface.point(middle);
+    const Vec2 from = std::exchange(to, pcurve.point(t1));
+    const Vec3 a = std::exchange(b, surface.point(to)), m = surface.point(pcurve.point(0.5 * (t0 + t1)));
     const Vec3 normal = surface_normal(surface, 0.5 * (from + to));
     const double chord = distance(a, b), sagitta = distance(m, foot_of_middle(surface, from, to, a, b, normal));
     const bool is_loop = chord < 1e-3 * sagitta;  // a closed edge of one segment: all that it encloses is missing
@@ -103,7 +106,8 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
     for (const NodeId n : mesh.triangles[i].n)
       face_size[mesh.triangle_face[i]] = std::max(face_size[mesh.triangle_face[i]], mesh.node_size[n]);
   const std::vector<std::vector<EdgeNode>> nodes = edge_nodes(tables, mesh);
-  for (FaceId f = 0; f < tables.n_faces(); ++f) {
+  parallel_for(face_size.size(), 1, [&](std::size_t i, std::size_t) {
+    const auto f = static_cast<FaceId>(i);
     const std::unique_ptr<Surface> surface = model.surface(f);
     for (const CoedgeId c : tables.coedges(f)) {
       const EdgeId e = tables.coedge_edge[c];
@@ -112,7 +116,7 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
       error.area[f] += beside.asked + merged;
       error.found_area[f] += beside.found + merged;
     }
-  }
+  });
 }
 
 double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }
