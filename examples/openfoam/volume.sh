@@ -32,7 +32,9 @@ case $mesh in
     ;;
   *.smesh)
     cp "$mesh" mesh.smesh
-    run tetgen tetgen -pAq1.4/15Y mesh.smesh  # Y: the triangles stay as they are, so that each keeps its group
+    # Y: the triangles stay as they are, so that each keeps its group. o/140: angles above 140 degrees are mended, not
+    # only those above 165 as by default: flat tetrahedra make skew faces, and flows that diverge.
+    run tetgen tetgen -pAq1.4/15o/140Y mesh.smesh
     run tetgen_to_msh /usr/bin/python3 "$here/tetgen_to_msh.py" mesh.smesh filled.msh
     ;;
   *) echo "volume: error: '$1' is neither .msh nor .smesh" >&2; exit 2 ;;
