@@ -10,11 +10,6 @@ namespace {
 
 constexpr std::int32_t kFew = 4;  // items of a leaf
 
-int longest_axis(const Box3& box) {
-  const Vec3 d = box.hi - box.lo;
-  return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-}
-
 }  // namespace
 
 BoxTree::BoxTree(std::span<const Box3> boxes)

@@ -24,8 +24,6 @@ constexpr std::size_t kNodesPerPiece = 16'384;
   });
 }
 
-bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
-
 template <class Visit>
 void for_each_side(std::span<const Triangle> triangles, const Visit& visit) {
   for (std::size_t t = 0; t < triangles.size(); ++t) {

@@ -10,6 +10,8 @@
 
 namespace st {
 
+inline bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
+
 /// Side k of triangle t as one number, 3 t + k: it runs from node n[k] to node n[(k+1) % 3].
 using SideId = std::int32_t;
 

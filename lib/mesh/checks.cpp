@@ -24,8 +24,6 @@ Vec3 centroid(const SurfaceMesh& mesh, TriangleId t) {
   return (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3;
 }
 
-bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
-
 DefectPlace at_edge(const SurfaceMesh& mesh, NodeId a, NodeId b, std::span<const SideId> sides) {
   return {0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3],
           sides.size() > 1 ? mesh.triangle_face[sides[1] / 3] : kNone};

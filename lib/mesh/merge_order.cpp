@@ -20,8 +20,6 @@ constexpr std::int64_t kTrianglesAtOnce = 1'000'000;  // in memory, of several p
 constexpr std::size_t kNodesPerWindow = 262'144;      // of a patch, whose sides are sorted together; at least
 constexpr std::size_t kMostWindows = 16;              // each looks at all triangles of the patch
 
-bool has_repeated_node(const Triangle& t) { return t.n[0] == t.n[1] || t.n[1] == t.n[2] || t.n[2] == t.n[0]; }
-
 /// A side of a triangle between two nodes on edges or vertices.
 struct BoundarySide {
   std::int32_t low, high;  // boundary ids

@@ -5,6 +5,7 @@
 
 #include "base/eigen.h"
 #include "base/threads.h"
+#include "sizing/symmetric_tensor.h"
 
 namespace st {
 namespace {
@@ -88,8 +89,6 @@ struct Quadric {
     return to_unit.transpose() * second * to_unit;
   }
 };
-
-SymmetricTensor tensor_of(const Eigen::Matrix3d& m) { return {m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(1, 2), m(0, 2)}; }
 
 double largest_of(std::span<const double> value) {
   double largest = 0;

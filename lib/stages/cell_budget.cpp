@@ -1,11 +1,10 @@
 #include "stages/cell_budget.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <map>
 #include <string>
 
+#include "base/host_name.h"
 #include "base/memory.h"
 #include "base/packer.h"
 #include "base/share.h"
@@ -17,12 +16,6 @@ namespace {
 
 constexpr double kShare = 0.8;  // of the memory
 constexpr double kUnlimited = 1e30;
-
-std::string host_name() {
-  char name[256] = "";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
 
 /// What a cell takes, bytes.
 struct HostMemory {

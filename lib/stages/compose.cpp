@@ -19,16 +19,15 @@
 #include "geometry/model/joined_tables.h"
 #include "io/foreign/triangulation_reader.h"
 #include "stages/cad_view.h"
+#include "stages/raster_options.h"
 
 namespace st {
 namespace {
 
-constexpr double kSharpCorner = radians(25);   // a triangle in it has no larger angle
-constexpr double kShort = 0.7;                 // of the length: an edge or a width below it spoils triangles
-constexpr double kAcross = 1.5;                // widths: an edge across a narrow face is no longer
-constexpr double kDefaultLmax = 0.025;         // of the diagonal: as st-raster has it
-constexpr double kDefaultAlpha = radians(10);  // likewise
-constexpr double kChartDeflection = 1e-3;      // of the diagonal
+constexpr double kSharpCorner = radians(25);  // a triangle in it has no larger angle
+constexpr double kShort = 0.7;                // of the length: an edge or a width below it spoils triangles
+constexpr double kAcross = 1.5;               // widths: an edge across a narrow face is no longer
+constexpr double kChartDeflection = 1e-3;     // of the diagonal
 constexpr double kChartAngle = radians(12);
 
 /// Marks edges that groups, also of their vertices, and names keep.
@@ -75,7 +74,7 @@ class HarmFinder {
         t_(cad.tables()),
         is_inside_(is_inside),
         is_smooth_(is_smooth),
-        longest_(kDefaultLmax * t_.reference_diagonal()),
+        longest_(kDefaultMaxLength * t_.reference_diagonal()),
         harm_(static_cast<std::size_t>(t_.n_edges()), 0),
         length_(static_cast<std::size_t>(t_.n_edges()), 0) {
     for (FaceId f = 0; f < t_.n_faces(); ++f)
@@ -146,7 +145,7 @@ class HarmFinder {
             std::abs(principal_curvature(
                          surface->evaluate2(pcurve->point(range[0] + (i + 0.5) / kPlaces * (range[1] - range[0]))))
                          .k1);
-        if (k > 0) length = std::min(length, 2 * std::sin(0.5 * kDefaultAlpha) / k);
+        if (k > 0) length = std::min(length, 2 * std::sin(0.5 * radians(RasterStageOptions().alpha_deg)) / k);
       }
     }
     return length_[e] = length;

@@ -13,7 +13,6 @@
 namespace st {
 namespace {
 
-constexpr double kDefaultMaxLength = 0.025;     // of the reference diagonal
 constexpr double kDefaultMinLength = 1.0 / 64;  // of the largest length
 
 /// The rule of --trailing-edges or --leading-edges: "LMIN:LMAX" or "LMAX".

@@ -13,6 +13,9 @@
 
 namespace st {
 
+/// Of the reference diagonal: the largest length where none is asked for.
+inline constexpr double kDefaultMaxLength = 0.025;
+
 /// A length of --lmin, --lmax or --chord that refers to wings is a rule for all walls; the others resolve_limits()
 /// takes.
 std::optional<LengthSpec> wing_length(const std::string& text, const std::string& option);

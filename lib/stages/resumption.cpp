@@ -55,7 +55,7 @@ std::string reason_of(int signal) {
 
 Resumption::Resumption(const Executor& inner, const std::string& output, const std::string& run,
                        const ResumeOptions& options)
-    : inner_(inner), output_(output) {
+    : WrappedExecutor(inner), output_(output) {
   Journal::Place place{journal_folder(output), {}, 0, inner.rank(), options.after};
   if (is_root()) {
     place.run_key = key_of(run);

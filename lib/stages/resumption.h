@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "base/executor.h"
 #include "base/ids.h"
+#include "base/wrapped_executor.h"
 #include "io/file/journal.h"
 
 namespace st {
@@ -23,7 +23,7 @@ struct ResumeOptions {
 /// The executor of a stage with a journal: every rank writes what it has made, and what an earlier run has made is not
 /// made again. Work that was under way when an earlier run was ended is done first, and alone: whether it is to blame
 /// shows then, and it has all the memory.
-class Resumption : public Executor {
+class Resumption : public WrappedExecutor {
  public:
   /// Collective. `run`: digest of inputs and options, the same on every rank; the version and the program come on top.
   Resumption(const Executor& inner, const std::string& output, const std::string& run, const ResumeOptions& options);
@@ -39,19 +39,6 @@ class Resumption : public Executor {
   /// Local, on rank 0, after end(): the output is complete.
   void remove();
 
-  int rank() const override { return inner_.rank(); }
-  int size() const override { return inner_.size(); }
-  bool has_listeners() const override { return inner_.has_listeners(); }
-  void begin_phase(const char* name) const override { inner_.begin_phase(name); }
-  void broadcast(Bytes& bytes) const override { inner_.broadcast(bytes); }
-  std::vector<Bytes> gather(Bytes own) const override { return inner_.gather(std::move(own)); }
-  void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
-                 const std::function<Bytes(std::int32_t task)>& compute,
-                 const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override {
-    inner_.run_tasks(n_tasks, order, compute, collect);
-  }
-  void has_own(std::size_t n_bytes) const override { inner_.has_own(n_bytes); }
-  std::vector<Bytes> ask(const std::vector<Request>& requests) const override { return inner_.ask(requests); }
   void run_named_tasks(const NamedTasks& tasks, const std::function<Bytes(std::int32_t task)>& compute,
                        const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
 
@@ -65,7 +52,6 @@ class Resumption : public Executor {
   void run_some(const NamedTasks& tasks, const std::vector<std::int32_t>& some, const Compute& compute,
                 const Collect& collect) const;
 
-  const Executor& inner_;
   const std::string output_;
   std::optional<JournalReader> earlier_;  // on rank 0, where there is something of use
   char is_resuming_ = 0;

@@ -1,24 +1,14 @@
 #include "stages/same_inputs.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstddef>
 
 #include "base/error.h"
+#include "base/host_name.h"
 #include "base/packer.h"
 
 namespace st {
-namespace {
-
-std::string host_name() {
-  char name[256] = "";
-  gethostname(name, sizeof name - 1);
-  return name;
-}
-
-}  // namespace
-
 void require_same_inputs(const Executor& executor, const std::vector<OpenedFile>& files) {
   if (executor.size() == 1) return;
   Packer own;

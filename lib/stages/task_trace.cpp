@@ -16,7 +16,7 @@ thread_local std::uint64_t t_asked = 0;  // bytes
 
 }  // namespace
 
-TaskTrace::TaskTrace(const Executor& inner, std::string path) : inner_(inner), path_(std::move(path)) {
+TaskTrace::TaskTrace(const Executor& inner, std::string path) : WrappedExecutor(inner), path_(std::move(path)) {
   begin_serial();
 }
 

@@ -10,14 +10,14 @@
 #include <tuple>
 #include <vector>
 
-#include "base/executor.h"
 #include "base/log.h"
 #include "base/threads.h"
+#include "base/wrapped_executor.h"
 
 namespace st {
 
 /// An executor that keeps time. Without a file it only passes on.
-class TaskTrace : public Executor {
+class TaskTrace : public WrappedExecutor {
  public:
   /// Collective: the clock of every rank starts. `path`: where rank 0 writes in the end, empty: nowhere.
   TaskTrace(const Executor& inner, std::string path);
@@ -26,11 +26,8 @@ class TaskTrace : public Executor {
   /// broadcast, for collecting the results of each call, and for what rank 0 does in between. Throws Error(kOutput).
   void write();
 
-  int rank() const override { return inner_.rank(); }
-  int size() const override { return inner_.size(); }
   void broadcast(Bytes& bytes) const override;
   bool has_listeners() const override { return !path_.empty() || inner_.has_listeners(); }
-  std::vector<Bytes> gather(Bytes own) const override { return inner_.gather(std::move(own)); }
   void run_tasks(std::int32_t n_tasks, const std::vector<std::int32_t>& order,
                  const std::function<Bytes(std::int32_t task)>& compute,
                  const std::function<void(std::int32_t task, Bytes&& result)>& collect) const override;
@@ -62,7 +59,6 @@ class TaskTrace : public Executor {
   std::int32_t thread_number() const;
   void write_rows(const std::vector<Row>& rows) const;
 
-  const Executor& inner_;
   const std::string path_;
   Timer clock_;
   mutable std::mutex mutex_;  // of rows_ and threads_

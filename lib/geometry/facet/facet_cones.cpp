@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/axis.h"
 namespace st {
 namespace {
 
@@ -12,15 +13,12 @@ constexpr double kFold = -0.5;  // cosine of 120 degrees between neighbours
 /// By the axis along which the patch is longest: the half of the triangles that lies higher is 1.
 std::vector<std::int32_t> halves(const FacetPatch& patch) {
   const std::size_t n = patch.corners.size();
-  Vec3 low = patch.x.front(), high = low;
-  for (const Vec3 x : patch.x) {
-    low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
-    high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
-  }
-  const Vec3 d = high - low;
+  Box3 box;
+  for (const Vec3 x : patch.x) box.add(x);
+  const int axis = longest_axis(box);
   const auto along = [&](std::size_t t) {
-    const Vec3 sum = patch.x[patch.corners[t][0]] + patch.x[patch.corners[t][1]] + patch.x[patch.corners[t][2]];
-    return d.x >= d.y && d.x >= d.z ? sum.x : d.y >= d.z ? sum.y : sum.z;
+    const auto& [a, b, c] = patch.corners[t];
+    return component(patch.x[a] + patch.x[b] + patch.x[c], axis);
   };
   std::vector<std::size_t> order(n);
   std::iota(order.begin(), order.end(), 0);

@@ -6,6 +6,7 @@
 
 #include "base/disjoint_sets.h"
 #include "geometry/model/model_tables.h"
+#include "geometry/model/rectangle_width.h"
 
 namespace st::occt {
 namespace {

@@ -12,17 +12,15 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/finite.h"
 
 namespace st::occt {
 namespace {
 
-bool is_finite(Vec3 x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
-
 /// Empty: it can be meshed.
 std::string why_not(const TopoDS_Face& face, const ModelTables& t, FaceId f) {
   if (!std::isfinite(t.face_area[f])) return "its surface cannot be evaluated, its area is no number";
-  if (!is_finite(t.face_box[f].lo) || !is_finite(t.face_box[f].hi))
-    return "its surface cannot be evaluated, its extent is no number";
+  if (!is_finite(t.face_box[f])) return "its surface cannot be evaluated, its extent is no number";
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(e.Current());
     if (is_constraint(edge)) continue;
@@ -48,7 +46,7 @@ bool leave_out_faces(ImportedShape& model, const ModelTables& t, std::vector<Imp
     if (why.empty()) continue;
     reshape->Remove(face);
     const Box3 box = t.face_box[f];
-    const bool has_box = is_finite(box.lo) && is_finite(box.hi);
+    const bool has_box = is_finite(box);
     left_out.push_back({FindingKind::kLeftOutFace, t.face_label(f), has_box ? box.center() : Vec3{},
                         has_box ? box.diagonal() : 0, false, why});
   }

@@ -1,20 +1,13 @@
 #include "geometry/model/composites.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "base/finite.h"
 #include "geometry/model/id_checks.h"
 #include "geometry/model/model.h"
 
 namespace st {
 namespace {
-
-bool is_finite(double x) { return std::isfinite(x); }
-bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
-bool is_finite(const std::array<Vec2, 3>& corners) {
-  return std::ranges::all_of(corners, [](Vec2 p) { return is_finite(p); });
-}
 
 template <class T>
 bool are_finite(const std::vector<T>& values) {

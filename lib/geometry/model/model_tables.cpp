@@ -298,11 +298,6 @@ class TableWriter {
 
 }  // namespace
 
-double rectangle_width(double area, double perimeter) {
-  const double half = 0.5 * perimeter, d = half * half - 4 * area;
-  return d > 0 ? 2 * area / (half + std::sqrt(d)) : std::sqrt(area);
-}
-
 ModelOfFile make_tables(const ImportedShape& model, const std::string& path) { return TableWriter(model, path).run(); }
 
 ModelTables make_face_tables(const ImportedShape& model, double scale) {

@@ -22,10 +22,6 @@ struct ModelOfFile {
   FaceMeasures measures;
 };
 
-/// Width of the rectangle of this area and perimeter: of a strip its width, of anything rounder than a square the
-/// square's side.
-double rectangle_width(double area, double perimeter);
-
 /// Tables of `model`: ids in TopExp order; unit and findings are left to the caller. Throws Error(kGeometry) naming
 /// `path` for an edge without a vertex.
 ModelOfFile make_tables(const ImportedShape& model, const std::string& path);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/boxes.h"
+#include "base/finite.h"
 
 namespace st {
 namespace {
@@ -30,8 +31,6 @@ std::optional<Vec3> solve(const std::array<Vec3, 4>& columns, Vec3 r) {
 Vec2 within(const Surface& s, Vec2 uv) {
   return {std::clamp(uv.x, s.u_min(), s.u_max()), std::clamp(uv.y, s.v_min(), s.v_max())};
 }
-
-bool is_finite(Vec3 x) { return std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z); }
 
 // --- a grid on one surface ---
 

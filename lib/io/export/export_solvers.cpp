@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/axis.h"
 #include "base/face_labels.h"
 #include "base/log.h"
 #include "io/export/export.h"
@@ -31,7 +32,7 @@ int axis_of(const SurfaceMesh& m, std::size_t group) {
     const Vec3 a = cross(m.node_xyz[n[1]] - m.node_xyz[n[0]], m.node_xyz[n[2]] - m.node_xyz[n[0]]);
     area = area + Vec3{std::abs(a.x), std::abs(a.y), std::abs(a.z)};
   }
-  return area.x >= area.y && area.x >= area.z ? 0 : area.y >= area.z ? 1 : 2;
+  return largest_axis(area);
 }
 
 /// FUN3D's number of a boundary condition: viscous wall, far field, symmetry about x, y or z.

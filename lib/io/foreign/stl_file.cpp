@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/finite.h"
 #include "base/limits.h"
 #include "io/file/text_file.h"
 #include "mesh/adjacency.h"
@@ -137,7 +138,7 @@ SurfaceMesh read_stl(const std::string& path) {
   const std::vector<Vec3>& corners = content.corners;
   if (corners.empty() || corners.size() % 3 != 0) fail(path, "no whole triangles in it");
   for (const Vec3& x : corners)
-    if (!std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z)) fail(path, "a coordinate is not finite");
+    if (!is_finite(x)) fail(path, "a coordinate is not finite");
   if (corners.size() / 3 > kMaxTriangles) fail(path, "has more triangles than can be numbered");
   SurfaceMesh mesh;
   const std::vector<NodeId> node = weld(corners, mesh.node_xyz);

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/finite.h"
 #include "base/limits.h"
 #include "io/file/byte_cursor.h"
 #include "io/foreign/stl_file.h"
@@ -137,7 +138,7 @@ SurfaceMesh make_mesh(const std::string& path, TriangulationFile&& file) {
     fail(path, "has more triangles than can be handled");
   const auto n_nodes = static_cast<std::int64_t>(mesh.node_xyz.size());
   for (std::int64_t n = 0; n < n_nodes; ++n)
-    if (const Vec3 x = mesh.node_xyz[n]; !std::isfinite(x.x) || !std::isfinite(x.y) || !std::isfinite(x.z))
+    if (!is_finite(mesh.node_xyz[n]))
       fail(path, "the coordinates of node " + std::to_string(n + 1) + " are not finite; export the mesh again");
   for (std::size_t n = 0; n < file.node_size.size(); ++n)
     if (!(file.node_size[n] >= 0) || !std::isfinite(file.node_size[n]))

@@ -1,14 +1,13 @@
 // Contents that contradict each other are refused when an artifact is read: no reader behind trusts an index blindly.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
+#include "base/finite.h"
 #include "base/ids.h"
 #include "base/vec.h"
 #include "io/hdf5/hdf5_file.h"
@@ -49,14 +48,6 @@ void require_rows_to_be(const Hdf5Reader& reader, const std::string& name, std::
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (!is_good(rows[i])) reader.fail(name, "row " + std::to_string(i) + " is not " + what);
 }
-
-template <class T>
-bool is_finite(T x) {
-  return std::abs(x) <= std::numeric_limits<T>::max();  // false for NaN
-}
-inline bool is_finite(Vec3 x) { return is_finite(x.x) & is_finite(x.y) & is_finite(x.z); }
-inline bool is_finite(Vec2 x) { return is_finite(x.x) & is_finite(x.y); }
-inline bool is_finite(const Box3& box) { return is_finite(box.lo) & is_finite(box.hi); }
 
 /// Numbers and places are finite.
 template <class T>

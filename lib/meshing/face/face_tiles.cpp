@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/axis.h"
 #include "base/sort_once.h"
 #include "base/threads.h"
 #include "meshing/face/coarse_face.h"
@@ -129,13 +130,9 @@ class TileCutter {
       box.add(middle_[t]);
       total += weight_[t];
     }
-    const Vec3 extent = box.hi - box.lo;
-    const auto along = [&](std::int32_t t) {
-      const Vec3& x = middle_[t];
-      return extent.x >= extent.y && extent.x >= extent.z ? x.x : extent.y >= extent.z ? x.y : x.z;
-    };
+    const int axis = longest_axis(box);
     std::vector<std::pair<double, std::int32_t>> order;
-    for (const std::int32_t t : triangles) order.push_back({along(t), t});
+    for (const std::int32_t t : triangles) order.push_back({component(middle_[t], axis), t});
     std::sort(order.begin(), order.end());
     std::transform(order.begin(), order.end(), triangles.begin(), [](const auto& place) { return place.second; });
     const std::int32_t n_low = n / 2;

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/finite.h"
 #include "mesh/adjacency.h"
 #include "mesh/quality.h"
 #include "meshing/face/face_check.h"
@@ -30,8 +31,7 @@ class LoopClosing {
  public:
   LoopClosing(const Surface* surface, const FaceBoundary& boundary, const SizeField& field)
       : surface_(surface), field_(field), nodes_(boundary.nodes), first_inner_(nodes_.size()) {
-    for (const FaceNode& n : nodes_)
-      if (!std::isfinite(n.uv.x) || !std::isfinite(n.uv.y)) surface_ = nullptr;
+    if (!std::ranges::all_of(nodes_, [](const FaceNode& n) { return is_finite(n.uv); })) surface_ = nullptr;
     for (const auto& [a, b] : boundary.segments) fixed_.insert(ids(a, b));
   }
 

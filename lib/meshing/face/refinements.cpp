@@ -13,14 +13,6 @@ constexpr std::int32_t kPlacesPerLeaf = 8;
 constexpr double kRoundOff = 1 - 1e-12;  // of the bound by which places are passed over: no rounding may hide one that
                                          // counts
 
-Vec3 extent(const Box3& b) { return b.hi - b.lo; }
-
-/// Coordinate along which the box is longest: 0, 1, 2.
-int longest_axis(const Box3& box) {
-  const Vec3 d = extent(box);
-  return d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-}
-
 /// Of the cone whose top is cut off at the radius.
 double at_centre(const Refinement& r) { return r.length - kRefinementSlope * r.radius; }
 

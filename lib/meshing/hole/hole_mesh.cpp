@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/finite.h"
 #include "meshing/topology/small_features.h"
 
 namespace st {
@@ -18,8 +19,6 @@ constexpr auto kOnVertex = static_cast<std::uint8_t>(EntityDim::kVertex),
 [[noreturn]] void fail(const std::string& what) {
   throw Error(ExitCode::kInput, "the mesh " + what + "; make it again with st-merge");
 }
-
-bool is_finite(Vec3 p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z); }
 
 void require_valid(const SurfaceMesh& m, const ModelTables& t) {
   const std::int32_t limit[] = {t.n_vertices(), t.n_edges(), t.n_faces()};
@@ -39,7 +38,7 @@ void require_valid(const SurfaceMesh& m, const ModelTables& t) {
     if (i && m.triangle_face[i] < m.triangle_face[i - 1]) fail("is not in the order that st-merge writes");
   }
   for (const Vec2 uv : m.corner_uv)
-    if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) fail("has (u,v) that are not finite");
+    if (!is_finite(uv)) fail("has (u,v) that are not finite");
 }
 
 /// Sum of the signed areas in (u,v) of a face's triangles.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "geometry/model/bodies.h"
 #include "geometry/model/cad_tolerance.h"
 #include "geometry/model/sameness.h"
 #include "geometry/shape/projection.h"
@@ -23,12 +24,6 @@ constexpr int kSamples = 8;      // intervals of an edge
 [[noreturn]] void fail(const ModelTables& t, const FacePair& p, const std::string& what) {
   throw Error(ExitCode::kGeometry, fmt::format("pair of {} and {}: {}; correct the motion of the pair, or the CAD",
                                                t.face_label(p.a), t.face_label(p.b), what));
-}
-
-std::set<VertexId> vertices_of(const ModelTables& t, FaceId f) {
-  std::set<VertexId> all;
-  for (const EdgeId e : t.edges_of(f)) all.insert({t.edge_vertices[2 * e], t.edge_vertices[2 * e + 1]});
-  return all;
 }
 
 std::set<EdgeId> curves_of(const ModelTables& t, FaceId f) {
