@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/axis.h"
 #include "base/boxes.h"
 #include "base/morton.h"
 #include "base/parallel_reserve.h"
@@ -56,7 +57,7 @@ Box3 box_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FaceP
 void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
                std::span<const std::int32_t> triangles, const Box3& others, bool is_of_one_face, PatchPart& part) {
   const FacePatch& p = section.patch;
-  const auto add_key = [&](std::int64_t key) {
+  const auto add_key = [&](NodeKey key) {
     part.corner.push_back(static_cast<std::int32_t>(part.xyz.size()));
     part.key.push_back(key);
   };
@@ -127,14 +128,6 @@ std::vector<Vec3> node_places(const EdgeMesh& edges, std::span<const Vec3> verte
     for (std::size_t i = begin; i < end; ++i) xyz[i] = node_place(edges, vertex_xyz, p, static_cast<NodeId>(i));
   });
   return xyz;
-}
-
-std::int64_t boundary_key(EntityDim dim, std::int32_t entity, std::int32_t index) {
-  return std::int64_t{dim != EntityDim::kVertex} << 62 | std::int64_t{entity} << 31 | index;
-}
-
-std::int64_t boundary_key(const FacePatch& p, std::int32_t i) {
-  return boundary_key(static_cast<EntityDim>(p.boundary_dim[i]), p.boundary_entity[i], p.boundary_index[i]);
 }
 
 PatchBlocks::PatchBlocks(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p) {
@@ -222,10 +215,8 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
     order.push_back(static_cast<std::int32_t>(i));
     all.add(boxes[i]);
   }
-  const Vec3 extent = all.hi - all.lo;
-  const auto along = [&](const Vec3& x) {
-    return extent.x >= extent.y && extent.x >= extent.z ? x.x : extent.y >= extent.z ? x.y : x.z;
-  };
+  const int axis = longest_axis(all);
+  const auto along = [&](const Vec3& x) { return component(x, axis); };
   std::sort(order.begin(), order.end(), [&](std::int32_t i, std::int32_t j) {
     return std::pair(along(boxes[i].lo), i) < std::pair(along(boxes[j].lo), j);
   });
@@ -266,7 +257,7 @@ TwoParts join_parts(const PatchPart& a, const PatchPart& b) {
       both.triangles[i / 3].n[i % 3] = static_cast<NodeId>(i);
     }
   });
-  std::vector<std::pair<std::int64_t, NodeId>> on_boundary;
+  std::vector<std::pair<NodeKey, NodeId>> on_boundary;
   for (std::size_t i = 0; i < a.key.size(); ++i) on_boundary.push_back({a.key[i], a.corner[i]});
   for (std::size_t i = 0; i < b.key.size(); ++i)
     on_boundary.push_back({b.key[i], static_cast<NodeId>(n_a) + b.corner[i]});

@@ -19,11 +19,6 @@ Vec3 node_place(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const F
 /// Of all its nodes, boundary nodes first.
 std::vector<Vec3> node_places(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p);
 
-/// What a node on a vertex or edge has in all patches, ascending by (dimension, entity, index); nodes of an edge that
-/// follow each other differ by 1.
-std::int64_t boundary_key(EntityDim dim, std::int32_t entity, std::int32_t index);
-std::int64_t boundary_key(const FacePatch& p, std::int32_t boundary_node);
-
 /// Boxes of a patch's triangles, some neighbours each, and a tree over these.
 class PatchBlocks {
  public:
@@ -72,7 +67,7 @@ struct PatchPart {
   std::vector<std::int32_t> triangle;  ///< places in the patch
   std::vector<Vec3> xyz;               ///< [3*n_triangles] of the corners
   std::vector<std::int32_t> corner;    ///< ascending: corners on the boundary, and at nodes that sections share
-  std::vector<std::int64_t> key;       ///< likewise, their boundary_key() or inner_key()
+  std::vector<NodeKey> key;            ///< likewise
   std::vector<Box3> boxes;             ///< of some of them each, together of all
 
   static auto fields(auto& p) { return std::tie(p.triangle, p.xyz, p.corner, p.key, p.boxes); }

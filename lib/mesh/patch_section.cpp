@@ -8,14 +8,9 @@
 namespace st {
 namespace {
 
-constexpr int kSectionShift = 31;
 constexpr std::size_t kPerPiece = 65'536;
 
 }  // namespace
-
-std::int64_t inner_key(std::int32_t section, std::int32_t number) {
-  return -1 - (std::int64_t{section} << kSectionShift | number);
-}
 
 SectionRows rows_of(PatchSection&& section, std::span<const SectionBegin> begins, std::size_t own,
                     std::int32_t n_boundary) {
@@ -24,10 +19,9 @@ SectionRows rows_of(PatchSection&& section, std::span<const SectionBegin> begins
   FacePatch& p = all.rows;
   const std::int32_t n_local = p.n_boundary, n_own = static_cast<std::int32_t>(p.inner_xyz.size()) - section.n_foreign;
   std::vector<NodeId> foreign;  // where other sections have them
-  for (const std::int64_t key : std::span(section.shared_key).last(section.n_foreign)) {
-    const std::int64_t place = -1 - key;
-    const std::int64_t number = place & ((std::int64_t{1} << kSectionShift) - 1);
-    foreign.push_back(static_cast<NodeId>(n_boundary + begins[place >> kSectionShift].inner + number));
+  for (const NodeKey key : std::span(section.shared_key).last(section.n_foreign)) {
+    const InnerNode node = inner_node(key);
+    foreign.push_back(static_cast<NodeId>(n_boundary + begins[node.section].inner + node.number));
   }
   const auto number = [&](NodeId n) -> NodeId {
     if (n < n_local) return all.has_boundary ? n : section.boundary_number[n];

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "mesh/node_key.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -23,7 +24,7 @@ struct PatchSection {
   std::vector<std::int32_t> boundary_number = {};  ///< [n_boundary] in the patch of the face
   std::int32_t n_foreign = 0;                      ///< of the inner nodes
   std::vector<std::int32_t> shared = {};           ///< inner nodes that other sections have, too, ascending
-  std::vector<std::int64_t> shared_key = {};       ///< likewise: inner_key() of each
+  std::vector<NodeKey> shared_key = {};            ///< likewise
 
   std::int32_t n_own() const { return static_cast<std::int32_t>(patch.inner_xyz.size()) - n_foreign; }
 
@@ -31,9 +32,6 @@ struct PatchSection {
     return std::tie(s.patch, s.is_whole_boundary, s.boundary_number, s.n_foreign, s.shared, s.shared_key);
   }
 };
-
-/// A node inside a face, by the section that owns it and its number there. Never one of a boundary_key().
-std::int64_t inner_key(std::int32_t section, std::int32_t number);
 
 /// Rows of the patch of a face.
 struct SectionRows {

@@ -4,8 +4,6 @@
 #include <tuple>
 
 #include "base/threads.h"
-#include "mesh/merge.h"
-#include "mesh/patch_blocks.h"
 
 namespace st {
 
@@ -26,9 +24,8 @@ BoundarySegments::BoundarySegments(const BoundaryNumbering& numbering) {
   std::sort(at_ends_.begin(), at_ends_.end());
 }
 
-bool BoundarySegments::contain(std::int64_t a, std::int64_t b) const {
-  constexpr std::int64_t kOnEdge = std::int64_t{1} << 62;
-  return (b == a + 1 && a >= kOnEdge) || std::binary_search(at_ends_.begin(), at_ends_.end(), std::pair{a, b});
+bool BoundarySegments::contain(NodeKey a, NodeKey b) const {
+  return is_next(a, b) || std::binary_search(at_ends_.begin(), at_ends_.end(), std::pair{a, b});
 }
 
 std::vector<Chord> find_chords(const BoundarySegments& segments, const FacePatch& patch, std::int64_t first) {

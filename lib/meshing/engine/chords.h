@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/node_key.h"
 #include "meshing/face/face_boundary.h"
 #include "meshing/face/face_patch.h"
 
@@ -19,7 +20,7 @@ struct Facet {
 
 /// An edge of a triangle between two nodes on boundaries that is no segment of these.
 struct Chord {
-  std::int64_t a = 0, b = 0;  ///< boundary_key() of its ends, a < b
+  NodeKey a, b;  ///< a < b
   Facet facet;
 };
 
@@ -27,12 +28,11 @@ struct Chord {
 class BoundarySegments {
  public:
   explicit BoundarySegments(const BoundaryNumbering& numbering);
-  /// By boundary_key(), a < b.
-  bool contain(std::int64_t a, std::int64_t b) const;
+  /// a < b.
+  bool contain(NodeKey a, NodeKey b) const;
 
  private:
-  std::vector<std::pair<std::int64_t, std::int64_t>> at_ends_;  // all but those between two nodes inside one edge,
-                                                                // sorted
+  std::vector<std::pair<NodeKey, NodeKey>> at_ends_;  // all but those between two nodes inside one edge, sorted
 };
 
 /// The chords of a patch, or of a section whose triangles begin with this one.

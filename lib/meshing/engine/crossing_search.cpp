@@ -35,11 +35,11 @@ RefinementPoint halve_triangle(Vec3 a, Vec3 b, Vec3 c) {
 }
 
 /// Those of faces that changed, and every two that meet of which one is of such a face. Local, on rank 0.
-std::vector<SectionJob> CrossingSearch::jobs_of(const std::vector<PlacedPatch>& sections) const {
+std::vector<SectionJob> CrossingSearch::jobs_of(const std::vector<PatchPlace>& sections) const {
   std::vector<SectionJob> jobs;
   std::vector<Box3> boxes;
   for (std::int32_t s = 0; s < static_cast<std::int32_t>(sections.size()); ++s) {
-    boxes.push_back(sections[s].place.box);
+    boxes.push_back(sections[s].box);
     if (face_is_fresh_[sections[s].face]) jobs.push_back({s, s});
   }
   for (const auto& [s, t] : meeting_pairs(boxes)) {
@@ -51,18 +51,18 @@ std::vector<SectionJob> CrossingSearch::jobs_of(const std::vector<PlacedPatch>& 
 }
 
 /// Collective. Of rank 0's places, on every rank.
-std::vector<PlacedPatch> CrossingSearch::sections_of(const std::vector<FacePlace>& places) const {
-  std::vector<PlacedPatch> sections;
+std::vector<PatchPlace> CrossingSearch::sections_of(const std::vector<FacePlace>& places) const {
+  std::vector<PatchPlace> sections;
   if (executor_.is_root())
-    for (std::size_t f = 0; f < places.size(); ++f)
-      for (const PatchPlace& place : places[f].sections)
-        if (place.is_there()) sections.push_back({static_cast<FaceId>(f), place});
+    for (const FacePlace& face : places)
+      for (const PatchPlace& place : face.sections)
+        if (place.is_there()) sections.push_back(place);
   share(executor_, sections);
   return sections;
 }
 
 void CrossingSearch::run(const BoundaryNumbering& numbering, const std::vector<FacePlace>& places) {
-  const std::vector<PlacedPatch> sections = sections_of(places);
+  const std::vector<PatchPlace> sections = sections_of(places);
   std::vector<SectionJob> jobs;
   if (executor_.is_root()) jobs = jobs_of(sections);
   share(executor_, jobs);
@@ -149,7 +149,7 @@ std::vector<FacetCorners> CrossingSearch::corners(std::vector<Facet> facets, con
 /// The first pairs whose walls are not measured, and pairs from all over the others.
 std::vector<RefinementPoint> CrossingSearch::places_to_refine(const BoundaryNumbering& numbering,
                                                               const std::vector<FacePlace>& places) {
-  const std::vector<PlacedPatch> sections = sections_of(places);
+  const std::vector<PatchPlace> sections = sections_of(places);
   const SectionSearch search(store_, executor_, numbering, sections);
   std::vector<Facet> facets;
   std::vector<std::pair<double, double>> how;  // factor and triangles of each

@@ -71,9 +71,9 @@ class CrossingSearch {
  private:
   bool may_be_apart(FaceId a, FaceId b) const;
   void say_ended(const std::set<std::array<FaceId, 2>>& faces) const;
-  std::vector<SectionJob> jobs_of(const std::vector<PlacedPatch>& sections) const;
+  std::vector<SectionJob> jobs_of(const std::vector<PatchPlace>& sections) const;
   static RefinementPoint refinement_of(const FacetCorners& triangle, double factor, double covering);
-  std::vector<PlacedPatch> sections_of(const std::vector<FacePlace>& places) const;
+  std::vector<PatchPlace> sections_of(const std::vector<FacePlace>& places) const;
   std::vector<FacetCorners> corners(std::vector<Facet> facets, const SectionSearch& search) const;
   void measure_whole_faces(const SectionJob& job, const SectionSearch& search, FoundCrossings& found) const;
   FacetPairs measured(const FacetPairs& pairs, const SectionSearch& search);

@@ -101,7 +101,7 @@ void FaceRounds::mesh_dirty_faces() {
                .make_seams = [&](FaceId f, TiledRegions& tiled) { return packed(keep(mesh_seams_of(f, tiled))); },
                .take_seams = [&](FaceId f, Bytes&& result) { return take_seams(f, result, parted); },
                .finish = [&](TiledRegions& tiled) { return store_sections(tiled, std::move(parted)); },
-               .record = [&](FaceId f, const Bytes& result) { return record_whole(f, result); },
+               .record = [&](const Bytes& result) { return record_whole(result); },
                .restore = [&](Bytes&& whole) { return restore_whole(std::move(whole)); }},
               TiledRegions(model_, faces_as_regions(), field_, refinements_, options_.of_face(),
                            time_limit(options_.tile_triangles)),
@@ -165,11 +165,11 @@ FaceRounds::FaceReport FaceRounds::keep(FaceResult&& result) {
 }
 
 /// Local, on the rank of the patch: a FaceResult.
-Bytes FaceRounds::record_whole(FaceId f, const Bytes& bytes) const {
+Bytes FaceRounds::record_whole(const Bytes& bytes) const {
   FaceReport report;
   unpack(bytes, report);
   if (!report.place.is_there()) return packed(PatchSection(), report);
-  return packed(faces_.store().get(f, report.place)->section, report);
+  return packed(faces_.store().get(report.place)->section, report);
 }
 
 Bytes FaceRounds::restore_whole(Bytes&& whole) {
@@ -197,7 +197,7 @@ bool FaceRounds::take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, FaceR
 /// The seams as the last section of the patch; the whole patch where it has folds to be repaired.
 FaceRounds::FaceResult FaceRounds::mesh_seams_of(FaceId f, TiledRegions& tiled) const {
   bool is_parted = false;
-  SeamMesh seams;
+  Piece seams;
   const auto make_mesh = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
     seams = tiled.seams(surface, f, boundary, executor_);
     is_parted = seams.mesh.n_folds == 0 && !seams.mesh.corners.empty();
@@ -382,9 +382,9 @@ void FaceRounds::remember_whole() {
 
 /// Collective. Patches that are neither part of the mesh nor of the one to go back to.
 void FaceRounds::drop_replaced() {
-  std::vector<PlacedFace> before;
+  std::vector<FacePlace> before;
   if (whole_)
-    for (const auto& [f, face] : whole_->faces) before.push_back({f, face.first});
+    for (const auto& [f, face] : whole_->faces) before.push_back(face.first);
   faces_.keep_only(std::move(before));
 }
 

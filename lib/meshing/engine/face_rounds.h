@@ -70,7 +70,7 @@ class FaceRounds : public MeshRounds {
   void mesh_dirty_faces();
   void give_up(bool by_crossings);
   FaceReport keep(FaceResult&& result);
-  Bytes record_whole(FaceId f, const Bytes& report) const;
+  Bytes record_whole(const Bytes& report) const;
   Bytes restore_whole(Bytes&& whole);
   void take_whole(FaceId f, const Bytes& bytes);
   bool take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, FaceReport>& parted);

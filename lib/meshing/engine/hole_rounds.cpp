@@ -172,7 +172,7 @@ Regions HoleRounds::holes_as_regions(const std::vector<HoleRim>& rims) const {
 /// From the tiles.
 HoleFill HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const {
   return fill_hole(rim, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
-    SeamMesh seams = tiled.seams(surface, number, boundary, executor_);
+    Piece seams = tiled.seams(surface, number, boundary, executor_);
     if (seams.mesh.n_folds > 0) return std::move(seams.mesh);  // it will not do
     return tiled.join(number, boundary, std::move(seams), executor_);
   });

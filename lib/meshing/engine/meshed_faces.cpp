@@ -94,9 +94,9 @@ MeshedFaces::BadTriangles MeshedFaces::bad_triangles(const Patches& patches) con
 }
 
 MeshedFaces::Patches MeshedFaces::bring(const std::vector<FaceId>& faces) const {
-  std::vector<PlacedFace> wanted;
+  std::vector<FacePlace> wanted;
   for (const FaceId f : faces)
-    if (places_[f].is_there()) wanted.push_back({f, places_[f]});
+    if (places_[f].is_there()) wanted.push_back(places_[f]);
   Patches patches;
   for (FacePatch& p : store_.bring(std::move(wanted))) {
     const FaceId f = p.face;
@@ -137,11 +137,10 @@ void MeshedFaces::go_back(const std::vector<FacePlace>& places, const std::vecto
   search_crossings();
 }
 
-void MeshedFaces::keep_only(std::vector<PlacedFace> others) {
-  for (FaceId f = 0; f < tables_.n_faces(); ++f) others.push_back({f, places_[f]});
-  std::vector<PlacedPatch> live;
-  for (const PlacedFace& face : others)
-    for (const PatchPlace& section : face.place.sections) live.push_back({face.face, section});
+void MeshedFaces::keep_only(std::vector<FacePlace> others) {
+  others.insert(others.end(), places_.begin(), places_.end());
+  std::vector<PatchPlace> live;
+  for (const FacePlace& face : others) live.insert(live.end(), face.sections.begin(), face.sections.end());
   share(executor_, live);
   store_.keep_only(live);
 }
@@ -165,7 +164,7 @@ FacePatch MeshedFaces::take_whole(FaceId f) {
   const std::vector<SectionBegin> begins = places_[f].begins();
   std::vector<SectionRows> rows;
   for (std::size_t s = 0; s < begins.size(); ++s)
-    if (places_[f].sections[s].is_there()) rows.push_back(store_.take(f, places_[f], s, begins));
+    if (places_[f].sections[s].is_there()) rows.push_back(store_.take(places_[f], s, begins));
   return join_rows(std::move(rows));
 }
 
@@ -204,7 +203,7 @@ void MeshedFaces::hand_over(PatchesGo patches, MeshResult& result) {
   result.rows.resize(own.size());
   parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
     const auto& [f, number, begins] = own[i];
-    result.rows[i] = store_.take(f, places_[f], number, *begins);
+    result.rows[i] = store_.take(places_[f], number, *begins);
   });
   result.places = places_;
 }

@@ -94,7 +94,7 @@ class MeshedFaces {
   /// Likewise, to the patches alone: edges and outcomes are the same.
   void go_back(const std::vector<FacePlace>& places, const std::vector<FaceId>& changed);
   /// Drops patches that are neither part of the mesh nor among these (rank 0's).
-  void keep_only(std::vector<PlacedFace> others);
+  void keep_only(std::vector<FacePlace> others);
   /// Once, at the end: folds, failures, crossings and patches go into the result.
   void hand_over(PatchesGo patches, MeshResult& result);
 

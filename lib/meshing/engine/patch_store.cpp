@@ -30,6 +30,7 @@ std::vector<SectionBegin> FacePlace::begins() const {
 PatchPlace PatchStore::put(PatchSection&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
                            std::span<const Vec3> vertex_xyz) {
   PatchPlace place;
+  place.face = section.patch.face;
   place.section = number;
   if (section.patch.triangles.empty()) return place;
   auto stored = std::make_shared<StoredPatch>();
@@ -43,35 +44,32 @@ PatchPlace PatchStore::put(PatchSection&& section, std::int32_t number, std::int
   place.n_triangles = static_cast<std::int32_t>(p.triangles.size());
   place.n_own_uv = static_cast<std::int32_t>(p.uv_corner.size());
   place.box = stored->blocks.box();
-  const FaceId face = p.face;
   const std::lock_guard lock(mutex_);
-  patches_[{face, version, number}] = std::move(stored);
+  patches_[key(place)] = std::move(stored);
   return place;
 }
 
-std::shared_ptr<const StoredPatch> PatchStore::get(FaceId face, const PatchPlace& place) const {
+std::shared_ptr<const StoredPatch> PatchStore::get(const PatchPlace& place) const {
   const std::lock_guard lock(mutex_);
-  return patches_.at({face, place.version, place.section});
+  return patches_.at(key(place));
 }
 
-SectionRows PatchStore::take(FaceId face, const FacePlace& place, std::size_t number,
-                             std::span<const SectionBegin> begins) {
+SectionRows PatchStore::take(const FacePlace& place, std::size_t number, std::span<const SectionBegin> begins) {
   std::unique_lock lock(mutex_);
-  const PatchPlace& own = place.sections[number];
-  auto node = patches_.extract({face, own.version, own.section});
+  auto node = patches_.extract(key(place.sections[number]));
   lock.unlock();
   ST_ASSERT(!node.empty());
   return rows_of(std::move(node.mapped()->section), begins, number, place.sections.back().n_boundary);
 }
 
-void PatchStore::keep_only(const std::vector<PlacedPatch>& live) {
+void PatchStore::keep_only(const std::vector<PatchPlace>& live) {
   std::set<Key> keys;
-  for (const auto& [face, place] : live) keys.insert({face, place.version, place.section});
+  for (const PatchPlace& place : live) keys.insert(key(place));
   const std::lock_guard lock(mutex_);
   std::erase_if(patches_, [&](const auto& stored) { return !keys.contains(stored.first); });
 }
 
-std::vector<FacePatch> PatchStore::bring(std::vector<PlacedFace> wanted) const {
+std::vector<FacePatch> PatchStore::bring(std::vector<FacePlace> wanted) const {
   share(executor_, wanted);
   struct Section {
     std::size_t face, number;
@@ -79,33 +77,31 @@ std::vector<FacePatch> PatchStore::bring(std::vector<PlacedFace> wanted) const {
   std::vector<Section> sections;
   NamedTasks tasks;
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    for (std::size_t s = 0; s < wanted[i].place.sections.size(); ++s) {
-      if (!wanted[i].place.sections[s].is_there()) continue;
+    for (std::size_t s = 0; s < wanted[i].sections.size(); ++s) {
+      if (!wanted[i].sections[s].is_there()) continue;
       sections.push_back({i, s});
-      tasks.home.push_back(wanted[i].place.sections[s].rank);
+      tasks.home.push_back(wanted[i].sections[s].rank);
     }
-  if (sections.empty()) return std::vector<FacePatch>(executor_.is_root() ? wanted.size() : 0);
+  if (sections.empty()) return {};
   tasks.order.resize(sections.size());
   std::iota(tasks.order.begin(), tasks.order.end(), 0);
-  tasks.label = [&](std::int32_t task) { return TaskLabel{"bring", wanted[sections[task].face].face}; };
+  tasks.label = [&](std::int32_t task) { return TaskLabel{"bring", wanted[sections[task].face].sections.back().face}; };
   std::vector<std::vector<SectionRows>> rows(wanted.size());  // of sections by number
   std::vector<std::vector<SectionBegin>> begins;
-  for (const PlacedFace& w : wanted) begins.push_back(w.place.begins());
-  for (std::size_t i = 0; i < wanted.size(); ++i) rows[i].resize(wanted[i].place.sections.size());
+  for (const FacePlace& place : wanted) begins.push_back(place.begins());
+  for (std::size_t i = 0; i < wanted.size(); ++i) rows[i].resize(wanted[i].sections.size());
   executor_.run_named_tasks(
       tasks,
       [&](std::int32_t task) {
-        const auto& [face, place] = wanted[sections[task].face];
-        const std::size_t number = sections[task].number;
-        PatchSection copy = get(face, place.sections[number])->section;
-        return packed(rows_of(std::move(copy), begins[sections[task].face], number, place.sections.back().n_boundary));
+        const auto [face, number] = sections[task];
+        const std::vector<PatchPlace>& all = wanted[face].sections;
+        PatchSection copy = get(all[number])->section;
+        return packed(rows_of(std::move(copy), begins[face], number, all.back().n_boundary));
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, rows[sections[task].face][sections[task].number]); });
   std::vector<FacePatch> patches;
-  for (std::size_t i = 0; executor_.is_root() && i < wanted.size(); ++i) {
+  for (std::size_t i = 0; executor_.is_root() && i < wanted.size(); ++i)
     patches.push_back(join_rows(std::move(rows[i])));
-    patches.back().face = wanted[i].face;
-  }
   return patches;
 }
 

@@ -18,8 +18,9 @@
 
 namespace st {
 
-/// Where a section of a patch is, and how large; see PatchSection.
+/// Where a section of the patch of a face is, and how large; see PatchSection.
 struct PatchPlace {
+  FaceId face = kNone;
   std::int32_t rank = kNone;  ///< kNone: it has no triangles
   std::int32_t section = 0;   ///< of its face
   std::int64_t version = 0;   ///< a face may have several patches at a time, of different rounds
@@ -28,6 +29,11 @@ struct PatchPlace {
   Box3 box;  ///< of the triangles
 
   bool is_there() const { return rank != kNone; }
+
+  static auto fields(auto& p) {
+    return std::tie(p.face, p.rank, p.section, p.version, p.n_boundary, p.n_inner, p.n_triangles, p.n_own_uv, p.begin,
+                    p.box);
+  }
 };
 
 /// Where the patch of a face is.
@@ -48,18 +54,6 @@ struct FacePlace {
   static auto fields(auto& p) { return std::tie(p.sections); }
 };
 
-struct PlacedPatch {
-  FaceId face = kNone;
-  PatchPlace place;
-};
-
-struct PlacedFace {
-  FaceId face = kNone;
-  FacePlace place;
-
-  static auto fields(auto& p) { return std::tie(p.face, p.place); }
-};
-
 struct StoredPatch {
   PatchSection section;
   PatchBlocks blocks;
@@ -76,18 +70,20 @@ class PatchStore {
                  std::span<const Vec3> vertex_xyz);
   bool is_own(const PatchPlace& place) const { return place.rank == executor_.rank(); }
   /// Precondition: it is kept here.
-  std::shared_ptr<const StoredPatch> get(FaceId face, const PatchPlace& place) const;
+  std::shared_ptr<const StoredPatch> get(const PatchPlace& place) const;
   /// Takes what is not kept any more: section `number` of the patch that is there;
   /// `begins`: of all its sections.
-  SectionRows take(FaceId face, const FacePlace& place, std::size_t number, std::span<const SectionBegin> begins);
+  SectionRows take(const FacePlace& place, std::size_t number, std::span<const SectionBegin> begins);
   /// Drops all others. `live`: of other ranks, too.
-  void keep_only(const std::vector<PlacedPatch>& live);
+  void keep_only(const std::vector<PatchPlace>& live);
 
-  /// Collective. Copies of these patches on rank 0, which alone knows what it wants; nothing on other ranks.
-  std::vector<FacePatch> bring(std::vector<PlacedFace> wanted) const;
+  /// Collective. Copies of these patches, which are there, on rank 0, which alone knows what it wants; nothing on other
+  /// ranks.
+  std::vector<FacePatch> bring(std::vector<FacePlace> wanted) const;
 
  private:
   using Key = std::tuple<FaceId, std::int64_t, std::int32_t>;  // face, version, section
+  static Key key(const PatchPlace& p) { return {p.face, p.version, p.section}; }
 
   const Executor& executor_;
   mutable std::mutex mutex_;

@@ -77,7 +77,7 @@ void RegionTasks::add_whole(const std::vector<std::int32_t>& regions, std::vecto
                            steps_.take_whole(r, std::move(result));
                            progress.advance(weight_[r]);
                          },
-                     .record = [this, r](const Bytes& result) { return steps_.record(r, result); },
+                     .record = steps_.record,
                      .restore = steps_.restore});
 }
 
@@ -110,7 +110,7 @@ std::vector<std::int32_t> RegionTasks::make_seams() {
                          [&, r](Bytes&& result) {
                            if (!steps_.take_seams(r, std::move(result))) failed.push_back(r);
                          },
-                     .record = [this, r](const Bytes& result) { return steps_.record(r, result); },
+                     .record = steps_.record,
                      .restore = steps_.restore});
   run(tasks);
   if (steps_.finish) std::ranges::copy(steps_.finish(tiled_), std::back_inserter(failed));

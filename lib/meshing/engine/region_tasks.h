@@ -26,9 +26,7 @@ struct RegionSteps {
   /// Collective, when all seams were taken: on rank 0, regions that are to be made as a whole all the same.
   std::function<std::vector<std::int32_t>(TiledRegions& tiled)> finish = {};
   /// As for NamedTasks, of both results: where these are not all that there is to keep.
-  std::function<Bytes(std::int32_t region, const Bytes& result)> record = [](auto, const Bytes& result) {
-    return result;
-  };
+  std::function<Bytes(const Bytes& result)> record = [](const Bytes& result) { return result; };
   std::function<Bytes(Bytes&& whole)> restore = [](Bytes&& whole) { return std::move(whole); };
 };
 

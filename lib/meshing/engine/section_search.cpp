@@ -34,31 +34,29 @@ void FoundCrossings::append(const FoundCrossings& more) {
   ended.insert(ended.end(), more.ended.begin(), more.ended.end());
 }
 
-std::shared_ptr<const StoredPatch> SectionSearch::own(std::int32_t s) const {
-  return store_.get(sections_[s].face, sections_[s].place);
-}
+std::shared_ptr<const StoredPatch> SectionSearch::own(std::int32_t s) const { return store_.get(sections_[s]); }
 
 /// The section that has the triangle.
 std::int32_t SectionSearch::section_of(const Facet& facet) const {
   const auto after = std::upper_bound(sections_.begin(), sections_.end(), facet, [](const Facet& f, const auto& s) {
-    return std::pair<FaceId, std::int64_t>(f.face, f.index) < std::pair(s.face, s.place.begin.triangle);
+    return std::pair<FaceId, std::int64_t>(f.face, f.index) < std::pair(s.face, s.begin.triangle);
   });
   return static_cast<std::int32_t>(after - sections_.begin()) - 1;
 }
 
 Facet SectionSearch::facet(std::int32_t s, std::int32_t triangle) const {
-  return {sections_[s].face, static_cast<std::int32_t>(sections_[s].place.begin.triangle + triangle)};
+  return {sections_[s].face, static_cast<std::int32_t>(sections_[s].begin.triangle + triangle)};
 }
 
 std::int32_t SectionSearch::home(const SectionJob& job) const {
-  const PatchPlace &a = sections_[job.a].place, &b = sections_[job.b].place;
+  const PatchPlace &a = sections_[job.a], &b = sections_[job.b];
   return a.n_triangles < b.n_triangles ? b.rank : a.rank;
 }
 
 double SectionSearch::weight(const SectionJob& job) const {
   constexpr double kAcross = 0.1, kAlways = 500;  // triangles
-  const double n = sections_[job.a].place.n_triangles;
-  return kAlways + (job.a == job.b ? n : kAcross * (n + sections_[job.b].place.n_triangles));
+  const double n = sections_[job.a].n_triangles;
+  return kAlways + (job.a == job.b ? n : kAcross * (n + sections_[job.b].n_triangles));
 }
 
 FoundCrossings SectionSearch::within(std::int32_t s) const {
@@ -71,7 +69,7 @@ FoundCrossings SectionSearch::within(std::int32_t s) const {
   for (const TrianglePair& pair : find_crossing_patches({xyz, p.triangles, begin, body}, was_ended))
     add(facet(s, pair.a), facet(s, pair.b), pair.n_shared, found.pairs);
   if (was_ended) found.ended.push_back({p.face, p.face});
-  found.chords = find_chords(segments_, p, sections_[s].place.begin.triangle);
+  found.chords = find_chords(segments_, p, sections_[s].begin.triangle);
   return found;
 }
 
@@ -94,7 +92,7 @@ Bytes SectionSearch::answer(const Bytes& request) const {
 
 /// Of the two sections of a job, the one on this rank, and the other one.
 std::array<std::int32_t, 2> SectionSearch::here_and_there(const SectionJob& job) const {
-  return store_.is_own(sections_[job.a].place) ? std::array{job.a, job.b} : std::array{job.b, job.a};
+  return store_.is_own(sections_[job.a]) ? std::array{job.a, job.b} : std::array{job.b, job.a};
 }
 
 bool SectionSearch::is_of_one_face(const SectionJob& job) const {
@@ -108,7 +106,7 @@ std::vector<PatchPart> SectionSearch::near_others(const std::vector<SectionJob>&
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (jobs[i].a == jobs[i].b) continue;
     const auto [here, there] = here_and_there(jobs[i]);
-    const PatchPlace& place = sections_[there].place;
+    const PatchPlace& place = sections_[there];
     const auto other = own(here);
     if (store_.is_own(place)) {
       parts[i] = near(there, other->blocks, is_of_one_face(jobs[i]));
@@ -153,7 +151,7 @@ FacetCorners SectionSearch::corners(const Facet& facet) const {
   const std::int32_t s = section_of(facet);
   const auto stored = own(s);
   const FacePatch& p = stored->section.patch;
-  const auto t = static_cast<std::size_t>(facet.index - sections_[s].place.begin.triangle);
+  const auto t = static_cast<std::size_t>(facet.index - sections_[s].begin.triangle);
   const NodeId* n = p.triangles[t].n;
   FacetCorners corners{{}, std::max({n[0], n[1], n[2]}) < p.n_boundary};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -167,7 +165,7 @@ std::vector<FacetCorners> SectionSearch::corners(const std::vector<Facet>& facet
   std::vector<FacetCorners> all(facets.size());
   std::map<std::int32_t, std::vector<std::size_t>> elsewhere;  // by rank
   for (std::size_t i = 0; i < facets.size(); ++i)
-    if (const PatchPlace& place = sections_[section_of(facets[i])].place; store_.is_own(place))
+    if (const PatchPlace& place = sections_[section_of(facets[i])]; store_.is_own(place))
       all[i] = corners(facets[i]);
     else
       elsewhere[place.rank].push_back(i);

@@ -54,14 +54,14 @@ class SectionSearch {
  public:
   /// `sections`: of all patches, by face, by number. All outlive the object.
   SectionSearch(const PatchStore& store, const Executor& executor, const BoundaryNumbering& numbering,
-                const std::vector<PlacedPatch>& sections)
+                const std::vector<PatchPlace>& sections)
       : store_(store), executor_(executor), numbering_(numbering), sections_(sections) {}
 
   FaceId face(std::int32_t s) const { return sections_[s].face; }
   /// The face is one section.
   bool is_whole(std::int32_t s) const;
   /// The rank that has the triangle.
-  std::int32_t home(const Facet& facet) const { return sections_[section_of(facet)].place.rank; }
+  std::int32_t home(const Facet& facet) const { return sections_[section_of(facet)].rank; }
   /// The rank that has more to lose by sending.
   std::int32_t home(const SectionJob& job) const;
   /// About the time it takes.
@@ -92,7 +92,7 @@ class SectionSearch {
   const PatchStore& store_;
   const Executor& executor_;
   const BoundaryNumbering& numbering_;
-  const std::vector<PlacedPatch>& sections_;
+  const std::vector<PatchPlace>& sections_;
   const BoundarySegments segments_{numbering_};
 };
 

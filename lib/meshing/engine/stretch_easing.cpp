@@ -104,8 +104,8 @@ bool StretchEasing::keep_if_better(Shortens shortens) {
              (shortens == Shortens::kAlong || Policy::is_worth_easing(n_first_, n_triangles(all_faces())));
   const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
   if (is_best_) best_ = {n_flaws, has_obtuse, faces_.state(), refinements_.all()};
-  std::vector<PlacedFace> others;
-  for (FaceId f = 0; executor_.is_root() && f < tables_.n_faces(); ++f) others.push_back({f, best_.state.places[f]});
+  std::vector<FacePlace> others;
+  if (executor_.is_root()) others = best_.state.places;
   faces_.keep_only(std::move(others));
   return is_best_;
 }

@@ -74,7 +74,7 @@ Bytes TiledRegions::compute(std::int32_t tile, int rank) {
     FaceMesh mesh = mesh_face(*surface, tile_boundary(whole, cut, cut.tiles[index]), field_of(f).get(), options_);
     split = split_tile(whole, cut, index, std::move(mesh));
   } catch (const Error&) {
-    split.band.cause = FailureCause::kError;
+    split.band.mesh.cause = FailureCause::kError;
   }
   return packed(static_cast<std::int32_t>(rank));
 }
@@ -117,7 +117,7 @@ void TiledRegions::mesh_group(std::int32_t section, const Executor& executor) {
   const TileGroups& groups = groups_.at(region);
   SplitMesh& split = meshes_.at(region)[index];
   const std::int32_t group = index - groups.n_tiles();
-  std::vector<SeamBand> bands = gather<SeamBand>(region, groups.members(group), executor);
+  std::vector<Piece> bands = gather<Piece>(region, groups.members(group), executor);
   const CurrentWork at_face("face", f + 1, limit_);
   try {
     const auto surface = model_.surface(f);
@@ -127,7 +127,7 @@ void TiledRegions::mesh_group(std::int32_t section, const Executor& executor) {
     const SeamMaker maker{*surface, make_surface, whole, cut, groups, field.get(), options_};
     split = split_group(whole, cut, index, maker.of_group(group, std::move(bands)));
   } catch (const Error&) {
-    split.band.cause = FailureCause::kError;
+    split.band.mesh.cause = FailureCause::kError;
   }
 }
 
@@ -144,8 +144,8 @@ struct SectionRequest {
 template <class Part>
 Part TiledRegions::take_part(const Section& section) {
   SplitMesh& mesh = meshes_.at(section.region)[section.index];
-  SeamBand band = std::exchange(mesh.band, {});
-  if constexpr (std::is_same_v<Part, SeamBand>)
+  Piece band = std::exchange(mesh.band, {});
+  if constexpr (std::is_same_v<Part, Piece>)
     return band;
   else
     return std::exchange(mesh, {});
@@ -161,7 +161,7 @@ std::vector<Part> TiledRegions::gather(std::int32_t region, const std::array<std
   for (std::int32_t index = members[0]; index < members[1]; ++index) {
     parts.emplace_back();
     if (const int rank = rank_of(number_of(region, index)); rank != executor.rank()) {
-      requests.push_back({rank, packed(SectionRequest{{region, index}, std::is_same_v<Part, SeamBand>})});
+      requests.push_back({rank, packed(SectionRequest{{region, index}, std::is_same_v<Part, Piece>})});
       missing.push_back(parts.size() - 1);
     } else {
       parts.back() = take_part<Part>({region, index});
@@ -190,23 +190,22 @@ std::int32_t TiledRegions::number_of(std::int32_t region, std::int32_t index) co
 Bytes TiledRegions::answer(const Bytes& request) {
   SectionRequest asked{};
   unpack(request, asked);
-  return asked.wants_band ? packed(take_part<SeamBand>(asked.section)) : packed(take_part<SplitMesh>(asked.section));
+  return asked.wants_band ? packed(take_part<Piece>(asked.section)) : packed(take_part<SplitMesh>(asked.section));
 }
 
 SplitMesh TiledRegions::take(std::int32_t section) { return take_part<SplitMesh>(sections_[section]); }
 
-SeamMesh TiledRegions::seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary,
-                             const Executor& executor) {
+Piece TiledRegions::seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary,
+                          const Executor& executor) {
   const FaceId f = regions_.face(region);
   const SurfaceMaker make_surface = [&] { return model_.surface(f); };
   const TileGroups& groups = groups_.at(region);
   const FaceField field = field_of(f);
   return SeamMaker{surface, make_surface, boundary, cuts_.at(region), groups, field.get(), options_}.of_face(
-      gather<SeamBand>(region, groups.members_of_face(), executor));
+      gather<Piece>(region, groups.members_of_face(), executor));
 }
 
-FaceMesh TiledRegions::join(std::int32_t region, const FaceBoundary& boundary, SeamMesh seams,
-                            const Executor& executor) {
+FaceMesh TiledRegions::join(std::int32_t region, const FaceBoundary& boundary, Piece seams, const Executor& executor) {
   if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);
   return join_sections(static_cast<std::int32_t>(boundary.nodes.size()),
                        gather<SplitMesh>(region, {0, n_sections_of(region)}, executor), std::move(seams));

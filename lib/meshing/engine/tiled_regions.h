@@ -43,7 +43,7 @@ struct Regions {
 
 /// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, mesh_groups(), then the seams,
 /// and joins where a region is wanted as a whole. All tasks are pure functions of the boundary and the sizes. Tiles,
-/// and groups of them, are the sections of a region (see SeamMesh): each stays on the rank that makes it.
+/// and groups of them, are the sections of a region (see Piece): each stays on the rank that makes it.
 class TiledRegions {
  public:
   /// All references outlive the object. `limit`: of a tile.
@@ -105,9 +105,9 @@ class TiledRegions {
 
   /// Local, by tasks that `answer` belongs to: the triangles about the cuts between the sections of a region. Several
   /// threads may do this for different regions; once for each.
-  SeamMesh seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary, const Executor& executor);
+  Piece seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary, const Executor& executor);
   /// Takes after it the mesh of the whole region; its sections are gone then.
-  FaceMesh join(std::int32_t region, const FaceBoundary& boundary, SeamMesh seams, const Executor& executor);
+  FaceMesh join(std::int32_t region, const FaceBoundary& boundary, Piece seams, const Executor& executor);
   /// Local: of a section, for a rank that asks for it.
   Bytes answer(const Bytes& request);
   /// Local, on its rank: what is left of it without the band.

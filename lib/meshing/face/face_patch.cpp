@@ -94,16 +94,16 @@ PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number
   FaceBoundary boundary;
   boundary.nodes = std::move(split.boundary);
   PatchSection section;
-  section.patch = make_patch(t, face, boundary, split.rest, numbering);
+  section.patch = make_patch(t, face, boundary, split.rest.mesh, numbering);
   section.boundary_number = std::move(split.boundary_number);
   section.is_whole_boundary = false;
   for (const std::int32_t i : split.shared) section.shared_key.push_back(inner_key(number, i));
   section.shared = std::move(split.shared);
-  set_owners(split.owner, section);
+  set_owners(split.rest.owner, section);
   return section;
 }
 
-void set_owners(std::span<const SectionNode> owner, PatchSection& section) {
+void set_owners(std::span<const InnerNode> owner, PatchSection& section) {
   section.n_foreign = static_cast<std::int32_t>(owner.size());
   const std::int32_t first = section.n_own();
   for (std::int32_t i = 0; i < section.n_foreign; ++i) {

@@ -26,6 +26,6 @@ PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number
                           const BoundaryNumbering& numbering);
 
 /// The nodes of other sections, which are the last inner ones.
-void set_owners(std::span<const SectionNode> owner, PatchSection& section);
+void set_owners(std::span<const InnerNode> owner, PatchSection& section);
 
 }  // namespace st

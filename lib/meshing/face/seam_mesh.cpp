@@ -21,7 +21,7 @@ class SectionSplitter {
  public:
   /// `places`: of the boundary nodes of the mesh among boundary and cut nodes. `owner`: of its last inner nodes.
   SectionSplitter(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section,
-                  std::vector<std::int32_t> places, FaceMesh mesh, std::vector<SectionNode> owner)
+                  std::vector<std::int32_t> places, FaceMesh mesh, std::vector<InnerNode> owner)
       : boundary_(boundary),
         cut_(cut),
         section_(section),
@@ -33,10 +33,10 @@ class SectionSplitter {
         n_own_(size_of(mesh_.inner) - size_of(owner_)) {}
 
   SplitMesh run() {
-    SeamBand& band = split_.band;
-    band.cause = mesh_.cause;
-    band.refinement = std::move(mesh_.refinement);
-    band.n_folds = mesh_.n_folds;
+    Piece& band = split_.band;
+    band.mesh.cause = mesh_.cause;
+    band.mesh.refinement = std::move(mesh_.refinement);
+    band.mesh.n_folds = mesh_.n_folds;
     if (mesh_.cause != FailureCause::kNone) return std::move(split_);
     find_layers();
     find_uses();
@@ -92,22 +92,22 @@ class SectionSplitter {
     const auto uses = [&](std::int32_t i) { return uses_[n_boundary_ + i]; };
     for (std::int32_t i = 0; i < size_of(mesh_.inner); ++i) {
       if (!(uses(i) & kInRest)) continue;
-      in_rest_[i] = size_of(split_.rest.inner);
-      split_.rest.inner.push_back(mesh_.inner[i]);
-      if (i >= n_own_) split_.owner.push_back(owner_[i - n_own_]);
+      in_rest_[i] = size_of(split_.rest.mesh.inner);
+      split_.rest.mesh.inner.push_back(mesh_.inner[i]);
+      if (i >= n_own_) split_.rest.owner.push_back(owner_[i - n_own_]);
       if (i < n_own_ && uses(i) & kInBand) split_.shared.push_back(in_rest_[i]);
     }
-    SeamBand& band = split_.band;
+    Piece& band = split_.band;
     const auto add = [&](std::int32_t i) {
-      in_band_[i] = size_of(band.nodes);
-      band.nodes.push_back(mesh_.inner[i]);
+      in_band_[i] = size_of(band.mesh.inner);
+      band.mesh.inner.push_back(mesh_.inner[i]);
     };
     for (std::int32_t i = 0; i < n_own_; ++i)
       if (uses(i) == kInBand) add(i);
     for (std::int32_t i = 0; i < size_of(mesh_.inner); ++i) {
       if (!(uses(i) & kInBand) || in_band_[i] != kNone) continue;
       add(i);
-      band.owner.push_back(i < n_own_ ? SectionNode{section_, in_rest_[i]} : owner_[i - n_own_]);
+      band.owner.push_back(i < n_own_ ? InnerNode{section_, in_rest_[i]} : owner_[i - n_own_]);
     }
   }
 
@@ -132,16 +132,16 @@ class SectionSplitter {
       for (int k = 0; k < 3; ++k) {
         const std::int32_t inner = c[k] - n_boundary_;
         if (is_in_band_[t]) {
-          split_.band.corners.push_back(inner < 0 ? places_[c[k]] : first_in_band + in_band_[inner]);
+          split_.band.mesh.corners.push_back(inner < 0 ? places_[c[k]] : first_in_band + in_band_[inner]);
           continue;
         }
-        split_.rest.corners.push_back(inner < 0 ? boundary_in_rest_[c[k]] : first_in_rest + in_rest_[inner]);
+        split_.rest.mesh.corners.push_back(inner < 0 ? boundary_in_rest_[c[k]] : first_in_rest + in_rest_[inner]);
         if (const std::int32_t d = c[(k + 1) % 3]; inner < 0 && d < n_boundary_)
           split_.band.sides.push_back({std::min(id(c[k]), id(d)), std::max(id(c[k]), id(d))});
       }
     }
-    split_.rest.corners.shrink_to_fit();
-    split_.rest.inner.shrink_to_fit();
+    split_.rest.mesh.corners.shrink_to_fit();
+    split_.rest.mesh.inner.shrink_to_fit();
   }
 
   std::int32_t id(std::int32_t corner) const { return boundary_.nodes[places_[corner]].id; }
@@ -152,7 +152,7 @@ class SectionSplitter {
   const std::vector<std::int32_t> places_;
   const std::int32_t n_boundary_;
   FaceMesh mesh_;
-  const std::vector<SectionNode> owner_;
+  const std::vector<InnerNode> owner_;
   const std::int32_t n_own_;
   std::vector<std::uint8_t> layer_, uses_;       // of each corner
   std::vector<std::uint8_t> is_in_band_;         // [n_triangles]
@@ -165,8 +165,7 @@ class SectionSplitter {
 /// mesh, in this order. `is_inside`: the cut nodes that do not stay.
 class SeamMesher {
  public:
-  SeamMesher(const SeamMaker& maker, std::span<const Tile> tiles, std::vector<char> is_inside,
-             std::vector<SeamBand> bands)
+  SeamMesher(const SeamMaker& maker, std::span<const Tile> tiles, std::vector<char> is_inside, std::vector<Piece> bands)
       : maker_(maker),
         tiles_(tiles),
         is_inside_(std::move(is_inside)),
@@ -175,7 +174,7 @@ class SeamMesher {
         n_fixed_(n_face_ + size_of(maker.cut.nodes)),
         boundary_(maker.boundary) {}
 
-  SeamMesh run() {
+  Piece run() {
     add_up();
     if (mesh_.cause == FailureCause::kNone) {
       add_nodes();
@@ -193,10 +192,10 @@ class SeamMesher {
 
  private:
   void add_up() {
-    for (const SeamBand& band : bands_) {
-      if (mesh_.cause == FailureCause::kNone) mesh_.cause = band.cause;
-      mesh_.n_folds += band.n_folds;
-      for (const RefinementPoint& p : band.refinement)
+    for (const Piece& band : bands_) {
+      if (mesh_.cause == FailureCause::kNone) mesh_.cause = band.mesh.cause;
+      mesh_.n_folds += band.mesh.n_folds;
+      for (const RefinementPoint& p : band.mesh.refinement)
         if (mesh_.refinement.size() < kMostRefined) mesh_.refinement.push_back(p);
     }
   }
@@ -218,12 +217,12 @@ class SeamMesher {
       inside.push_back(tiles[i]);
     }
     find_pieces(inside);
-    for (const SeamBand& band : bands_) {
-      const auto end = band.nodes.begin() + band.n_own();
+    for (const Piece& band : bands_) {
+      const auto end = band.mesh.inner.begin() + band.n_own();
       first_own_.push_back(size_of(mesh_.inner));
-      mesh_.inner.insert(mesh_.inner.end(), band.nodes.begin(), end);
+      mesh_.inner.insert(mesh_.inner.end(), band.mesh.inner.begin(), end);
       first_rim_.push_back(size_of(boundary_.nodes));
-      for (auto n = end; n != band.nodes.end(); ++n) {
+      for (auto n = end; n != band.mesh.inner.end(); ++n) {
         boundary_.nodes.push_back(*n);
         boundary_.nodes.back().id = ++last_id;
       }
@@ -242,9 +241,9 @@ class SeamMesher {
   void add_triangles() {
     const std::int32_t n_boundary = size_of(boundary_.nodes);
     for (std::size_t i = 0; i < bands_.size(); ++i) {
-      SeamBand& band = bands_[i];
+      Piece& band = bands_[i];
       const std::int32_t n_own = band.n_own();
-      for (std::int32_t c : band.corners) {
+      for (std::int32_t c : band.mesh.corners) {
         if (c >= n_fixed_ + n_own)
           c += first_rim_[i] - n_fixed_ - n_own;
         else if (c >= n_fixed_)
@@ -288,7 +287,7 @@ class SeamMesher {
     return once;
   }
 
-  /// As in a SeamMesh.
+  /// As in a Piece.
   void renumber() {
     const std::int32_t n_boundary = size_of(boundary_.nodes), n_own = size_of(mesh_.inner);
     for (std::int32_t& c : mesh_.corners)
@@ -305,14 +304,14 @@ class SeamMesher {
   const SeamMaker& maker_;
   const std::span<const Tile> tiles_;
   const std::vector<char> is_inside_;
-  std::vector<SeamBand> bands_;
+  std::vector<Piece> bands_;
   const std::int32_t n_face_, n_fixed_;  // nodes on the boundary of the face; and on cuts
   FaceBoundary boundary_;
   std::vector<std::int32_t> number_of_cut_;          // [n_cut] inner node
   std::vector<std::int32_t> pieces_;                 // of these
   std::vector<std::int32_t> first_own_, first_rim_;  // [n_bands] inner node, boundary node
   FaceMesh mesh_;
-  SeamMesh seams_;
+  Piece seams_;
 };
 
 }  // namespace
@@ -321,7 +320,7 @@ SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int3
   return SectionSplitter(boundary, cut, tile, nodes_of(cut.tiles[tile]), std::move(mesh), {}).run();
 }
 
-SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, SeamMesh mesh) {
+SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh) {
   std::vector<std::int32_t> places(boundary.nodes.size() + cut.nodes.size());
   std::iota(places.begin(), places.end(), 0);
   SplitMesh split =
@@ -330,7 +329,7 @@ SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int
   return split;
 }
 
-SeamMesh SeamMaker::of_group(std::int32_t group, std::vector<SeamBand> bands) const {
+Piece SeamMaker::of_group(std::int32_t group, std::vector<Piece> bands) const {
   std::vector<char> is_inside;
   for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) is_inside.push_back(groups.group_of(i) == group);
   const auto [first, end] = groups.members(group);
@@ -338,29 +337,28 @@ SeamMesh SeamMaker::of_group(std::int32_t group, std::vector<SeamBand> bands) co
   return SeamMesher(*this, tiles, std::move(is_inside), std::move(bands)).run();
 }
 
-SeamMesh SeamMaker::of_face(std::vector<SeamBand> bands) const {
+Piece SeamMaker::of_face(std::vector<Piece> bands) const {
   std::vector<char> is_inside;
   for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) is_inside.push_back(groups.group_of(i) == kNone);
-  SeamMesh seams = SeamMesher(*this, cut.tiles, std::move(is_inside), std::move(bands)).run();
+  Piece seams = SeamMesher(*this, cut.tiles, std::move(is_inside), std::move(bands)).run();
   const std::int32_t n_boundary = size_of(boundary.nodes);
   for (std::int32_t& c : seams.mesh.corners)
     if (c >= n_boundary) c -= size_of(cut.nodes);
   return seams;
 }
 
-FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, SeamMesh seams) {
+FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, Piece seams) {
   if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);
   SplitMesh last;
-  last.rest = std::move(seams.mesh);
-  last.owner = std::move(seams.owner);
+  last.rest = std::move(seams);
   FaceMesh joined;
-  joined.n_folds = last.rest.n_folds;
-  joined.refinement = last.rest.refinement;
+  joined.n_folds = last.rest.mesh.n_folds;
+  joined.refinement = last.rest.mesh.refinement;
   std::vector<std::size_t> first_inner{0}, first_corner{0};
   sections.push_back(std::move(last));
   for (const SplitMesh& s : sections) {
-    first_inner.push_back(first_inner.back() + s.n_own());
-    first_corner.push_back(first_corner.back() + s.rest.corners.size());
+    first_inner.push_back(first_inner.back() + s.rest.n_own());
+    first_corner.push_back(first_corner.back() + s.rest.mesh.corners.size());
   }
   parallel_reserve(joined.inner, first_inner.back());
   parallel_reserve(joined.corners, first_corner.back());
@@ -369,18 +367,18 @@ FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections,
   parallel_for(sections.size(), 1, [&](std::size_t i, std::size_t) {
     const SplitMesh& s = sections[i];
     const bool is_last = i + 1 == sections.size();
-    const std::int32_t n_local = is_last ? n_boundary : size_of(s.boundary), n_own = s.n_own();
+    const std::int32_t n_local = is_last ? n_boundary : size_of(s.boundary), n_own = s.rest.n_own();
     const auto first = [&](std::size_t section) {
       return n_boundary + static_cast<std::int32_t>(first_inner[section]);
     };
-    std::transform(s.rest.corners.begin(), s.rest.corners.end(), joined.corners.begin() + first_corner[i],
+    std::transform(s.rest.mesh.corners.begin(), s.rest.mesh.corners.end(), joined.corners.begin() + first_corner[i],
                    [&](std::int32_t c) {
                      if (c < n_local) return is_last ? c : s.number[c];
                      c -= n_local;
                      if (c < n_own) return first(i) + c;
-                     return first(s.owner[c - n_own].section) + s.owner[c - n_own].number;
+                     return first(s.rest.owner[c - n_own].section) + s.rest.owner[c - n_own].number;
                    });
-    std::copy(s.rest.inner.begin(), s.rest.inner.begin() + n_own, joined.inner.begin() + first_inner[i]);
+    std::copy(s.rest.mesh.inner.begin(), s.rest.mesh.inner.begin() + n_own, joined.inner.begin() + first_inner[i]);
   });
   return joined;
 }

@@ -11,39 +11,20 @@
 #include <tuple>
 #include <vector>
 
+#include "mesh/node_key.h"
 #include "meshing/face/tile_groups.h"
 #include "meshing/face/tile_seams.h"
 
 namespace st {
 
-/// An inner node of another section of the face. Sections: the tiles, then the groups of tiles.
-struct SectionNode {
-  std::int32_t section, number;
-};
-
-/// Triangles within some layers of the cuts. The corners here and of a SeamMesh: boundary node i of the face as i, cut
-/// node j as n_boundary + j, inner node k as n_boundary + n_cut + k.
-struct SeamBand {
-  std::vector<FaceNode> nodes;     ///< inner nodes of these triangles
-  std::vector<SectionNode> owner;  ///< of the last ones, which stay in sections
-  std::vector<std::int32_t> corners;
-  std::vector<std::array<std::int32_t, 2>> sides;  ///< ids of the ends, the smaller first: each use of an edge between
-                                                   ///< boundary nodes by triangles that are in no band any more
-  FailureCause cause = FailureCause::kNone;        ///< of the section, as the rest
-  std::vector<RefinementPoint> refinement;
-  int n_folds = 0;
-
-  std::int32_t n_own() const { return static_cast<std::int32_t>(nodes.size() - owner.size()); }
-  static auto fields(auto& x) {
-    return std::tie(x.nodes, x.owner, x.corners, x.sides, x.cause, x.refinement, x.n_folds);
-  }
-};
-
-/// Triangles about cuts, enhanced.
-struct SeamMesh {
-  FaceMesh mesh;                                   ///< inner: its own nodes, then those of sections
-  std::vector<SectionNode> owner;                  ///< of the latter
-  std::vector<std::array<std::int32_t, 2>> sides;  ///< as in the bands that it is made of
+/// Some triangles of a face. Of what is about cuts, boundary node i of the face is corner i, cut node j is n_boundary +
+/// j, and inner node k is n_boundary + n_cut + k.
+struct Piece {
+  FaceMesh mesh;                 ///< inner: its own nodes, then those of sections
+  std::vector<InnerNode> owner;  ///< of the latter, which stay there. Sections: the tiles, then the groups of tiles
+  std::vector<std::array<std::int32_t, 2>> sides;  ///< about cuts, ids of the ends, the smaller first: each use of an
+                                                   ///< edge between boundary nodes by triangles that are in no band
+                                                   ///< any more
 
   std::int32_t n_own() const { return static_cast<std::int32_t>(mesh.inner.size() - owner.size()); }
   static auto fields(auto& x) { return std::tie(x.mesh, x.owner, x.sides); }
@@ -54,21 +35,17 @@ struct SplitMesh {
   std::vector<FaceNode> boundary;             ///< nodes that triangles of the rest have on the boundary of the face
   std::vector<std::int32_t> number;           ///< of each among the nodes of the face's boundary
   std::vector<std::int32_t> boundary_number;  ///< of their ids, ascending, once each, among all of the face's boundary
-  FaceMesh rest;                              ///< without the band: its boundary is `boundary`
-  std::vector<SectionNode> owner;             ///< of its last inner nodes, which are those of other sections
-  std::vector<std::int32_t> shared;           ///< ascending: its own inner nodes that others have, too
-  SeamBand band;
+  Piece rest;                                 ///< without the band: its boundary is `boundary`
+  std::vector<std::int32_t> shared;           ///< ascending: inner nodes of the rest's own that others have, too
+  Piece band;  ///< what is within some layers of the cuts; with the cause, the refinement and the folds of the section
 
-  std::int32_t n_own() const { return static_cast<std::int32_t>(rest.inner.size() - owner.size()); }
-  static auto fields(auto& x) {
-    return std::tie(x.boundary, x.number, x.boundary_number, x.rest, x.owner, x.shared, x.band);
-  }
+  static auto fields(auto& x) { return std::tie(x.boundary, x.number, x.boundary_number, x.rest, x.shared, x.band); }
 };
 
 /// Takes the band off the mesh of a tile, and off that of a group, which is section n_tiles + group. Local, pure.
 /// The cost is linear.
 SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh);
-SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, SeamMesh mesh);
+SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh);
 
 /// What does the enhancing.
 struct SeamMaker {
@@ -83,11 +60,11 @@ struct SeamMaker {
   /// The bands of a group's tiles, of the tiles or groups of the face, as one mesh, improved: see improve_seams(). Its
   /// cause is that of the first section that failed, or tells that they do not fit; its folds are those of all. Local,
   /// pure.
-  SeamMesh of_group(std::int32_t group, std::vector<SeamBand> bands) const;
-  SeamMesh of_face(std::vector<SeamBand> bands) const;  ///< its corners are on no cut: inner node k is n_boundary + k
+  Piece of_group(std::int32_t group, std::vector<Piece> bands) const;
+  Piece of_face(std::vector<Piece> bands) const;  ///< its corners are on no cut: inner node k is n_boundary + k
 };
 
 /// The mesh of the whole face from its sections and the seams of the face: section by section, the seams last.
-FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, SeamMesh seams);
+FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, Piece seams);
 
 }  // namespace st

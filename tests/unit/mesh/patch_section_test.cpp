@@ -107,9 +107,14 @@ TEST(PatchSection, alone_is_the_patch) {
 
 TEST(PatchSection, keys_of_inner_nodes_differ_from_each_other_and_from_those_on_boundaries) {
   constexpr std::int32_t kMost = (std::int64_t{1} << 31) - 1;
-  std::set<std::int64_t> keys;
+  std::set<NodeKey> keys;
   for (const std::int32_t section : {0, 1, 7000, kMost})
-    for (const std::int32_t number : {0, 1, 7000, kMost}) keys.insert(inner_key(section, number));
+    for (const std::int32_t number : {0, 1, 7000, kMost}) {
+      const NodeKey key = inner_key(section, number);
+      EXPECT_EQ(inner_node(key).section, section);
+      EXPECT_EQ(inner_node(key).number, number);
+      keys.insert(key);
+    }
   EXPECT_EQ(keys.size(), 16u);
   EXPECT_LT(*keys.rbegin(), boundary_key(EntityDim::kVertex, 0, 0));
 }

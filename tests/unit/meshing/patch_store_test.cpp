@@ -21,12 +21,12 @@ TEST(PatchStore, gives_back_what_was_put_by_face_and_version) {
   EXPECT_TRUE(store.is_own(a));
   EXPECT_EQ(a.n_triangles, static_cast<std::int32_t>(m.result.patches[0].triangles.size()));
   EXPECT_LT(distance(c.box.center(), m.model.tables().face_box[3].center()), 1e-9);
-  EXPECT_EQ(packed(store.get(3, c)->section.patch), packed(m.result.patches[3]));
-  const std::vector<FacePatch> copies = store.bring({{3, FacePlace(c)}, {0, FacePlace(b)}});
+  EXPECT_EQ(packed(store.get(c)->section.patch), packed(m.result.patches[3]));
+  const std::vector<FacePatch> copies = store.bring({FacePlace(c), FacePlace(b)});
   ASSERT_EQ(copies.size(), 2u);
   EXPECT_EQ(copies[0].face, 3);
   EXPECT_EQ(packed(copies[1]), packed(m.result.patches[0]));
-  EXPECT_EQ(packed(store.take(0, FacePlace(b), 0, FacePlace(b).begins()).rows), packed(m.result.patches[0]));
+  EXPECT_EQ(packed(store.take(FacePlace(b), 0, FacePlace(b).begins()).rows), packed(m.result.patches[0]));
 }
 
 TEST(PatchStore, drops_what_is_not_to_be_kept_and_keeps_nothing_of_an_empty_patch) {
@@ -34,9 +34,9 @@ TEST(PatchStore, drops_what_is_not_to_be_kept_and_keeps_nothing_of_an_empty_patc
   PatchStore store(test::one_rank);
   const PatchPlace a = store.put({m.result.patches[0]}, 0, 1, m.result.edges, m.model.tables().vertex_xyz);
   const PatchPlace b = store.put({m.result.patches[1]}, 0, 1, m.result.edges, m.model.tables().vertex_xyz);
-  store.keep_only({{0, a}});
-  EXPECT_NO_THROW(store.get(0, a));
-  EXPECT_THROW(store.get(1, b), std::out_of_range);
+  store.keep_only({a});
+  EXPECT_NO_THROW(store.get(a));
+  EXPECT_THROW(store.get(b), std::out_of_range);
   FacePatch empty;
   empty.face = 2;
   EXPECT_FALSE(store.put({std::move(empty)}, 0, 1, m.result.edges, m.model.tables().vertex_xyz).is_there());
@@ -73,7 +73,7 @@ TEST(PatchStore, keeps_sections_of_a_face_apart_and_brings_them_as_one_patch) {
   const FacePlace place(places);
   EXPECT_EQ(place.n_triangles(), static_cast<std::int64_t>(whole.triangles.size()));
   EXPECT_EQ(place.sections[1].begin.triangle, static_cast<std::int64_t>(whole.triangles.size() / 2));
-  EXPECT_EQ(packed(store.bring({{0, place}}).at(0)), packed(whole));
+  EXPECT_EQ(packed(store.bring({place}).at(0)), packed(whole));
 }
 
 }  // namespace

@@ -92,21 +92,21 @@ TEST_P(SeamMeshes, leave_sections_whose_nodes_are_each_of_one_of_them) {
   const Sections all = square.sections();
   std::size_t n_nodes = static_cast<std::size_t>(all.seams.n_own());
   for (const SplitMesh& s : all.sections) {
-    n_nodes += static_cast<std::size_t>(s.n_own());
+    n_nodes += static_cast<std::size_t>(s.rest.n_own());
     ASSERT_EQ(s.boundary.size(), s.number.size());
     for (std::size_t i = 0; i < s.number.size(); ++i)
       EXPECT_EQ(s.boundary[i].uv, square.face.boundary.nodes[s.number[i]].uv);
     EXPECT_TRUE(std::is_sorted(s.shared.begin(), s.shared.end()));
-    EXPECT_LT(s.shared.empty() ? -1 : s.shared.back(), s.n_own());
+    EXPECT_LT(s.shared.empty() ? -1 : s.shared.back(), s.rest.n_own());
   }
-  const auto expect_owned = [&](const std::vector<SectionNode>& owner, const FaceMesh& mesh, std::int32_t n_own) {
+  const auto expect_owned = [&](const std::vector<InnerNode>& owner, const FaceMesh& mesh, std::int32_t n_own) {
     for (std::size_t i = 0; i < owner.size(); ++i) {
       const SplitMesh& s = all.sections.at(owner[i].section);
       EXPECT_TRUE(std::binary_search(s.shared.begin(), s.shared.end(), owner[i].number));
-      EXPECT_EQ(s.rest.inner.at(owner[i].number).uv, mesh.inner[n_own + i].uv);
+      EXPECT_EQ(s.rest.mesh.inner.at(owner[i].number).uv, mesh.inner[n_own + i].uv);
     }
   };
-  for (const SplitMesh& s : all.sections) expect_owned(s.owner, s.rest, s.n_own());
+  for (const SplitMesh& s : all.sections) expect_owned(s.rest.owner, s.rest.mesh, s.rest.n_own());
   expect_owned(all.seams.owner, all.seams.mesh, all.seams.n_own());
   EXPECT_EQ(n_nodes, test::join(square.face, all).inner.size());
 }
@@ -142,7 +142,7 @@ TEST(SeamMeshes, see_a_tile_that_is_missing) {
 
 TEST(SeamMeshes, see_an_edge_across_the_face_that_two_tiles_have) {
   SquareInTiles square(5);
-  std::vector<SeamBand> bands;
+  std::vector<Piece> bands;
   for (std::int32_t t = 0; t < square.groups.n_tiles(); ++t)
     bands.push_back(split_tile(square.face.boundary, square.cut, t, square.meshes[t]).band);
   const SurfaceMaker none;

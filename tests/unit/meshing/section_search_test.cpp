@@ -20,11 +20,8 @@ struct CrossedBox {
     std::vector<FacePatch> patches = meshed.result.patches;
     const Box3 all = meshed.model.tables().box();
     for (Vec3& x : patches[0].inner_xyz) x += 2.5 * (all.center() - meshed.model.tables().face_box[0].center());
-    for (FacePatch& p : patches) {
-      const FaceId face = p.face;
-      sections.push_back(
-          {face, store.put({std::move(p)}, 0, 1, meshed.result.edges, meshed.model.tables().vertex_xyz)});
-    }
+    for (FacePatch& p : patches)
+      sections.push_back(store.put({std::move(p)}, 0, 1, meshed.result.edges, meshed.model.tables().vertex_xyz));
   }
   FacetPairs find(const SectionJob& job) const {
     const SectionSearch search(store, test::one_rank, numbering, sections);
@@ -34,7 +31,7 @@ struct CrossedBox {
   Meshed meshed{"box", 8};
   BoundaryNumbering numbering;
   PatchStore store{test::one_rank};
-  std::vector<PlacedPatch> sections;
+  std::vector<PatchPlace> sections;
 };
 
 TEST(SectionSearch, finds_triangles_of_both_sections_of_a_job) {

@@ -24,7 +24,7 @@ inline std::vector<FaceMesh> mesh_tiles(const FaceCase& face, const TileCut& cut
 /// The sections of a face, without their bands, and its seams.
 struct Sections {
   std::vector<SplitMesh> sections;
-  SeamMesh seams;
+  Piece seams;
 };
 
 inline Sections mesh_sections(const FaceCase& face, const TileCut& cut, const SizeField& field,
@@ -34,9 +34,9 @@ inline Sections mesh_sections(const FaceCase& face, const TileCut& cut, const Si
   const SeamMaker maker{*face.surface, none, face.boundary, cut, groups, field, options};
   Sections all;
   const auto take_bands = [&](const std::array<std::int32_t, 2>& members) {
-    std::vector<SeamBand> bands;
+    std::vector<Piece> bands;
     for (std::int32_t i = members[0]; i < members[1]; ++i)
-      bands.push_back(std::exchange(all.sections[i].band, SeamBand()));
+      bands.push_back(std::exchange(all.sections[i].band, Piece()));
     return bands;
   };
   for (std::int32_t t = 0; t < groups.n_tiles(); ++t)

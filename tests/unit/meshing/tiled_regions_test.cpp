@@ -117,7 +117,8 @@ class BrokenTile : public test::BackwardExecutor {
           if (std::string(label.kind) != "tile" || label.part != 0) return result;
           SplitMesh tile;
           unpack(tasks.record(task, result), tile);
-          (is_in_band_ ? tile.band.nodes : tile.rest.inner).at(0).x.z = std::numeric_limits<double>::quiet_NaN();
+          (is_in_band_ ? tile.band.mesh.inner : tile.rest.mesh.inner).at(0).x.z =
+              std::numeric_limits<double>::quiet_NaN();
           return tasks.restore(task, packed(tile));
         },
         collect);
