@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "io/file/temporary_file.h"
+#include "sizing/metric_in_space.h"
 #include "sizing/octree_tets.h"
 #include "sizing/refine.h"
 
@@ -59,13 +60,14 @@ std::array<Vec3, 3> directions_of(const LocalSize& size) {
   return {t, aside, cross(t, aside)};
 }
 
-/// length^-2 I - (length^-2 - along^-2) direction direction^T, by rows.
-void write_metric(const LocalSize& size, TextFile& file) {
-  const double across = 1 / (size.length * size.length), along = 1 / (size.along * size.along);
-  const double d[3] = {size.direction.x, size.direction.y, size.direction.z};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      file << (i + j ? "," : "") << static_cast<float>((i == j ? across : 0) - (across - along) * d[i] * d[j]);
+/// By rows.
+void write_metric(const SymmetricTensor& metric, TextFile& file) {
+  const auto [xx, yy, zz, xy, yz, xz] = metric;
+  const char* before = "";
+  for (const double value : {xx, xy, xz, xy, yy, yz, xz, yz, zz}) {
+    file << before << static_cast<float>(value);
+    before = ",";
+  }
 }
 
 }  // namespace
@@ -116,12 +118,12 @@ void export_pos(const OctreeField& field, const std::string& output) {
     constexpr double kInside = 1 - 1e-9;  // just inside, so that this leaf answers
     for (int k = 0; k < 8; ++k) {
       const double* d = corner[k];
-      const LocalSize size = field.local(frame(c + kInside * half * Vec3{d[0], d[1], d[2]}), hint);
+      const Vec3 x = frame(c + kInside * half * Vec3{d[0], d[1], d[2]});
       file << (k ? "," : "");
       if (field.is_stretched())
-        write_metric(size, file);
+        write_metric(metric_in_space(field, x, hint), file);
       else
-        file << static_cast<float>(size.length);
+        file << static_cast<float>(field.local(x, hint).length);
     }
     file << "};\n";
   }

@@ -15,6 +15,7 @@
 #include "io/export/hole_points.h"
 #include "io/export/periodic_motion.h"
 #include "mesh/pair_match.h"
+#include "sizing/metric_in_space.h"
 
 namespace st {
 namespace {
@@ -256,15 +257,12 @@ void export_sol(const std::string& path, const SurfaceMesh& m, const SizeField& 
        << m.n_nodes() << "\n1 " << std::int64_t{field.is_stretched() ? kMetric : kScalar} << "\n";
   int hint = 0;
   for (const Vec3& x : m.node_xyz) {
-    const LocalSize s = field.local(x, hint);
-    if (field.is_stretched()) {  // the lower triangle by rows: xx, xy, yy, xz, yz, zz
-      const double least = 1 / (s.length * s.length), cut = least - 1 / (s.along * s.along);
-      const Vec3 d = s.direction;
-      text << least - cut * d.x * d.x << " " << 0 - cut * d.x * d.y << " " << least - cut * d.y * d.y << " "
-           << 0 - cut * d.x * d.z << " " << 0 - cut * d.y * d.z << " " << least - cut * d.z * d.z << "\n";
-    } else {
-      text << s.length << "\n";
+    if (!field.is_stretched()) {
+      text << field.size(x, hint) << "\n";
+      continue;
     }
+    const auto [xx, yy, zz, xy, yz, xz] = metric_in_space(field, x, hint);
+    text << xx << " " << xy << " " << yy << " " << xz << " " << yz << " " << zz << "\n";  // lower triangle by rows
   }
   text << "End\n";
   text.flush();

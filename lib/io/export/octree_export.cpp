@@ -12,6 +12,7 @@
 #include "io/file/temporary_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "io/hdf5/vtu_arrays.h"
+#include "sizing/metric_in_space.h"
 #include "sizing/refine.h"
 
 namespace st {
@@ -26,6 +27,7 @@ struct CellData {
   std::vector<std::uint8_t> colour;  // empty: nothing is blanked
   std::vector<float> along;          // empty: lengths are the same in all directions
   std::vector<float> direction;      // [3*n_leaves] likewise
+  std::vector<float> metric;         // [6*n_leaves] xx yy zz xy yz xz; empty: it has no more than the lengths
   Similarity frame;                  // where the octree lies
 };
 
@@ -42,7 +44,7 @@ std::string cell_data(const OctreeView& octree, const CellData& data, VtuArrays&
          (data.along.empty()
               ? ""
               : arrays.add("along", "Float32", data.along) + arrays.add("direction", "Float32", data.direction, 3)) +
-         "      </CellData>\n";
+         (data.metric.empty() ? "" : arrays.add("metric", "Float32", data.metric, 6)) + "      </CellData>\n";
 }
 
 /// Places of a cell's corners among packed_corners(): VTK's voxels lie along the axes, hexahedra need not.
@@ -102,10 +104,13 @@ void write_vtu(const OctreeView& octree, const CellData& data, const std::string
 void add_stretch(const OctreeField& field, const OctreeView& shown, CellData& data) {
   int hint = 0;
   for (std::int32_t leaf = 0; leaf < shown.n_leaves(); ++leaf) {
-    const LocalSize size = field.local(data.frame(shown.leaf_center(leaf)), hint);
+    const Vec3 center = data.frame(shown.leaf_center(leaf));
+    const LocalSize size = field.local(center, hint);
     data.along.push_back(static_cast<float>(size.along));
     for (const double x : {size.direction.x, size.direction.y, size.direction.z})
       data.direction.push_back(static_cast<float>(x));
+    if (!field.has_metrics()) continue;
+    for (const double m : metric_in_space(field, center, hint)) data.metric.push_back(static_cast<float>(m));
   }
 }
 

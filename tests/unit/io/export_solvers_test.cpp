@@ -160,6 +160,31 @@ TEST(ExportSolvers, sol_holds_lengths_or_metrics) {
   EXPECT_EQ(m[0][1], 0);
 }
 
+/// A metric of lengths 0.1 along x, 0.2 along y and 0.4 along z.
+class ThreeLengths : public UniformField {
+ public:
+  ThreeLengths() : UniformField(0.1) {}
+  LocalSize local_on(Vec3, Vec3 normal, int&) const override {
+    if (normal.x > 0.5) return {0.2, 0.4, {0, 0, 1}};
+    return normal.y > 0.5 ? LocalSize{0.1, 0.4, {0, 0, 1}} : LocalSize{0.1, 0.2, {0, 1, 0}};
+  }
+  bool is_stretched() const override { return true; }
+  bool has_metrics() const override { return true; }
+};
+
+TEST(ExportSolvers, sol_holds_all_lengths_of_a_metric) {
+  TemporaryDirectory dir;
+  export_sol(dir / "m.sol", three_triangles(), ThreeLengths());
+  std::istringstream text(read_bytes(dir / "m.sol"));
+  std::string line;
+  for (int i = 0; i < 6; ++i) std::getline(text, line);
+  for (const double expected : {100.0, 0.0, 25.0, 0.0, 0.0, 6.25}) {
+    double value = -1;
+    text >> value;
+    EXPECT_NEAR(value, expected, 1e-9);
+  }
+}
+
 TEST(ExportSolvers, nastran_reals_have_a_point_and_fit_their_fields) {
   SurfaceMesh m = three_triangles();
   m.node_xyz[1] = {-1.23456789012345678e-123, 1e22, 3};
