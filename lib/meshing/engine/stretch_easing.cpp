@@ -12,7 +12,7 @@ namespace st {
 using Policy = RefinementPolicy;
 
 void StretchEasing::run() {
-  if (!field_.is_stretched()) return;
+  if (!field_.is_stretched() || field_.has_metrics()) return;  // a solver asks for what metrics make obtuse
   n_bad_ = faces_.n_bad();
   share(executor_, n_bad_);
   n_first_ = n_triangles(all_faces());

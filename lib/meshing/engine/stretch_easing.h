@@ -17,9 +17,9 @@
 
 namespace st {
 
-/// Rounds, once the others have ended: lengths along become shorter about obtuse triangles and large steps of size,
-/// down to those across, and what they reach is meshed again. The best mesh stays:
-/// one that folds or crosses no more than at the beginning. Collective.
+/// Rounds, once the others have ended, of fields without metrics: lengths along become shorter about obtuse triangles
+/// and large steps of size, down to those across, and what they reach is meshed again. The best mesh stays: one that
+/// folds or crosses no more than at the beginning. Collective.
 class StretchEasing {
  public:
   /// See MeshOptions::find_unheld.
