@@ -63,6 +63,20 @@ nlohmann::json stations_json(const LiftingSurface& wing) {
   return list;
 }
 
+/// Of one surface: each that is long, or how many short ones there are where they are too much together.
+std::vector<std::string> open_parts(const LiftingSurface& wing) {
+  std::vector<std::string> parts;
+  const std::vector<UncoveredStretch> stretches = uncovered_stretches(wing);
+  for (const UncoveredStretch& open : stretches)
+    if (open.length > kShortStretch * wing.span)
+      parts.push_back(fmt::format("{:.2g} % of the span at edge {}", 100 * open.length / wing.span, open.edge + 1));
+  if (!parts.empty() || stretches.empty() || wing.covered() >= 1 - kShortStretch) return parts;
+  const auto longest = std::ranges::max_element(stretches, {}, &UncoveredStretch::length);
+  return {fmt::format("{:.2g} % of the span in {}, the longest at edge {}", 100 * (1 - wing.covered()),
+                      counted(static_cast<std::int64_t>(stretches.size()), "short stretch", "short stretches"),
+                      longest->edge + 1)};
+}
+
 }  // namespace
 
 nlohmann::json wings_json(std::span<const LiftingSurface> wings) {
@@ -197,9 +211,7 @@ std::string noseless_warning(std::span<const LiftingSurface> wings) {
     if (!wing.has_noses)
       for (const ChordEdge& edge : wing.trailing) edges.push_back(edge.edge + 1);
     else
-      for (const UncoveredStretch& open : uncovered_stretches(wing))
-        if (open.length > kShortStretch * wing.span)
-          parts.push_back(fmt::format("{:.2g} % of the span at edge {}", 100 * open.length / wing.span, open.edge + 1));
+      for (std::string& part : open_parts(wing)) parts.push_back(std::move(part));
   }
   constexpr std::size_t kNamed = 8;
   if (parts.size() > kNamed) {

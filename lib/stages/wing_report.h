@@ -14,7 +14,7 @@ namespace st {
 inline constexpr double kLongTrailing = 0.05;
 
 /// Share of the span: stretches without a nose up to this length are not worth a warning, as tips and roots may lack
-/// some stations.
+/// some stations; all of a surface together are above it.
 inline constexpr double kShortStretch = 0.02;
 
 /// One line for each, the longest first, `most` at most, and one for the others.

@@ -137,6 +137,8 @@ SPANS = {
     "rotor_in_fin": [3.03, 0.38, 0.38, 0.38, 0.38, 0.38],
     "bevelled_fins": 4 * [0.41],  # noses have bases, too, which are wider
 }
+# Noses are missing at slanted cuts of the CAD, and at a strut, a little each time; that is said.
+WITH_SHORT_STRETCHES = ("split_winglet", "hydrofoil_joined", "h_rotor")
 # Noses before slots and flaps, where the trailing edge is another part's or none.
 NOSES_ALONE = {"inner_slot": 2, "tip_slot": 2, "open_slot": 0.03, "notched_wing": 0.36, "gapped_aileron": 1.3,
                "fixed_slat": 2.4, "two_elements": 0, "kinked_wing": 0}
@@ -163,7 +165,10 @@ class WingShapes(ToolTest):
             self.assertEqual(len(found), len(spans), f"{name}: {done}")
             for got, asked in zip(found, spans):
                 self.assertLess(abs(got - asked), 0.05 * asked + 0.02, f"{name}: {done}")
-            self.assertNotIn("warning", done.err, f"{name}: {done}")
+            if name in WITH_SHORT_STRETCHES:
+                self.assertRegex(done.err, "warning: no nose is seen before .* short stretches, the longest at edge")
+            else:
+                self.assertNotIn("warning", done.err, f"{name}: {done}")
 
     def check_part(self, name):
         self.assertEqual(self.raster(name, "euler").json()["lifting_surfaces"], [])
