@@ -83,6 +83,21 @@ TEST(WingReport, says_how_much_of_a_nose_is_seen) {
   EXPECT_EQ(noseless_warning({&wing, 1}), "");
 }
 
+TEST(WingReport, says_how_much_of_a_nose_is_not_seen_in_short_stretches) {
+  LiftingSurface wing = noseless();
+  wing.has_noses = true;
+  wing.span = 100;
+  for (int i = 0; i <= 100; ++i)
+    wing.trailing[0].stations.push_back(
+        {.share = 0.01 * i, .trailing = {0, 1.0 * i, 0}, .chord = 1, .is_measured = i != 20});
+  EXPECT_EQ(noseless_warning({&wing, 1}), "") << "a single one";
+  for (const std::size_t i : {50, 51, 80}) wing.trailing[0].stations[i].is_measured = false;
+  wing.span = 101;
+  const std::string text = noseless_warning({&wing, 1});
+  EXPECT_NE(text.find("before 4 % of the span in 3 short stretches, the longest at edge 5:"), std::string::npos)
+      << text;
+}
+
 TEST(WingReport, says_how_many_sets_are_used_and_why_others_are_not) {
   const std::string line = used_line(2, kUnusedEdges);
   EXPECT_NE(line.find("of 5 sets found, 2 used as lifting surfaces; left out are"), std::string::npos) << line;
