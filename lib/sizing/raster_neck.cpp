@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
@@ -19,7 +20,19 @@ constexpr double kTaper = 0.05;         // width over length; towards a point tr
 constexpr double kMostTaper = 0.3;      // more is a corner
 constexpr double kStep = 0.25;          // of the largest length: from one place to the next where nothing is near,
 constexpr double kSides = 3;            // or so many sides, which are shorter where edges turn
+constexpr double kWidens = 0.01;        // width over length: less is a neck of one width
 constexpr int kMostPieces = 2000;       // of one side
+
+constexpr double kNothing = std::numeric_limits<double>::infinity();
+
+/// Along the loops.
+struct Place {
+  Vec3 x;
+  CoedgeId coedge = kNone;
+  double width = 0;      // kNothing where no side faces it
+  bool is_flat = false;  // triangles stay flat at the length that may be asked for
+  bool has_box = false, asks = has_box;
+};
 
 /// The way across a face from a place on a side.
 struct Way {
@@ -42,6 +55,8 @@ class Necks {
   }
 
   void add_boxes(std::int32_t cause, std::vector<RasterBox>& boxes) const {
+    std::vector<Place> places;
+    std::vector<RasterBox> own;
     double at = 0;
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       const SpaceSide& side = sides_[i];
@@ -50,10 +65,18 @@ class Necks {
       for (int n = 0; at < side.length && n < kMostPieces; ++n) {
         const std::optional<Way> way = way_from(i, at);
         const double length = way ? length_of(*way) : 0;
-        if (length > 0) boxes.push_back(box_of(side, at, *way, length, cause));
+        places.push_back({side.a + at * side.along, side.coedge, way ? way->width : kNothing,
+                          way && is_flat(way->width, length), length > 0});
+        if (length > 0) own.push_back(box_of(side, at, *way, length, cause));
         at += length > 0 ? length : step;
       }
       at = std::max(at - side.length, 0.0);
+    }
+    drop_beside_flat(places);
+    auto box = own.begin();
+    for (const Place& place : places) {
+      if (place.asks) boxes.push_back(*box);
+      box += place.has_box;
     }
   }
 
@@ -96,6 +119,26 @@ class Necks {
     if (!(way.width > least_width) || way.taper > kMostTaper) return 0;
     const double least = way.taper > kTaper ? limits_.min_length : kWidthsPerLength * least_width;
     return std::max(kWidthsPerLength * way.width, least);
+  }
+
+  bool is_flat(double width, double length) const {
+    return width <= kResolved * limits_.min_length || width < kMostWidth * length;
+  }
+
+  /// From places that are too narrow nothing is asked for as far as the width grows: triangles there are flat at any
+  /// length, and the more the smaller it is.
+  void drop_beside_flat(std::vector<Place>& places) const {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (!places[i].is_flat) continue;
+      places[i].asks = false;
+      for (const std::ptrdiff_t way : {1, -1})
+        for (auto last = static_cast<std::ptrdiff_t>(i), next = last + way;
+             next >= 0 && next < std::ssize(places) && widens(places[last], places[next]); last = next, next += way)
+          places[next].asks = false;
+    }
+  }
+  static bool widens(const Place& from, const Place& to) {
+    return to.coedge == from.coedge && to.width < kNothing && to.width > from.width + kWidens * distance(from.x, to.x);
   }
 
   RasterBox box_of(const SpaceSide& side, double at, const Way& way, double length, std::int32_t cause) const {

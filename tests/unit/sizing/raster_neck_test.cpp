@@ -79,12 +79,24 @@ TEST(RasterNecks, ask_for_nothing_where_they_are_wide_or_too_narrow_or_do_not_co
 
 TEST(RasterNecks, keep_to_the_smallest_length_where_they_taper) {
   const std::vector<RasterBox> boxes =
-      boxes_of(frame_with_window({{3, 0.05}, {3, 4}, {7, 4}, {7, 0.6}}), neck_limits(0.5, 2));
+      boxes_of(frame_with_window({{3, 0.2}, {3, 4}, {7, 4}, {7, 0.6}}), neck_limits(0.5, 2));
   ASSERT_FALSE(boxes.empty());
   for (const RasterBox& b : boxes) {
     EXPECT_GE(b.length, 0.5f);
-    EXPECT_NEAR(b.length, std::max(0.5, 2 * (0.05 + 0.55 * (b.center.x - 3) / 4)), 0.02);
+    EXPECT_NEAR(b.length, std::max(0.5, 2 * (0.2 + 0.4 * (b.center.x - 3) / 4)), 0.02);
   }
+}
+
+TEST(RasterNecks, ask_for_nothing_where_they_widen_from_a_place_that_is_too_narrow) {
+  // from x = 4.5 on it widens to 0.5
+  const auto beside = [](double width) {
+    std::vector<RasterBox> boxes =
+        boxes_of(frame_with_window({{3, width}, {3, 4}, {7, 4}, {7, 0.5}, {4.5, width}}), neck_limits(0.05, 2));
+    std::erase_if(boxes, [](const RasterBox& b) { return b.center.x < 4.6; });
+    return boxes;
+  };
+  EXPECT_TRUE(beside(0.004).empty());
+  EXPECT_FALSE(beside(0.02).empty());
 }
 
 }  // namespace
