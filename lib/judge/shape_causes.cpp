@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/sort_once.h"
 #include "judge/cad_corners.h"
 
 namespace st {
@@ -14,6 +15,7 @@ namespace {
 
 constexpr int kMostSegments = 3;         // of a CAD edge that counts as short: what a loop of one edge needs
 constexpr double kCornerMargin = 1.25;   // chords make a corner a little sharper than the CAD's edges do
+constexpr double kCornerReach = 3;       // requests: so far from a corner its edges may still be as near
 constexpr double kGrowthCornerDeg = 25;  // in such a corner the first triangle is smaller than its neighbours by
                                          // kLargeGrowth
 constexpr double kNarrow = 0.35;         // of the request: a face of this width has no place for a good triangle
@@ -136,9 +138,33 @@ class Causes {
     if (ratio(a, b) < kConformityMin)
       if (const EdgeId e = along_edge(a, b); e != kNone)
         return {is_short(e) ? ShapeCause::kShortEdge : ShapeCause::kSizeJump, e};
-    if (is_in_strip(t, angle, a, b)) return {ShapeCause::kStrip};
+    if (is_in_strip(t, angle, a, b)) {
+      const VertexId corner = corner_about(t);
+      return corner == kNone ? Blame{ShapeCause::kStrip} : Blame{ShapeCause::kCorner, kNone, corner};
+    }
     if (request_ratio(t, t) > kRequestJump) return {ShapeCause::kSizeJump};
     return {};
+  }
+
+  /// The sharp corner in which its nodes lie, on the two edges that meet there; kNone: there is none.
+  VertexId corner_about(TriangleId t) {
+    std::vector<EdgeId> edges;
+    for (const NodeId n : mesh_.triangles[t].n)
+      if (dim(n) == EntityDim::kEdge) edges.push_back(mesh_.node_entity[n]);
+    sort_once(edges);
+    if (edges.size() != 2) return kNone;
+    for (int k = 0; k < 4; ++k) {
+      const VertexId v = tables_.edge_vertices[2 * static_cast<std::size_t>(edges[0]) + k / 2],
+                     w = tables_.edge_vertices[2 * static_cast<std::size_t>(edges[1]) + k % 2];
+      if (corners_.representative(v) == corners_.representative(w) && is_near(t, tables_.vertex_xyz[v]) &&
+          corners_.smallest_deg(mesh_.triangle_face[t], corners_.representative(v)) < kCornerMargin * angle_deg_)
+        return v;
+    }
+    return kNone;
+  }
+  bool is_near(TriangleId t, Vec3 corner) const {
+    return std::ranges::all_of(mesh_.triangles[t].n,
+                               [&](NodeId n) { return distance(xyz(n), corner) < kCornerReach * mesh_.node_size[n]; });
   }
 
   /// Its shortest side, or its height on the longest one, reaches across a face that is narrower than the sizes.
