@@ -52,6 +52,9 @@ constexpr double kWidestCut = 0.1;             // of the chord: base of a profil
 constexpr double kThickBefore = 1.8;           // thickness of such a profile over its base, at least
 constexpr double kShortest = 0.2;              // span over the median chord: pylons, blades of impellers
 constexpr double kSmallPart = 0.01;            // of the reference diagonal: a shorter one has to be half a chord long
+constexpr double kNeedle = 30;                 // span over the median chord: slivers beside wings
+constexpr double kSliverChord = 0.05;          // of the largest wing's: chord of such a sliver at most
+constexpr double kRunsOut = 0.1;               // least chord of such a sliver over its largest, at most
 constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
 constexpr double kNarrowStrip = 0.05;          // width of a strip of the skin over the length of its edge, at most
 constexpr double kSameDirection = 0.998;       // cosine: 4 degrees
@@ -65,7 +68,8 @@ constexpr double kCovered = 1e-3;              // of the chord: from a nose to a
 constexpr double kLens = 0.75;                 // of the way where the nose is on the edge itself: does not count
 
 constexpr const char *kRimOfEnd = "they are rims of a tip or a root",
-                     *kRimOfPlate = "its base is square to both sides: the rim of a plate";
+                     *kRimOfPlate = "its base is square to both sides: the rim of a plate",
+                     *kSliver = "they are those of a sliver that runs out to a point";
 
 /// A lifting surface that is not finished; see SurfaceMeasurer.
 struct SurfaceDraft {
@@ -927,6 +931,7 @@ class SurfaceFinder {
     find_small(small);
     unite_surfaces();
     find_behind_noses();
+    leave_out_slivers(small);
     add_front_noses(model_, kDeflection * roles_.reference_diagonal, surfaces_);
     const bool has_aircraft = noseless == Noseless::kAll || !surfaces_.empty();
     for (Rest& rest : rest_) explain(rest);
@@ -954,13 +959,17 @@ class SurfaceFinder {
   /// What is no wing's trailing edge for another reason than its profile.
   void explain(Rest& rest) const {
     if (!rest.why.may_be_wing) return;
-    const auto is_at_nose = [&](const WingEdge& w) {
-      return std::ranges::any_of(surfaces_, [&](const LiftingSurface& s) {
-        const auto is_own = [&](FaceId f) { return std::ranges::binary_search(s.faces, f); };
-        return std::ranges::any_of(faces_at_[w.edge], is_own) && runs_along_nose(model_, w, s);
+    const auto are_at_noses_of = [&](const std::vector<LiftingSurface>& surfaces) {
+      return std::ranges::all_of(rest.edges, [&](const WingEdge& w) {
+        return std::ranges::any_of(surfaces, [&](const LiftingSurface& s) {
+          const auto is_own = [&](FaceId f) { return std::ranges::binary_search(s.faces, f); };
+          return std::ranges::any_of(faces_at_[w.edge], is_own) && runs_along_nose(model_, w, s);
+        });
       });
     };
-    if (std::ranges::all_of(rest.edges, is_at_nose))
+    if (are_at_noses_of(slivers_))
+      rest.why = {kSliver, false};
+    else if (are_at_noses_of(surfaces_))
       rest.why = {"they are at the nose of a lifting surface", false};
     else if (std::ranges::all_of(rest.edges, [&](const WingEdge& w) { return is_rim_of_plate(w); }))
       rest.why = {kRimOfPlate, false};
@@ -1008,6 +1017,30 @@ class SurfaceFinder {
       std::erase_if(surfaces_[i].leading, is_own);
     }
     unite_surfaces();
+  }
+
+  /// What cuts of the CAD leave beside a wing, as of a slat above its cove: a needle whose chord goes to nothing.
+  /// Lengths by that chord would be more than those of all wings.
+  void leave_out_slivers(std::span<const WingEdge> small) {
+    double largest = 0;
+    for (const LiftingSurface& s : surfaces_) largest = std::max(largest, s.median_chord);
+    const auto is_kept = [&](const LiftingSurface& s) {
+      return s.span < kNeedle * s.median_chord || s.largest_chord > kSliverChord * largest ||
+             s.least_chord > kRunsOut * s.largest_chord;
+    };
+    std::vector<LiftingSurface> kept;
+    for (LiftingSurface& s : surfaces_) {
+      std::vector<WingEdge> own;
+      for (const std::span<const WingEdge> edges : {edges_, small})
+        std::ranges::copy_if(edges, std::back_inserter(own), [&](const WingEdge& w) {
+          return std::ranges::count(s.trailing, w.edge, &ChordEdge::edge) > 0 ||
+                 (w.kind != WingEdgeKind::kLeading && std::ranges::count(s.leading, w.edge) > 0);
+        });
+      const bool is_wing = is_kept(s) || std::ranges::any_of(own, &WingEdge::is_declared);
+      if (!is_wing) rest_.push_back({std::move(own), {kSliver, false}});
+      (is_wing ? kept : slivers_).push_back(std::move(s));
+    }
+    surfaces_ = std::move(kept);
   }
 
   /// A base with corners is no nose, however sharp the other side is, as of wedge fins; a round one may be.
@@ -1379,6 +1412,7 @@ class SurfaceFinder {
   std::vector<std::vector<FaceId>> planes_at_;  // by vertex; empty: not known yet
   std::vector<std::uint8_t> is_wall_;           // by face
   std::vector<LiftingSurface> surfaces_;
+  std::vector<LiftingSurface> slivers_;  // that are none of these
   std::vector<Rest> rest_;
 };
 

@@ -96,12 +96,12 @@ struct UnusedTrailing {
 /// Lifting surfaces behind the trailing edges among `edges`: those whose profiles (features/profile.h) are a wing's at
 /// half of the way along the edges or more, at 24 stations on each, and whose span is at least half their chord. Of a
 /// chain that shows less, the edges that show as much each; edges with a base above 6 per cent of the chord are left
-/// out. What may be a wing's and shows no nose may be thin yet (features/thin_surface.h). Profiles are cut square to an
-/// axis of the model, each edge to its own, and square to the edge where that shows none or clearly fewer. By first
-/// edge. Collective; `edges` and what is returned are of rank 0. `unused`: gets the trailing edges that belong to none.
-/// Cost: a coarse triangulation of the walls that profiles cross, unless `roles` has one of all, and the profiles, as
-/// tasks; the rest is rank 0's. `small`: trailing edges that are too short for these facets (find_wing_edges()); each
-/// has its own.
+/// out. What may be a wing's and shows no nose may be thin yet (features/thin_surface.h). Slender ones that run out to
+/// a point beside a far larger one are none, unless declared. Profiles are cut square to an axis of the model, each
+/// edge to its own, and square to the edge where that shows none or clearly fewer. By first edge. Collective; `edges`
+/// and what is returned are of rank 0. `unused`: gets the trailing edges that belong to none. Cost: a coarse
+/// triangulation of the walls that profiles cross, unless `roles` has one of all, and the profiles, as tasks; the rest
+/// is rank 0's. `small`: trailing edges that are too short for these facets (find_wing_edges()); each has its own.
 std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const FaceRoles& roles,
                                                   std::span<const WingEdge> edges,
                                                   const Executor& executor = SerialExecutor(),

@@ -136,6 +136,7 @@ SPANS = {
     "curved_board": [2.89],
     "rotor_in_fin": [3.03, 0.38, 0.38, 0.38, 0.38, 0.38],
     "bevelled_fins": 4 * [0.41],  # noses have bases, too, which are wider
+    "slat_with_cove": [3.1, 2.53],  # and a sliver of the slat, 1.09 long, that is none
 }
 # Noses are missing at slanted cuts of the CAD, and at a strut, a little each time; that is said.
 WITH_SHORT_STRETCHES = ("split_winglet", "hydrofoil_joined", "h_rotor")
@@ -215,6 +216,17 @@ class WingShapes(ToolTest):
             found = [wing["span"] for wing in done.json()["lifting_surfaces"]]
             self.assertEqual([round(span, 2) for span in found], spans, name)
             self.assertRegex(done.err, rf"warning: .* edges = \[{edges}\], trailing_edge = true", name)
+
+    def test_a_sliver_that_runs_out_to_a_point_gets_no_lengths_by_its_chord_unless_declared(self):
+        said = self.raster("slat_with_cove", "rans").json()
+        self.assertGreater(said["lmin"], 1e-4)  # of 0.1 % of its chord it was 2.6e-7
+        reasons = {edge: rest["reason"] for rest in said["unused_trailing"] for edge in rest["edges"]}
+        for edge in (4, 6):  # on both sides of it
+            self.assertIn("a sliver that runs out to a point", reasons[edge])
+        rules = self.folder / "sizes.toml"
+        rules.write_text("size = [{ edges = [6], trailing_edge = true }]\n")
+        declared = self.raster("slat_with_cove", "euler", "--sizes", rules).json()["lifting_surfaces"]
+        self.assertIn([6], [wing["trailing_edges"] for wing in declared])
 
     def test_a_fork_and_a_mast_that_is_cut_off_are_warned_of(self):
         done = self.raster("forked_tip", "rans")  # roots of the winglets lie in each other

@@ -135,6 +135,15 @@ TopoDS_Shape bevelled_fins() {
   return fuse_all(all);
 }
 
+/// A slat cut to a cove before a wing: the cut leaves a sliver above the tail, too, which runs out to a point.
+TopoDS_Shape slat_with_cove() {
+  const TopoDS_Shape wing = loft({}, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(1.2, 3, 0), 0.6)});
+  const auto slat = cut(
+      loft({}, {straight(gp_Pnt(-0.03, 0.3, -0.03), 1, 0, -8), straight(gp_Pnt(1.05, 2.7, -0.02), 0.64, 0, -8)}),
+      loft({.thickness = 0.16}, {straight(gp_Pnt(-0.01, -0.5, -0.02), 1.2), straight(gp_Pnt(1.38, 3.5, -0.02), 0.75)}));
+  return occt::compound_of({wing, slat});
+}
+
 }  // namespace
 
 const Makers& late_models() {
@@ -147,7 +156,8 @@ const Makers& late_models() {
                           {"curved_board", curved_board},
                           {"rotor_in_fin", rotor_in_fin},
                           {"forked_tip", forked_tip},
-                          {"bevelled_fins", bevelled_fins}};
+                          {"bevelled_fins", bevelled_fins},
+                          {"slat_with_cove", slat_with_cove}};
   return all;
 }
 
