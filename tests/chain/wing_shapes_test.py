@@ -137,6 +137,7 @@ SPANS = {
     "rotor_in_fin": [3.03, 0.38, 0.38, 0.38, 0.38, 0.38],
     "bevelled_fins": 4 * [0.41],  # noses have bases, too, which are wider
     "slat_with_cove": [3.1, 2.53],  # and a sliver of the slat, 1.09 long, that is none
+    "wing_with_small_ones": [3, 2.4, 1.2, 0.3],  # none of them a sliver
 }
 # Noses are missing at slanted cuts of the CAD, and at a strut, a little each time; that is said.
 WITH_SHORT_STRETCHES = ("split_winglet", "hydrofoil_joined", "h_rotor")

@@ -144,6 +144,16 @@ TopoDS_Shape slat_with_cove() {
   return occt::compound_of({wing, slat});
 }
 
+/// Three small ones beside a wing, each of which lacks one mark of a sliver: a wire, a spike that is not that small,
+/// and a fin that is not slender.
+TopoDS_Shape wing_with_small_ones() {
+  return occt::compound_of(
+      {loft({}, {straight(gp_Pnt(0, 0, 0), 1), straight(gp_Pnt(0, 3, 0), 1)}),
+       loft({.thickness = 0.2}, {straight(gp_Pnt(0.3, 0.2, 0.5), 0.03), straight(gp_Pnt(0.3, 1.4, 0.5), 0.03)}),
+       loft({}, {straight(gp_Pnt(0.3, 0, 1), 0.12), straight(gp_Pnt(0.4, 2.4, 1), 0.008)}),
+       loft({}, {straight(gp_Pnt(0.3, 0, 1.5), 0.045), straight(gp_Pnt(0.33, 0.3, 1.5), 0.003)})});
+}
+
 }  // namespace
 
 const Makers& late_models() {
@@ -157,7 +167,8 @@ const Makers& late_models() {
                           {"rotor_in_fin", rotor_in_fin},
                           {"forked_tip", forked_tip},
                           {"bevelled_fins", bevelled_fins},
-                          {"slat_with_cove", slat_with_cove}};
+                          {"slat_with_cove", slat_with_cove},
+                          {"wing_with_small_ones", wing_with_small_ones}};
   return all;
 }
 
