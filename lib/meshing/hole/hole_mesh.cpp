@@ -74,35 +74,8 @@ HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& of_cad, const Model*
   }
   const StripNodes strips = closed_strip_nodes(first_on_edge, model);
   edges.edge_offsets.push_back(0);
-  const auto add = [&](NodeId node, double at) {
-    edges.node_t.push_back(at);
-    edges.node_xyz.push_back(m.node_xyz[node]);
-    edges.node_size.push_back(m.node_size[node]);
-    edge_node.push_back(node);
-  };
   for (EdgeId e = 0; e < t.n_edges(); ++e) {
-    const NodeId first = vertex_node[t.edge_vertices[2 * e]], last = vertex_node[t.edge_vertices[2 * e + 1]];
-    if (!t.edge_is_degenerate[e] && first != kNone && last != kNone) {
-      add(first, t.edge_range[2 * e]);
-      if (const auto strip = strips.find(e); strip != strips.end()) {
-        for (const auto& [node, at] : strip->second) {
-          if (m.node_entity[node] == e) node_on_edge[node] = static_cast<std::int32_t>(edge_node.size());
-          add(node, at);
-        }
-      } else {
-        for (NodeId k = first_on_edge[e]; k < first_on_edge[e + 1]; ++k) {
-          node_on_edge[k] = static_cast<std::int32_t>(edge_node.size());
-          add(k, m.node_t[k]);
-        }
-      }
-      add(last, t.edge_range[2 * e + 1]);
-      for (std::size_t i = edges.edge_offsets.back() + 1; i < edge_node.size(); ++i) {
-        if (!(edges.node_t[i] > edges.node_t[i - 1]))
-          fail("has nodes on edge " + std::to_string(e + 1) + " out of order");
-        const auto [low, high] = std::minmax(edge_node[i - 1], edge_node[i]);
-        segments.push_back({low, high, e, static_cast<std::int32_t>(i) - 1});
-      }
-    }
+    add_edge(e, first_on_edge, strips);
     edges.edge_offsets.push_back(static_cast<std::int32_t>(edge_node.size()));
   }
   std::sort(segments.begin(), segments.end(), [](const CadSegment& a, const CadSegment& b) {
@@ -112,6 +85,36 @@ HoleMesh::HoleMesh(const SurfaceMesh& m, const ModelTables& of_cad, const Model*
   for (FaceId f : m.triangle_face) ++face_begin[f + 1];
   for (FaceId f = 0; f < t.n_faces(); ++f) face_begin[f + 1] += face_begin[f];
   for (FaceId f = 0; f < t.n_faces(); ++f) face_is_turned.push_back(uv_area(m, face_begin[f], face_begin[f + 1]) < 0);
+}
+
+void HoleMesh::add_edge(EdgeId e, const std::vector<NodeId>& first_on_edge, const StripNodes& strips) {
+  const ModelTables& t = tables;
+  const NodeId first = vertex_node[t.edge_vertices[2 * e]], last = vertex_node[t.edge_vertices[2 * e + 1]];
+  if (t.edge_is_degenerate[e] || first == kNone || last == kNone) return;
+  const auto add = [&](NodeId node, double at) {
+    edges.node_t.push_back(at);
+    edges.node_xyz.push_back(mesh.node_xyz[node]);
+    edges.node_size.push_back(mesh.node_size[node]);
+    edge_node.push_back(node);
+  };
+  add(first, t.edge_range[2 * e]);
+  if (const auto strip = strips.find(e); strip != strips.end()) {
+    for (const auto& [node, at] : strip->second) {
+      if (mesh.node_entity[node] == e) node_on_edge[node] = static_cast<std::int32_t>(edge_node.size());
+      add(node, at);
+    }
+  } else {
+    for (NodeId k = first_on_edge[e]; k < first_on_edge[e + 1]; ++k) {
+      node_on_edge[k] = static_cast<std::int32_t>(edge_node.size());
+      add(k, mesh.node_t[k]);
+    }
+  }
+  add(last, t.edge_range[2 * e + 1]);
+  for (std::size_t i = edges.edge_offsets.back() + 1; i < edge_node.size(); ++i) {
+    if (!(edges.node_t[i] > edges.node_t[i - 1])) fail("has nodes on edge " + std::to_string(e + 1) + " out of order");
+    const auto [low, high] = std::minmax(edge_node[i - 1], edge_node[i]);
+    segments.push_back({low, high, e, static_cast<std::int32_t>(i) - 1});
+  }
 }
 
 /// Nodes inside the closed edges of strips as st-mesh made them: where a strip is closed, those of its kept edge.

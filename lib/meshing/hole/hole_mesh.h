@@ -47,6 +47,7 @@ struct HoleMesh {
   using StripNodes = std::map<EdgeId, std::vector<std::pair<NodeId, double>>>;  // inner nodes of closed edges, and
                                                                                 // their t
   StripNodes closed_strip_nodes(const std::vector<NodeId>& first_on_edge, const Model* model) const;
+  void add_edge(EdgeId e, const std::vector<NodeId>& first_on_edge, const StripNodes& strips);
 };
 
 }  // namespace st
