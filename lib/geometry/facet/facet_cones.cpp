@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/axis.h"
+
 namespace st {
 namespace {
 

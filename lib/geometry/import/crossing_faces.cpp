@@ -15,6 +15,7 @@
 #include <set>
 #include <tuple>
 
+#include "base/sort_once.h"
 #include "base/threads.h"
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/occt_evaluators.h"
@@ -100,7 +101,7 @@ class CrossingFaces {
     for (EdgeId e = 0; e < t_.n_edges(); ++e) {
       if (t_.edge_is_degenerate[e] || faces_at[e].size() != 2) continue;
       const FaceId f = faces_at[e][0], g = faces_at[e][1];
-      if (f != g) borders.push_back({e, f, g, false, {}});
+      if (f != g && !known_.contains(std::minmax(f, g))) borders.push_back({e, f, g, false, {}});
     }
     look_at_all(borders);
     for (const Border& b : borders) {
@@ -134,8 +135,7 @@ class CrossingFaces {
   void look_at_all(std::vector<Border>& borders) {
     std::vector<FaceId> used;
     for (const Border& b : borders) used.insert(used.end(), {b.f, b.g});
-    std::ranges::sort(used);
-    used.erase(std::unique(used.begin(), used.end()), used.end());
+    sort_once(used);
     parallel_for(used.size(), 1, [&](std::size_t i, std::size_t) { domain(used[i]); });
     std::vector<std::mutex> in_use(domains_.size());
     parallel_for(borders.size(), 1, [&](std::size_t i, std::size_t) {
