@@ -28,6 +28,7 @@ struct GapPatch {
   double max_along = 0;                 ///< largest length along, model unit
   double alpha = 0;                     ///< turning along one length, radians
   Vec3 way;                             ///< unit, along which the patch's own lengths are longer; zero: along none
+  Vec3 end;                             ///< unit, along an edge near at which the surface ends; zero: none is
   std::int32_t cause = 0;               ///< packed
   std::int32_t solid = -1;              ///< that the face bounds; -1: none
   std::uint64_t inside = ~std::uint64_t{0};  ///< bit 8 * row + column: that of 8 x 8 cells lies inside the loops; rows

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sizing/end_stretch.h"
 #include "sizing/line_stretch.h"
 
 namespace st {
@@ -47,7 +48,8 @@ class GapStretch {
 
  private:
   double along_in(Vec3 u) const {
-    double along = std::min(patch_.max_along, patch_.max_aspect * place_.length);
+    const double aspect = std::min(patch_.max_aspect, most_aspect_at(patch_.end, u));
+    double along = std::min(patch_.max_along, aspect * place_.length);
     for (const GapPatch* side : {&patch_, place_.other}) {
       const double curvature = curvature_in(*side, u);
       if (along * curvature > patch_.alpha) along = patch_.alpha / curvature;

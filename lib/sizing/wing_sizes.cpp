@@ -11,6 +11,7 @@
 #include "features/arc_table.h"
 #include "features/front_noses.h"
 #include "geometry/shape/projection.h"
+#include "sizing/end_stretch.h"
 
 namespace st {
 namespace {
@@ -23,7 +24,6 @@ constexpr double kBentTail = 0.5;       // of the length asked for: curvature of
 constexpr double kDefaultTail = 0.003;  // of the chord: likewise of this length at most
 constexpr double kFlat = 1;             // of the chord: asks for nothing
 constexpr double kTrailing = 0.95;      // likewise, along edges, where lengths along are exact
-constexpr double kEndAspect = 3;        // of lengths at tip and root: neighbours are 1.9 times as large
 
 /// Lengths at a place of a wing, by its local chord.
 class LocalLengths {

@@ -15,6 +15,7 @@
 #include "base/progress.h"
 #include "base/share.h"
 #include "sizing/cell_limit.h"
+#include "sizing/end_stretch.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
 #include "sizing/raster_neck.h"
@@ -137,6 +138,8 @@ class RasterTasks {
     const std::vector<SpaceSide> sides = sides_in_space(*surface, *loops_[f]);
     raster_narrow_parts(f, sides, strip, boxes);
     drop_tips(sides, *limits, n_before, boxes);
+    const auto ends = [&](CoedgeId c) { return !limits_.edge_is_smooth[model_.tables().coedge_edge[c]]; };
+    if (limits->max_aspect > 1) bound_stretch_at_ends(sides, ends, n_before, boxes, patches);
   }
 
   void raster_narrow_parts(FaceId f, std::span<const SpaceSide> sides, const Strip* strip,

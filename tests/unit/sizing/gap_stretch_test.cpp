@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/shape/analytic.h"
+#include "sizing/end_stretch.h"
 #include "sizing/gap_sizes.h"
 #include "sizing/raster_face.h"
 
@@ -69,6 +70,15 @@ TEST(GapStretch, ends_where_one_of_both_sides_bends_along_it) {
   EXPECT_NEAR(stretch_below(below, above).along, std::sqrt(radians(10) * 0.01), 1e-6);
   above.k_tt = 100;
   EXPECT_EQ(stretch_below(below, above).along, 0);
+}
+
+TEST(GapStretch, is_bounded_where_the_face_ends_across_it) {
+  const GapPatch above = flat_patch({0, 0, 0.04}, {0, 0, -1}, {});
+  GapPatch below = flat_patch({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  below.end = {1, 0, 0};
+  EXPECT_NEAR(stretch_below(below, above).along, kEndAspect * 0.01, 1e-6);
+  below.end = {0, 1, 0};
+  EXPECT_NEAR(stretch_below(below, above).along, 0.2, 1e-6);
 }
 
 TEST(GapStretch, is_none_of_patches_without_a_direction_or_an_aspect) {

@@ -1,0 +1,28 @@
+// Shorter lengths along, where a face ends across its stretch.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "sizing/gap_patch.h"
+#include "sizing/octree.h"
+#include "sizing/space_sides.h"
+
+namespace st {
+
+/// Length along over length across, at most, where nothing goes on along: half a rectangle of 3 to 1 is 1.9 times as
+/// large, as sides go, as the equilateral triangle beyond. From there lengths along grow by the slope.
+inline constexpr double kEndAspect = 3;
+
+/// Bounds the stretch of boxes from `first` on, and tells patches, where they reach a side across it. `sides`: of the
+/// face; `ends` tells the coedges at which it ends: across others the surface goes on. Local.
+void bound_stretch_at_ends(std::span<const SpaceSide> sides, const std::function<bool(CoedgeId)>& ends,
+                           std::size_t first, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches);
+
+/// What is allowed along `direction` where the surface ends along `end` (unit vectors; `end` zero: nowhere). Infinite
+/// where the end does not lie across.
+double most_aspect_at(Vec3 end, Vec3 direction);
+
+}  // namespace st
