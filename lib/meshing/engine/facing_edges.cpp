@@ -18,6 +18,7 @@ constexpr double kAlike = 0.15;   // between the numbers of segments of stretche
 constexpr double kNarrow = 1.5;   // segments: a narrower face has rows in step, or angles near 180 degrees
 constexpr double kFewest = 0.7;   // of its own segments: an edge along a narrow face takes as many
 constexpr double kUneven = 1.5;   // between segments to nearest points and those of equal shares
+constexpr double kFitting = 1.4;  // between segments and the lengths asked for: rows keep to them
 constexpr double kFree = 0.25;    // of a face's width: chords nearer to their curves do not cross those across
 
 using Facing = std::vector<FacingEdges>;
@@ -149,6 +150,17 @@ EdgeMesh nodes_across(const Chain& chain, const std::vector<FacingEdges::Leader>
   return EdgeMesh::of_curve(std::move(t), std::move(x), std::move(h));
 }
 
+/// Are all segments about as long as the sizes ask for?
+bool fits(const EdgeMesh& nodes, const SizeField& field) {
+  int hint = 0;
+  for (std::size_t i = 1; i < nodes.node_xyz.size(); ++i) {
+    const Vec3 a = nodes.node_xyz[i - 1], b = nodes.node_xyz[i];
+    const double ratio = distance(a, b) / field.length_along(0.5 * (a + b), b - a, hint);
+    if (!(ratio < kFitting && ratio * kFitting > 1)) return false;
+  }
+  return true;
+}
+
 /// Are the segments of one about as long as those of the other, one by one?
 bool are_alike(const EdgeMesh& a, const EdgeMesh& b) {
   if (a.node_xyz.size() != b.node_xyz.size()) return false;
@@ -195,7 +207,8 @@ EdgeMesh facing_nodes(const Model& model, const SizeField& field, const FacingEd
     EdgeMesh even = nodes_across(chain, facing.leaders, *curve, false);
     if (across.n_edges() == 0 || !are_alike(across, even)) across = std::move(even);
   }
-  return across.n_edges() == 0 ? own : across;
+  const bool is_own = across.n_edges() == 0 || (is_wide && !fits(across, field));
+  return is_own ? own : across;
 }
 
 }  // namespace st

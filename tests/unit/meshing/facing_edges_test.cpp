@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
 
 #include "meshing/topology/curve_discretiser.h"
 #include "support/meshed.h"
@@ -84,6 +86,44 @@ TEST(FacingEdges, keep_rows_in_step_on_a_base_that_is_narrower_than_its_segments
     EXPECT_EQ(across(2).node_t, own.node_t) << "far fewer are no rows";
   }
   EXPECT_EQ(n_bases, 1u);
+}
+
+/// Longer along an edge, in thousandths of it, from end to end.
+class EvenlyChanging : public SpanField {
+ public:
+  EvenlyChanging(const Model& model, EdgeId e, double first, double last) : curve_(model.curve(e)) {
+    from_ = curve_->point(curve_->t_min());
+    way_ = curve_->point(curve_->t_max()) - from_;
+    first_ = 0.001 * first * norm(way_);
+    last_ = 0.001 * last * norm(way_);
+  }
+  LocalSize local(Vec3 x, int&) const override {
+    return {0.01 * last_, std::lerp(first_, last_, dot(x - from_, way_) / norm2(way_)), normalized(way_)};
+  }
+
+ private:
+  std::unique_ptr<Curve> curve_;
+  Vec3 from_, way_;
+  double first_, last_;
+};
+
+TEST(FacingEdges, of_wide_faces_follow_others_where_that_fits_the_lengths_asked_for) {
+  const Model model = test::make_model("strip");
+  const MeshTopology topology(model.tables());
+  const std::vector<FacingEdges> all = find_facing_edges(topology, true);
+  ASSERT_FALSE(all.empty());
+  for (const FacingEdges& f : all) {
+    ASSERT_EQ(f.leaders.size(), 1u);
+    const auto nodes = [&](EdgeId e, const SizeField& field) { return discretise_curve(*model.curve(e), field, {}); };
+    const double length = model.tables().edge_length[f.edge];
+    const auto follow = [&](const SizeField& field) {
+      return facing_nodes(model, field, f, nodes(f.edge, field),
+                          [&](EdgeId e) { return nodes(e, UniformField(length / 1100)); });
+    };
+    EXPECT_EQ(follow(EvenlyChanging(model, f.edge, 1, 1)).node_t.size(), 1101u) << "for 1,000 of its own";
+    const EvenlyChanging tapered(model, f.edge, 1.6, 0.5);
+    EXPECT_EQ(follow(tapered).node_t, nodes(f.edge, tapered).node_t) << "about as many, 1.7 times too long at one end";
+  }
 }
 
 TEST(FacingEdges, are_found_on_the_narrowest_faces_first) {
