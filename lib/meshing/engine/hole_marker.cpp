@@ -123,7 +123,7 @@ std::vector<char> HoleMarker::faces_without_stretch() const {
 std::vector<LocalSize> HoleMarker::refined_sizes(const Refinements& refinements) const {
   std::vector<LocalSize> wanted = wanted_;
   const auto refine = [&](NodeId n, const Refinement& r) {
-    const double d = distance(mesh_.mesh.node_xyz[n], r.x), limit = r.length + kRefinementSlope * d;
+    const double d = distance(mesh_.mesh.node_xyz[n], r.x), limit = r.length + slope_of(r.shortens) * d;
     if (!(d < r.reach)) return;
     if (r.shortens == Shortens::kAll) wanted[n].length = std::min(wanted[n].length, limit);
     wanted[n].along = std::max(wanted[n].length, std::min(wanted[n].along, limit));

@@ -17,7 +17,7 @@ std::vector<Refinement> loosened(const std::vector<Refinement>& all, const std::
   for (std::size_t i = 0; i < all.size(); ++i) {
     Refinement r = all[i];
     if (!is_needed[i]) {
-      r.reach -= (Policy::kLooser - 1) * r.length / kRefinementSlope;
+      r.reach -= (Policy::kLooser - 1) * r.length / slope_of(r.shortens);
       r.length *= Policy::kLooser;
     }
     if (r.reach > r.radius) looser.push_back(r);

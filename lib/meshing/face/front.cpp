@@ -27,7 +27,7 @@ constexpr double kCloseSplit = 0.55;           // the distances kept then
 constexpr double kTooLarge = 0.80;  // circumradius over requested length that is split when the front has ended
 
 constexpr double kRowRadius = 0.9;  // circumradius over requested length where sizes are stretched; square: 0.707
-constexpr double kRowAspect = 1.5;  // length along over across: less makes no rows
+constexpr double kRowAspect = 2.2;  // length along over across: less makes no rows
 
 constexpr int kRingSamples = 8;      // chords that measure the way around a narrow part
 constexpr double kNarrowRing = 2.6;  // of the size: with more room the front makes the ring itself

@@ -14,16 +14,10 @@ constexpr double kRoundOff = 1 - 1e-12;  // of the bound by which places are pas
                                          // counts
 
 /// Of the cone whose top is cut off at the radius.
-double at_centre(const Refinement& r) { return r.length - kRefinementSlope * r.radius; }
+double at_centre(const Refinement& r) { return r.length - slope_of(r.shortens) * r.radius; }
 
 double length_at(const Refinement& r, Vec3 x) {
-  return std::max(r.length, at_centre(r) + kRefinementSlope * distance(x, r.x));
-}
-
-std::vector<Refinement> chosen(const std::vector<Refinement>& places, Shortens shortens) {
-  std::vector<Refinement> result;
-  std::ranges::copy_if(places, std::back_inserter(result), [&](const Refinement& r) { return r.shortens == shortens; });
-  return result;
+  return std::max(r.length, at_centre(r) + slope_of(r.shortens) * distance(x, r.x));
 }
 
 }  // namespace
@@ -48,7 +42,7 @@ bool Refinements::add(const RefinementPoint& place, double floor, Shortens short
   const double least = shortens == Shortens::kAll ? length : std::max(length, local.length);
   if (least > kWorthwhile * present) return false;
   all_.push_back(
-      {place.x, length, place.radius + std::max(0.0, (request - length) / kRefinementSlope), place.radius, shortens});
+      {place.x, length, place.radius + std::max(0.0, (request - length) / slope_of(shortens)), place.radius, shortens});
   return true;
 }
 
@@ -59,7 +53,8 @@ std::vector<Refinement> Refinements::near(const Box3& box) const {
   return result;
 }
 
-RefinementTree::RefinementTree(std::vector<Refinement> places) : places_(std::move(places)) {
+RefinementTree::RefinementTree(const std::vector<Refinement>& places, Shortens shortens) : slope_(slope_of(shortens)) {
+  std::ranges::copy_if(places, std::back_inserter(places_), [&](const auto& r) { return r.shortens == shortens; });
   for (const Refinement& r : places_) shortest_ = std::min(shortest_, r.length);
   if (!places_.empty()) build(0, static_cast<std::int32_t>(places_.size()));
 }
@@ -87,7 +82,7 @@ std::int32_t RefinementTree::build(std::int32_t first, std::int32_t last) {
 
 void RefinementTree::visit(std::int32_t index, Vec3 xyz, double& length) const {
   const Node& node = nodes_[index];
-  if (kRoundOff * (node.shortest + kRefinementSlope * box_distance(node.box, xyz)) > length) return;
+  if (kRoundOff * (node.shortest + slope_ * box_distance(node.box, xyz)) > length) return;
   if (node.right) {
     visit(index + 1, xyz, length);
     visit(node.right, xyz, length);
@@ -102,7 +97,7 @@ double RefinementTree::least(Vec3 xyz, double length) const {
 }
 
 RefinedField::RefinedField(const SizeField& base, const std::vector<Refinement>& places)
-    : base_(base), all_(chosen(places, Shortens::kAll)), along_(chosen(places, Shortens::kAlong)) {}
+    : base_(base), all_(places, Shortens::kAll), along_(places, Shortens::kAlong) {}
 
 double RefinedField::size(Vec3 xyz, int& hint) const { return all_.least(xyz, base_.size(xyz, hint)); }
 

@@ -12,8 +12,10 @@
 
 namespace st {
 
-/// Slope with which the length grows away from a refinement.
+/// Slope with which the length grows away from a refinement,
 inline constexpr double kRefinementSlope = 0.3;
+/// and lengths along away from one that shortens these alone.
+inline constexpr double kAlongSlope = 0.6;
 
 /// From `p` to the box; 0 inside.
 double box_distance(const Box3& box, Vec3 p);
@@ -33,6 +35,8 @@ struct Refinement {
   Shortens shortens = Shortens::kAll;
 };
 static_assert(sizeof(Refinement) == 7 * sizeof(double));
+
+inline double slope_of(Shortens shortens) { return shortens == Shortens::kAll ? kRefinementSlope : kAlongSlope; }
 
 /// All refinements of one run. The field outlives the object.
 class Refinements {
@@ -58,7 +62,8 @@ class Refinements {
 /// places as can matter.
 class RefinementTree {
  public:
-  explicit RefinementTree(std::vector<Refinement> places);
+  /// Of the places that shorten this.
+  RefinementTree(const std::vector<Refinement>& places, Shortens shortens);
   /// No more than `length`.
   double least(Vec3 xyz, double length) const;
   double shortest() const { return shortest_; }
@@ -73,6 +78,7 @@ class RefinementTree {
   std::int32_t build(std::int32_t first, std::int32_t last);
   void visit(std::int32_t node, Vec3 xyz, double& length) const;
 
+  double slope_;
   std::vector<Refinement> places_;                             // by tree
   std::vector<Node> nodes_;                                    // empty: no place
   double shortest_ = std::numeric_limits<double>::infinity();  // of the places

@@ -7,7 +7,7 @@ namespace st {
 namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
-constexpr double kLongSegment = 1.5;        // over the length across: such segments begin a chain
+constexpr double kLongSegment = 2;          // over the length across: such segments begin a chain
 constexpr double kAlong = 0.8;              // cosine between a segment and the direction of a stretch
 constexpr double kStraight = radians(30);   // a loop that turns by less goes on
 constexpr double kLeastSide = radians(40);  // a loop that turns to the left by that and at most by

@@ -11,13 +11,13 @@ namespace st {
 namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
-constexpr double kGrowth = 1.4;       // of heights from row to row, at most
-constexpr double kTooSquare = 1.0;    // length over height of a quadrilateral
-constexpr double kEndAspect = 1.3;    // on the mean of a quadrilateral and its neighbours
-constexpr double kFreeBeyond = 0.7;   // of a row's height, which must be free behind it,
-constexpr double kFreeOfWidth = 0.3;  // and of the length of its quadrilaterals,
-constexpr double kMostFree = 4;       // but no more than of the height
-constexpr double kLeastAngle = 50;    // degrees, of a quadrilateral's corners
+constexpr double kGrowth = 1.4;        // of heights from row to row, at most
+constexpr double kTooSquare = 1.0;     // length over height of a quadrilateral
+constexpr double kSquareAspect = 1.5;  // on the mean of a quadrilateral and its neighbours
+constexpr double kFreeBeyond = 0.7;    // of a row's height, which must be free behind it,
+constexpr double kFreeOfWidth = 0.3;   // and of the length of its quadrilaterals,
+constexpr double kMostFree = 4;        // but no more than of the height
+constexpr double kLeastAngle = 50;     // degrees, of a quadrilateral's corners
 constexpr double kMostAngle = 130;
 constexpr double kMostShear = radians(50);        // of a side against the square
 constexpr double kSideMisfit = 1.8;               // between the height asked for and that of the side's segment
@@ -246,7 +246,7 @@ class LineMaker {
         sum += aspect(at);
         ++count;
       }
-      if (sum < kEndAspect * count) joined[i] = 0;
+      if (sum < kSquareAspect * count) joined[i] = 0;
     }
     next_.joined = std::move(joined);
   }
