@@ -4,6 +4,7 @@
 #include <array>
 
 #include "base/assert.h"
+#include "base/four_floats.h"
 #include "base/predicates.h"
 #include "mesh/triangle_tree.h"
 
@@ -155,6 +156,44 @@ bool are_surely_opened(const Vec3& u, const Vec3& v, const Vec3& p, const Vec3& 
   return dot(to_p, to_q) * length2 - dot(to_p, edge) * dot(to_q, edge) < -kSure * length2 * (norm2(to_p) + norm2(to_q));
 }
 
+/// The nodes that two triangles have in common: the first corner of each is the only shared one, or the only other one.
+struct SharedNodes {
+  std::int8_t n = 0;
+  std::array<std::int8_t, 3> a{0, 1, 2}, b{0, 1, 2};  ///< their corners, in their order
+};
+
+[[gnu::noinline]] bool cross_exactly(std::span<const Vec3> points, const Triangle& t, const Triangle& u,
+                                     const SharedNodes& shared) {
+  const Points a = rotated(corners(points, t), shared.a[0]), b = rotated(corners(points, u), shared.b[0]);
+  if (shared.n == 0) return disjoint_nodes_cross(a, b);
+  if (shared.n == 1) return one_node_cross(a, b);
+  return shared.n == 2 && two_nodes_cross(a[1], a[2], a[0], b[0]);
+}
+
+/// Bit 3 i + j: corner i of a is corner j of b.
+std::uint32_t equal_nodes(const Triangle& a, const Triangle& b) {
+  const FourInts of_b{b.n[0], b.n[1], b.n[2], kNone};
+  return bits_of(of_b == a.n[0]) | bits_of(of_b == a.n[1]) << 3 | bits_of(of_b == a.n[2]) << 6;
+}
+
+/// By equal_nodes(): without branches, as nothing foretells which corners are shared.
+constexpr auto kSharedNodes = [] {
+  std::array<SharedNodes, 512> all;
+  for (unsigned equal = 0; equal < all.size(); ++equal) {
+    SharedNodes& shared = all[equal];
+    int sum_a = 0, sum_b = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (equal >> (3 * i + j) & 1) ++shared.n, sum_a += i, sum_b += j;
+    const auto start_at = [&](std::array<std::int8_t, 3>& corners, int sum) {
+      const int first = shared.n == 1 ? sum : (6 - sum) % 3;
+      for (int k = 0; k < 3; ++k) corners[k] = static_cast<std::int8_t>((first + k) % 3);
+    };
+    if (shared.n == 1 || shared.n == 2) start_at(shared.a, sum_a), start_at(shared.b, sum_b);
+  }
+  return all;
+}();
+
 }  // namespace
 
 bool is_degenerate(std::span<const Vec3> points, const Triangle& t) {
@@ -163,25 +202,14 @@ bool is_degenerate(std::span<const Vec3> points, const Triangle& t) {
 
 bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Triangle& b, int& n_shared) {
   ST_ASSERT(!is_degenerate(points, a) && !is_degenerate(points, b));
-  int corner_a[3] = {}, corner_b[3] = {};
-  n_shared = 0;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (a.n[i] == b.n[j]) corner_a[n_shared] = i, corner_b[n_shared++] = j;
-  if (n_shared > 2) return false;
-  constexpr int kCorner[] = {0, 1, 2, 0, 1};
-  const int i = corner_a[0], j = corner_b[0], k = corner_a[1];
-  const auto at_a = [&](int corner) -> const Vec3& { return points[a.n[kCorner[corner]]]; };
-  const auto at_b = [&](int corner) -> const Vec3& { return points[b.n[kCorner[corner]]]; };
-  if (n_shared == 2) {
-    const Vec3 &u = at_a(i), &v = at_a(k), &p = at_a(3 - i - k), &q = at_b(3 - j - corner_b[1]);
-    return !are_surely_opened(u, v, p, q) && two_nodes_cross(u, v, p, q);
-  }
-  if (n_shared == 1)
-    return !are_surely_apart_beyond(at_a(i), at_a(i + 1), at_a(i + 2), at_b(j + 1), at_b(j + 2)) &&
-           one_node_cross(rotated(corners(points, a), i), rotated(corners(points, b), j));
-  return !are_surely_apart(at_a(0), at_a(1), at_a(2), at_b(0), at_b(1), at_b(2)) &&
-         disjoint_nodes_cross(corners(points, a), corners(points, b));
+  const SharedNodes& shared = kSharedNodes[equal_nodes(a, b)];
+  n_shared = shared.n;
+  const auto at_a = [&](int k) -> const Vec3& { return points[a.n[shared.a[k]]]; };
+  const auto at_b = [&](int k) -> const Vec3& { return points[b.n[shared.b[k]]]; };
+  if (shared.n == 1 && are_surely_apart_beyond(at_a(0), at_a(1), at_a(2), at_b(1), at_b(2))) return false;
+  if (shared.n == 2 && are_surely_opened(at_a(1), at_a(2), at_a(0), at_b(0))) return false;
+  if (shared.n == 0 && are_surely_apart(at_a(0), at_a(1), at_a(2), at_b(0), at_b(1), at_b(2))) return false;
+  return cross_exactly(points, a, b, shared);
 }
 
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cmath>
 #include <memory>
 #include <mutex>
@@ -34,9 +33,11 @@ constexpr float kMinCosine = 0.5f;  // of the angle between a normal and a direc
 constexpr double kSurelyHasArea = 1e-10;  // twice the area over the product of two sides: far above rounding
 constexpr int kAxes = 13;  // through the faces, edges and corners of a cube; a cone of 33 degrees always fits one
 constexpr float kEdge = 0.70710678f, kCorner = 0.57735027f;
-constexpr float kAxisX[kAxes] = {1, 0, 0, kEdge, kEdge, kEdge, kEdge, 0, 0, kCorner, kCorner, kCorner, kCorner};
-constexpr float kAxisY[kAxes] = {0, 1, 0, kEdge, -kEdge, 0, 0, kEdge, kEdge, kCorner, kCorner, -kCorner, -kCorner};
-constexpr float kAxisZ[kAxes] = {0, 0, 1, 0, 0, kEdge, -kEdge, kEdge, -kEdge, kCorner, -kCorner, kCorner, -kCorner};
+constexpr FourFloats kAxisX[] = {{1, 0, 0, kEdge}, {kEdge, kEdge, kEdge, 0}, {0, kCorner, kCorner, kCorner}, {kCorner}};
+constexpr FourFloats kAxisY[] = {
+    {0, 1, 0, kEdge}, {-kEdge, 0, 0, kEdge}, {kEdge, kCorner, kCorner, -kCorner}, {-kCorner}};
+constexpr FourFloats kAxisZ[] = {
+    {0, 0, 1, 0}, {0, kEdge, -kEdge, kEdge}, {-kEdge, kCorner, -kCorner, kCorner}, {-kCorner}};
 
 /// What holds for all triangles of an empty set.
 constexpr Common kEverything = kOld | ((Common{1} << 2 * kAxes) - 1);
@@ -44,25 +45,13 @@ constexpr Common kEverything = kOld | ((Common{1} << 2 * kAxes) - 1);
 Common directions_near(Vec3 unit_normal) {
   const auto x = static_cast<float>(unit_normal.x), y = static_cast<float>(unit_normal.y),
              z = static_cast<float>(unit_normal.z);
-  Common near = 0;
-  for (int k = 0; k < kAxes; ++k) {
-    const float cosine = kAxisX[k] * x + kAxisY[k] * y + kAxisZ[k] * z;
-    near |= static_cast<Common>(cosine > kMinCosine) << k | static_cast<Common>(cosine < -kMinCosine) << (k + kAxes);
+  Common near = 0, opposite = 0;
+  for (int k = 0; k < 4; ++k) {
+    const FourFloats cosine = kAxisX[k] * x + kAxisY[k] * y + kAxisZ[k] * z;
+    near |= bits_of(cosine > kMinCosine) << 4 * k;
+    opposite |= bits_of(cosine < -kMinCosine) << 4 * k;
   }
-  return near;
-}
-
-/// Those of some directions, fewer of them than all, that directions_near() has.
-Common directions_near(Vec3 unit_normal, Common of) {
-  const auto x = static_cast<float>(unit_normal.x), y = static_cast<float>(unit_normal.y),
-             z = static_cast<float>(unit_normal.z);
-  Common near = 0;
-  for (Common rest = of & ~kOld; rest != 0; rest &= rest - 1) {
-    const int bit = std::countr_zero(rest), k = bit < kAxes ? bit : bit - kAxes;
-    const float cosine = kAxisX[k] * x + kAxisY[k] * y + kAxisZ[k] * z;
-    near |= static_cast<Common>(bit < kAxes ? cosine > kMinCosine : cosine < -kMinCosine) << bit;
-  }
-  return near;
+  return near | opposite << kAxes;
 }
 
 /// A triangle's normal, not of unit length.
@@ -100,7 +89,7 @@ bool are_alike(const TriangleGroups& mesh, std::int32_t group) {
       const std::optional<Normal> normal = Normal::of(mesh, t);
       if (!normal) continue;
       const Common age = common & age_of(mesh, t);
-      common = age | (normal->has_direction() ? directions_near(normal->unit(), common) : 0);
+      common &= age | (normal->has_direction() ? directions_near(normal->unit()) : 0);
     }
     pieces[begin / kTrianglesPerPiece] = common;
   });
@@ -154,8 +143,17 @@ struct TreeNode {
   std::int32_t size() const { return end - begin; }
 };
 
-/// Of items or nodes.
-bool are_to_compare(const auto& a, const auto& b) { return a.box.meets(b.box) && (a.common & b.common & kOld) == 0; }
+/// An item or a node that is compared with others.
+class Compared {
+ public:
+  explicit Compared(const auto& part) : box_(part.box), common_(part.common) {}
+  bool is_to_compare(const auto& other) const { return box_.meets(other.box) && (common_ & other.common & kOld) == 0; }
+
+ private:
+  ComparedBox box_;
+  Common common_;
+};
+bool are_to_compare(const TreeNode& a, const TreeNode& b) { return Compared(a).is_to_compare(b); }
 
 /// Several threads may test at once. Who first needs the children of a node makes them, alone; leaves never change.
 class TriangleTrees {
@@ -242,8 +240,10 @@ class TriangleTrees {
       test_between(left + 1, other, found);
       return;
     }
-    for (std::int32_t i = nodes_[a].begin; i < nodes_[a].end; ++i)
-      if (are_to_compare(items_[i], nodes_[b])) test_item(i, nodes_[b].begin, nodes_[b].end, found);
+    const TreeNode &first = nodes_[a], &second = nodes_[b];
+    const Compared with_second(second);
+    for (std::int32_t i = first.begin; i < first.end; ++i)
+      if (with_second.is_to_compare(items_[i])) test_item(i, second.begin, second.end, found);
   }
 
   static constexpr std::int32_t kLeafSize = 12;
@@ -293,9 +293,10 @@ class TriangleTrees {
 
   TreeNode node_over(std::int32_t begin, std::int32_t end) const {
     if (begin == end) return {{}, 0, begin, end, kNone};
-    TreeNode node{items_[begin].box, items_[begin].common, begin, end, kNone};
-    for (std::int32_t i = begin + 1; i < end; ++i) node.box.add(items_[i].box), node.common &= items_[i].common;
-    return node;
+    BoxOverBoxes box(items_[begin].box);
+    Common common = items_[begin].common;
+    for (std::int32_t i = begin + 1; i < end; ++i) box.add(items_[i].box), common &= items_[i].common;
+    return {box.box(), common, begin, end, kNone};
   }
 
   /// The first child of the node, made where it is not there yet; kNone for a leaf. Halves the box, or the items where
@@ -328,8 +329,9 @@ class TriangleTrees {
   /// Compares item i with the items [begin, end).
   void test_item(std::int32_t i, std::int32_t begin, std::int32_t end, PairSearch& found) const {
     found.count(end - begin);
+    const Compared item(items_[i]);
     for (std::int32_t j = begin; j < end; ++j)
-      if (are_to_compare(items_[i], items_[j])) found.test(mesh_.points, mesh_.triangles, items_[i].id, items_[j].id);
+      if (item.is_to_compare(items_[j])) found.test(mesh_.points, mesh_.triangles, items_[i].id, items_[j].id);
   }
 
   const TriangleGroups& mesh_;

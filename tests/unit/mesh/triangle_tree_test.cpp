@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
 namespace st {
@@ -69,6 +70,39 @@ TEST(TriangleTree, compares_nothing_inside_a_part_of_like_normals_where_told_so)
   bool was_ended = false;
   EXPECT_EQ(find_pairs({points, triangles, begin}, WithinGroup::kAll, {{0, 0}}, was_ended).size(), 1u);
   EXPECT_TRUE(find_pairs({points, triangles, begin}, WithinGroup::kUnlessAlike, {{0, 0}}, was_ended).empty());
+}
+
+/// Three triangles about the origin, their normals so far from a direction.
+std::vector<Vec3> tilted_about(Vec3 direction, double angle) {
+  const Vec3 u = normalized(cross(direction, std::abs(direction.x) < 0.5 ? Vec3{1, 0, 0} : Vec3{0, 1, 0}));
+  const Vec3 v = cross(direction, u);
+  std::vector<Vec3> points;
+  for (const double turn : {radians(0), radians(120), radians(240)}) {
+    const Vec3 aside = std::cos(turn) * u + std::sin(turn) * v, a = cross(direction, aside);
+    const Vec3 b = std::cos(angle) * aside - std::sin(angle) * direction;
+    points.insert(points.end(), {-1.0 * b - a, a - b, b});
+  }
+  return points;
+}
+
+TEST(TriangleTree, sees_like_normals_about_every_direction) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  const std::vector<Triangle> triangles{{{0, 1, 2}}, {{3, 4, 5}}, {{6, 7, 8}}};
+  const std::int32_t begin[] = {0, 3};
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 direction = normalized({coordinate(random), coordinate(random), coordinate(random)});
+    for (const double angle : {radians(32), radians(75)}) {
+      const std::vector<Vec3> points = tilted_about(direction, angle);
+      bool was_ended = false;
+      const auto n_found = [&](WithinGroup rule) {
+        return find_pairs({points, triangles, begin}, rule, {{0, 0}}, was_ended).size();
+      };
+      ASSERT_EQ(n_found(WithinGroup::kAll), 3u);
+      ASSERT_EQ(n_found(WithinGroup::kUnlessAlike), angle < radians(60) ? 0u : 3u)
+          << direction.x << " " << direction.y << " " << direction.z;
+    }
+  }
 }
 
 TEST(TriangleTree, compares_all_of_a_group_of_which_one_triangle_turns_away) {
