@@ -546,17 +546,6 @@ class WingEdgeFinder {
 
 }  // namespace
 
-const char* name_of(WingEdgeKind kind) {
-  switch (kind) {
-    case WingEdgeKind::kSharpTrailing:
-      return "sharp trailing edge";
-    case WingEdgeKind::kBluntTrailing:
-      return "blunt trailing edge";
-    default:
-      return "leading edge";
-  }
-}
-
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                                       const Executor& executor, std::vector<WingEdge>* small, bool* has_hollow) {
   WingEdgeFinder finder(model, roles, strips);

@@ -19,8 +19,17 @@ enum class WingEdgeKind : unsigned char {
             ///< out
 };
 
-/// "sharp trailing edge", "blunt trailing edge", "leading edge".
-const char* name_of(WingEdgeKind kind);
+/// "sharp trailing edge", "blunt trailing edge", "leading edge". Here, so that rules alone need no search of edges.
+constexpr const char* name_of(WingEdgeKind kind) {
+  switch (kind) {
+    case WingEdgeKind::kSharpTrailing:
+      return "sharp trailing edge";
+    case WingEdgeKind::kBluntTrailing:
+      return "blunt trailing edge";
+    default:
+      return "leading edge";
+  }
+}
 
 struct WingEdge {
   EdgeId edge = kNone;

@@ -16,7 +16,6 @@
 namespace st {
 namespace {
 
-constexpr double kFinestBase = 0.25;    // of the length at the edge: thinner bases get fewer cells
 constexpr int kMaxBoxes = 100000;       // along one edge
 constexpr int kGap = 2;                 // stations: noses further apart are not joined
 constexpr double kNose = 0.9;           // of the length asked for: s / (exp(s) - 1) for a slope s of 0.2
@@ -261,10 +260,6 @@ double length_along(const LiftingSurface& wing, const WingSizes& sizes, const Ch
   const LocalLengths lengths(wing, sizes);
   const double given = edge.is_inside ? 0 : sizes.given.of(pack_cause(CauseKind::kEdge, edge.edge));
   return std::max({lengths.asked(chord), lengths.floor(chord), given});
-}
-
-double length_across(double n_cells, double width, double along) {
-  return std::clamp(width / n_cells, kFinestBase * along, along);
 }
 
 void note_raised(const RaisedLength& own, std::optional<RaisedLength>& most) {

@@ -1,6 +1,7 @@
 // Sizes of lifting surfaces, from their own chord: trailing edge, nose, base, and the cells in between.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -40,8 +41,12 @@ struct WingSizes {
 
 /// What is asked for along a trailing edge where its chord is `chord`, model unit. Throws Error(kUsage).
 double length_along(const LiftingSurface& wing, const WingSizes& sizes, const ChordEdge& edge, double chord);
-/// What `n_cells` across a base of this width are, down to a quarter of the length along it; model unit.
-double length_across(double n_cells, double width, double along);
+/// What `n_cells` across a base of this width are, down to a quarter of the length along it; model unit. Here, so that
+/// who measures meshes needs no more of this.
+inline double length_across(double n_cells, double width, double along) {
+  constexpr double kFinestBase = 0.25;  // of the length along it
+  return std::clamp(width / n_cells, kFinestBase * along, along);
+}
 
 /// A length that the floor makes larger.
 struct RaisedLength {
