@@ -156,28 +156,36 @@ class Enhancer {
     double fair() const { return std::max(0.6, worst - 0.05); }
   };
 
-  Ring ring_before() const {
-    Ring ring;
-    for (std::int32_t t : tris_) {
-      ring.worst = std::min<double>(ring.worst, quality_[t]);
-      ring.mean += quality_[t];
-    }
-    ring.mean /= static_cast<double>(tris_.size());
-    return ring;
+  /// A node around one, and the triangle from it on counter-clockwise.
+  struct RingNode {
+    const MeshNode* node;
+    std::int32_t id, triangle;
+  };
+
+  /// Sets ring_ to what is around a node, in place of ring_of(): false where the rim is in the way.
+  bool find_ring(std::int32_t i, Ring& quality) {
+    ring_.clear();
+    const bool is_whole = m_.visit_ring(i, [&](std::int32_t id, std::int32_t t) {
+      ring_.push_back({&m_.nodes[id], id, t});
+      quality.worst = std::min<double>(quality.worst, quality_[t]);
+      quality.mean += quality_[t];
+    });
+    quality.mean /= static_cast<double>(ring_.size());
+    return is_whole;
   }
 
   /// The ring about a moved node, its qualities in ring_quality_; left early where it cannot improve.
   Ring ring_about(const MeshNode& centre, const Ring& before) {
     Ring ring;
-    ring_quality_.resize(around_.size());
+    ring_quality_.resize(ring_.size());
     const double least = std::min(before.worst + 1e-4, before.fair());
-    const std::size_t n = around_.size();
-    const MeshNode* node = &m_.nodes[around_[0]];
+    const std::size_t n = ring_.size();
+    const MeshNode* node = ring_[0].node;
     const typename Shape::Side first(centre, *node);
     typename Shape::Side spoke = first;
     for (std::size_t i = 0; i < n; ++i) {
       const bool is_last = i + 1 == n;
-      const MeshNode& next = m_.nodes[around_[is_last ? 0 : i + 1]];
+      const MeshNode& next = *ring_[is_last ? 0 : i + 1].node;
       const typename Shape::Side to_next = is_last ? first : typename Shape::Side(centre, next);
       const double q = Shape::quality(centre, *node, next, spoke, to_next);
       node = &next;
@@ -191,23 +199,25 @@ class Enhancer {
     return ring;
   }
 
-  void smooth(std::int32_t i) {
-    if (!m_.ring_of(i, around_, tris_)) return;
-    const MeshNode& old = m_.nodes[i];
-    const Ring before = ring_before();
-    if (before.worst > kGoodQuality) return;
-    // mean of the apexes that would make each triangle of the ring equilateral
+  /// Mean of the apexes that would make each triangle of the ring equilateral.
+  Vec3 equilateral_place(const MeshNode& centre) const {
     Vec3 middle{}, edge{};
     double weights = 0;
-    const std::size_t n = around_.size();
-    for (std::size_t j = 0; j < n; ++j) {
-      const Vec3 b = m_.nodes[around_[j]].x, e = m_.nodes[around_[following(j, n)]].x - b;
-      const double weight = kWeightBase - quality_[tris_[j]];
+    for (std::size_t j = 0; j < ring_.size(); ++j) {
+      const Vec3 &b = ring_[j].node->x, &next = ring_[following(j, ring_.size())].node->x, e = next - b;
+      const double weight = kWeightBase - quality_[ring_[j].triangle];
       middle += weight * (b + 0.5 * e);
       edge += weight * e;
       weights += weight;
     }
-    const Vec3 target = apex_of(old, middle, edge) / weights;
+    return apex_of(centre, middle, edge) / weights;
+  }
+
+  void smooth(std::int32_t i) {
+    Ring before;
+    if (!find_ring(i, before) || before.worst > kGoodQuality) return;
+    const MeshNode& old = m_.nodes[i];
+    const Vec3 target = equilateral_place(old);
     const Metric metric = metric_of<kStretched>(old);
     const Eigen::Matrix2d form = symmetric(metric.e, metric.f, metric.g);
     for (double part : {1.0, 0.4}) {
@@ -220,10 +230,10 @@ class Enhancer {
       if (ring_about(moved, before).improves(before)) {
         const bool is_far = norm2(moved.x - old.x) > kStill * kStill * old.h * old.h;
         m_.nodes[i] = moved;
-        for (std::size_t j = 0; j < n; ++j) set_quality(tris_[j], ring_quality_[j]);
+        for (std::size_t j = 0; j < ring_.size(); ++j) set_quality(ring_[j].triangle, ring_quality_[j]);
         if (!is_far) return;
         is_active_[i] = 1;
-        for (const std::int32_t j : around_) is_active_[j] = 1;
+        for (const RingNode& r : ring_) is_active_[r.id] = 1;
         return;
       }
     }
@@ -236,9 +246,14 @@ class Enhancer {
   }
 
   bool is_valid_at(Vec2 p) const {
-    const std::size_t n = around_.size();
-    for (std::size_t i = 0; i < n; ++i)
-      if (orient2d(p, m_.nodes[around_[i]].p, m_.nodes[around_[following(i, n)]].p) <= 0) return false;
+    const MeshNode* from = ring_.back().node;
+    Vec2 way = from->p - p;
+    for (const RingNode& r : ring_) {
+      const Vec2 next = r.node->p - p;
+      if (orient2d_between(way, next, from->p, r.node->p, p) <= 0) return false;
+      from = r.node;
+      way = next;
+    }
     return true;
   }
 
@@ -336,7 +351,8 @@ class Enhancer {
   std::vector<std::uint8_t> at_short_edge_;  // nodes that may be worth a collapse
   std::vector<std::uint8_t> is_active_;      // nodes to be smoothed: something about them changed
   std::vector<std::int32_t> degree_;         // triangles at each node
-  std::vector<std::int32_t> around_, tris_;
+  std::vector<std::int32_t> around_, tris_;  // of a node that may collapse
+  std::vector<RingNode> ring_;               // of a node that is smoothed
 };
 
 }  // namespace

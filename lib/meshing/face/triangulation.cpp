@@ -437,26 +437,12 @@ void Triangulation::classify() {
 
 bool Triangulation::ring_of(std::int32_t node, std::vector<std::int32_t>& around,
                             std::vector<std::int32_t>& tris) const {
-  constexpr std::size_t kUsual = 16, kMost = 1000;
-  std::size_t n = 0;
-  around.resize(kUsual);
-  tris.resize(kUsual);
-  const std::int32_t first = node_triangle_[node];
-  std::int32_t t = first;
-  do {
-    const PlaneTriangle& r = triangles[t];
-    const int i = index_of(t, node);
-    if (n == kUsual) {
-      around.resize(kMost);
-      tris.resize(kMost);
-    }
-    around[n] = r.v[kNext[i]];
-    tris[n++] = t;
-    t = r.n[kPrev[i]];
-  } while (t != first && t != kNone && n < kMost);
-  around.resize(n);
-  tris.resize(n);
-  return t == first;
+  around.clear();
+  tris.clear();
+  return visit_ring(node, [&](std::int32_t next, std::int32_t t) {
+    around.push_back(next);
+    tris.push_back(t);
+  });
 }
 
 void Triangulation::collapse(std::int32_t node, int target_index, const std::vector<std::int32_t>& around,

@@ -113,6 +113,9 @@ class Triangulation {
   void added_node() { node_triangle_.push_back(kNone); }
   /// Nodes and triangles around an inner node, counter-clockwise: triangle i holds (node, around[i], around[i+1]).
   bool ring_of(std::int32_t node, std::vector<std::int32_t>& around, std::vector<std::int32_t>& tris) const;
+  /// Calls visit(node, triangle) for those; false where the rim is in the way.
+  template <class Visit>
+  bool visit_ring(std::int32_t node, const Visit& visit) const;
   /// Removes inner node `node` by moving it onto ring node `target_index` of the given ring. Precondition: all
   /// remaining triangles are valid.
   void collapse(std::int32_t node, int target_index, const std::vector<std::int32_t>& around,
@@ -149,5 +152,20 @@ class Triangulation {
   };
   std::vector<CavitySide> stack_;
 };
+
+template <class Visit>
+bool Triangulation::visit_ring(std::int32_t node, const Visit& visit) const {
+  constexpr int kNext[] = {1, 2, 0}, kPrev[] = {2, 0, 1}, kMost = 1000;
+  const std::int32_t first = node_triangle_[node];
+  std::int32_t t = first;
+  int n = 0;
+  do {
+    const PlaneTriangle& r = triangles[t];
+    const int i = index_of(t, node);
+    visit(r.v[kNext[i]], t);
+    t = r.n[kPrev[i]];
+  } while (t != first && t != kNone && ++n < kMost);
+  return t == first;
+}
 
 }  // namespace st
