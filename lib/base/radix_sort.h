@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace st {
@@ -31,6 +33,30 @@ void radix_sort(std::vector<Item>& items, std::vector<Item>& other, const KeyOf&
     for (const Item& item : items) other[start[digit_of(item)]++] = item;
     items.swap(other);
   }
+}
+
+/// The key of a number that is none of NaN: ascending as numbers are, -0 as 0.
+inline std::uint64_t sort_key(double x) {
+  const auto bits = std::bit_cast<std::uint64_t>(x + 0.0);
+  return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
+}
+
+/// Sorts ascending by number_of(item), which is never NaN; items of one number keep their order. For large items: each
+/// moves once.
+template <class Item, class NumberOf>
+void sort_by_number(std::vector<Item>& items, const NumberOf& number_of) {
+  struct Place {
+    std::uint64_t key;
+    std::size_t item;
+  };
+  std::vector<Place> places, other;
+  places.reserve(items.size());
+  for (const Item& item : items) places.push_back({sort_key(number_of(item)), places.size()});
+  radix_sort(places, other, [](const Place& p) { return p.key; });
+  std::vector<Item> sorted;
+  sorted.reserve(items.size());
+  for (const Place& p : places) sorted.push_back(std::move(items[p.item]));
+  items = std::move(sorted);
 }
 
 /// Sorts ascending and removes duplicates. O(n) per digit that differs; needs a second array of the same size.

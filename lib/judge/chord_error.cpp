@@ -46,7 +46,7 @@ Vec3 foot_of_middle(const Surface& surface, Vec2 uv_a, Vec2 uv_b, Vec3 a, Vec3 b
   const Vec2 uv = 0.5 * (uv_a + uv_b);
   const Vec3 middle = 0.5 * (a + b), x = surface.point(uv), beside = x - middle;
   const Vec3 above = dot(beside, normal) / std::max(norm2(normal), 1e-300) * normal;
-  if (distance(beside, above) < kAside * distance(a, b)) return middle + above;
+  if (norm2(beside - above) < kAside * kAside * norm2(b - a)) return middle + above;
   if (const auto near = point_above(surface, middle, uv, kAside * distance(a, b)))
     if (near->distance < norm(beside)) return near->foot;
   if (const auto foot = project_near(surface, middle, uv))
@@ -252,10 +252,12 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, DeviationSum* de
   parallel_for(n_triangles, kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
     FaceSurface faces(model);
     CornerPoints points;
-    for (std::size_t t = begin; t < end; ++t) {
+    Parts& parts = pieces[begin / kTrianglesPerPiece];
+    for (auto [t, at] = std::pair(begin, parts.end()); t < end; ++t) {
       const FaceId f = mesh.triangle_face[t];
       const Surface& surface = faces.of(f);
-      FacePart& part = pieces[begin / kTrianglesPerPiece][f];
+      if (at == parts.end() || at->first != f) at = parts.try_emplace(f).first;  // triangles come face by face
+      FacePart& part = at->second;
       const TriangleOnSurface triangle = triangle_of(mesh, t, surface, points);
       add_chords(triangle, part);
       add_nodes(surface, triangle, !mesh.merged.empty(), part);

@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "base/radix_sort.h"
 #include "mesh/group_mesh.h"
 #include "sizing/wing_sizes.h"
 #include "stages/spanwise.h"
@@ -51,7 +52,7 @@ class WingMesh {
     const Vec3 size = box.hi - box.lo;
     axis_ = size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z;
     for (Ball& b : skin_) b.at = b.center.*axis_;
-    std::ranges::sort(skin_, {}, [](const Ball& b) { return std::pair(b.at, b.triangle); });
+    sort_by_number(skin_, [](const Ball& b) { return b.at; });  // triangles come in their order
   }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(skin_.size() + base_.size()); }
   bool is_empty() const { return skin_.empty(); }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 namespace st {
@@ -70,6 +71,33 @@ TEST(RadixSort, keeps_one_of_equal_keys) {
   std::vector<std::uint64_t> keys(5000, 42);
   sort_unique(keys);
   EXPECT_EQ(keys, std::vector<std::uint64_t>{42});
+}
+
+TEST(RadixSort, has_keys_that_ascend_as_numbers_do) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<double> ascending{-kInfinity, -1e300, -2.5, -2, -1e-310, 0, 1e-310, 1, 1.5, 1e300, kInfinity};
+  for (std::size_t i = 1; i < ascending.size(); ++i)
+    EXPECT_LT(sort_key(ascending[i - 1]), sort_key(ascending[i])) << ascending[i];
+  EXPECT_EQ(sort_key(-0.0), sort_key(0.0));
+}
+
+TEST(RadixSort, sorts_large_items_by_a_number_of_theirs) {
+  struct Item {
+    double number;
+    std::size_t n;
+  };
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> few(-50, 50);
+  for (const std::size_t n : {0, 1, 100, 5000}) {
+    std::vector<Item> items;
+    for (std::size_t i = 0; i < n; ++i) items.push_back({0.25 * few(random), i});
+    std::vector<Item> expected = items;
+    std::stable_sort(expected.begin(), expected.end(),
+                     [](const Item& a, const Item& b) { return a.number < b.number; });
+    sort_by_number(items, [](const Item& item) { return item.number; });
+    ASSERT_EQ(items.size(), n);
+    for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(items[i].n, expected[i].n) << i;
+  }
 }
 
 }  // namespace
