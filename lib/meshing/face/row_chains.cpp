@@ -7,13 +7,11 @@ namespace st {
 namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
-constexpr double kLongSegment = 2;          // over the length across: such segments begin a chain
-constexpr double kAlong = 0.8;              // cosine between a segment and the direction of a stretch
-constexpr double kStraight = radians(30);   // a loop that turns by less goes on
-constexpr double kLeastSide = radians(40);  // a loop that turns to the left by that and at most by
-constexpr double kMostSide = radians(140);  // that bounds the rows at their side
-constexpr std::size_t kShortRest = 3;       // segments: what is left up to a corner belongs to the chain
-constexpr std::size_t kLeastSegments = 2;   // of a chain
+constexpr double kLongSegment = 2;         // over the length across: such segments begin a chain
+constexpr double kAlong = 0.8;             // cosine between a segment and the direction of a stretch
+constexpr double kStraight = radians(30);  // a loop that turns by less goes on; to the left by more: it bounds the rows
+constexpr std::size_t kShortRest = 3;      // segments: what is left up to a corner belongs to the chain
+constexpr std::size_t kLeastSegments = 2;  // of a chain
 
 class ChainFinder {
  public:
@@ -68,9 +66,7 @@ class ChainFinder {
   }
   bool has_both(std::int32_t n) const { return next_[n] != kNone && previous_[n] != kNone; }
   bool goes_on(std::int32_t n) const { return has_both(n) && std::abs(turning_at(n)) < kStraight; }
-  bool turns_to_side(std::int32_t n) const {
-    return has_both(n) && turning_at(n) > kLeastSide && turning_at(n) < kMostSide;
-  }
+  bool turns_to_side(std::int32_t n) const { return has_both(n) && turning_at(n) >= kStraight; }
 
   /// All nodes from `n` on, along `step`, up to where `ends` says so, that one with them; no longer than a loop.
   template <typename Ends>

@@ -21,7 +21,6 @@ constexpr double kLeastAngle = 50;     // degrees, of a quadrilateral's corners
 constexpr double kMostAngle = 130;
 constexpr double kMostShear = radians(50);        // of a side against the square
 constexpr double kSideMisfit = 1.8;               // between the height asked for and that of the side's segment
-constexpr double kNarrowing = 0.6;                // of a column's width from row to row
 constexpr double kMostTurned = 0.9;               // of the largest turning of the normal: the height shrinks
 constexpr double kTurningFloor = 0.25;            // by no more than to that
 constexpr double kEvenly = 1.15;                  // of such a height: the one beside it
@@ -214,8 +213,7 @@ class LineMaker {
     const NextLine::Column &c = next_.columns[i], &d = next_.columns[i + 1];
     if (!c.is_placed || !d.is_placed) return false;
     if (!is_upright(node(i), node(i + 1), d.node, c.node)) return false;
-    return distance(c.node.x, d.node.x) > kNarrowing * width(i) && aspect(i) > kTooSquare && is_as_asked(i) &&
-           is_free_between(i);
+    return aspect(i) > kTooSquare && is_as_asked(i) && is_free_between(i);
   }
 
   /// Not too long for the sizes at its far side, nor oblique.

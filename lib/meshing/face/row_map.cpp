@@ -11,7 +11,6 @@ namespace {
 constexpr double kFlattest = 0.7;                  // length over height of a quadrilateral
 constexpr double kShortest = 0.7, kLongest = 1.4;  // of the requested length: means of opposite sides
 constexpr double kLeastColumns = 0.9;              // share of the columns that fit
-constexpr std::size_t kMostApart = 2;              // between the numbers of nodes of the sides at the ends
 
 /// One of the four sides: its points in the plane, and the shares of its way there, in space.
 struct SidePoints {
@@ -25,19 +24,6 @@ struct SidePoints {
       share.push_back(share.back() + distance(nodes[side[i - 1]].x, nodes[side[i]].x));
     for (double& s : share) s /= share.back();
   }
-
-  /// Between the nodes, at other shares.
-  void resample(const std::vector<double>& shares) {
-    std::vector<Vec2> points;
-    std::size_t i = 1;
-    for (const double s : shares) {
-      while (i + 1 < share.size() && share[i] < s) ++i;
-      const double part = std::clamp((s - share[i - 1]) / (share[i] - share[i - 1]), 0.0, 1.0);
-      points.push_back((1 - part) * p[i - 1] + part * p[i]);
-    }
-    p = std::move(points);
-    share = shares;
-  }
 };
 
 class Mapping {
@@ -48,21 +34,11 @@ class Mapping {
         bottom_(work, chain.bottom),
         top_(work, chain.top),
         left_(work, chain.left),
-        right_(work, chain.right) {
-    if (left_.p.size() < right_.p.size()) {
-      left_.resample(right_.share);
-      has_left_ = false;
-    } else if (right_.p.size() < left_.p.size()) {
-      right_.resample(left_.share);
-      has_right_ = false;
-    }
-  }
+        right_(work, chain.right) {}
 
   std::vector<NextLine> run() {
     std::vector<NextLine> lines;
     std::vector<char> joined(bottom_.p.size() - 1, 1);
-    if (!has_left_) joined.front() = 0;  // the nodes of that side are others
-    if (!has_right_) joined.back() = 0;
     for (std::size_t k = 1; k < left_.p.size(); ++k) {
       lines.push_back(line_at(k));
       for (std::size_t i = 0; i < joined.size(); ++i) joined[i] = joined[i] && is_good(lines, k, i);
@@ -94,8 +70,8 @@ class Mapping {
 
   std::int32_t existing_at(std::size_t i, std::size_t k) const {
     if (k + 1 == left_.p.size()) return c_.top[i];
-    if (i == 0 && has_left_) return c_.left[k];
-    return i + 1 == bottom_.p.size() && has_right_ ? c_.right[k] : kNone;
+    if (i == 0) return c_.left[k];
+    return i + 1 == bottom_.p.size() ? c_.right[k] : kNone;
   }
 
   Vec2 between(std::size_t i, std::size_t k) const {
@@ -132,15 +108,13 @@ class Mapping {
   FaceWork& w_;
   const RowChain& c_;
   SidePoints bottom_, top_, left_, right_;
-  bool has_left_ = true, has_right_ = true;  // are the lines' ends the nodes of that side?
 };
 
 }  // namespace
 
 std::vector<NextLine> mapped_lines(FaceWork& work, const RowChain& chain) {
-  const std::size_t n_left = chain.left.size(), n_right = chain.right.size();
-  if (chain.bottom.size() < 4 || chain.bottom.size() != chain.top.size() || std::min(n_left, n_right) < 2) return {};
-  if (std::max(n_left, n_right) - std::min(n_left, n_right) > kMostApart) return {};
+  if (chain.bottom.size() < 4 || chain.bottom.size() != chain.top.size() || chain.left.size() < 2) return {};
+  if (chain.left.size() != chain.right.size()) return {};
   return Mapping(work, chain).run();
 }
 

@@ -24,16 +24,6 @@ TEST(MappedLines, are_spaced_as_the_sides_between_equal_edges) {
   EXPECT_EQ(std::count(lines[0].joined.begin(), lines[0].joined.end(), 1), 10);
 }
 
-TEST(MappedLines, leave_out_the_column_at_a_side_with_fewer_nodes) {
-  const WallField field(0.1, 0, 1);
-  RowCase face({band(12, 12, {0.1, 0.2, 0.3, 0.4}, {0.13, 0.26, 0.4})}, field);
-  const std::vector<NextLine> lines = mapped_lines(face.work, find_row_chains(face.work).at(0));
-  ASSERT_EQ(lines.size(), 4u);
-  EXPECT_TRUE(lines[0].joined.front());
-  EXPECT_FALSE(lines[0].joined.back());
-  EXPECT_EQ(lines[0].columns[12].existing, kNone);
-}
-
 TEST(MappedLines, are_none_where_the_field_asks_for_other_rows) {
   for (const double height : {0.2, 0.04}) {
     const WallField field(height, 0, 1);
@@ -43,8 +33,10 @@ TEST(MappedLines, are_none_where_the_field_asks_for_other_rows) {
   }
 }
 
-TEST(MappedLines, are_none_where_the_edges_differ_or_much_is_not_flat) {
+TEST(MappedLines, are_none_where_edges_or_sides_differ_or_much_is_not_flat) {
   const WallField field(0.1, 0, 1);
+  RowCase sides({band(12, 12, {0.1, 0.2, 0.3, 0.4}, {0.13, 0.26, 0.4})}, field);
+  EXPECT_TRUE(mapped_lines(sides.work, find_row_chains(sides.work).at(0)).empty());
   std::vector<Vec2> loop = band(10, 10, {0.1, 0.2}, {0.1, 0.2});
   loop.erase(loop.begin() + 15);  // one node less at the top
   RowCase uneven({loop}, field);
