@@ -10,6 +10,7 @@
 #include "base/parallel_reserve.h"
 #include "base/radix_sort.h"
 #include "base/threads.h"
+#include "mesh/patch_section.h"
 
 namespace st {
 namespace {
@@ -232,28 +233,28 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
 }
 
 PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
-                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, bool is_of_one_face) {
+                  std::span<const PatchBlocks::Meeting> near, bool is_of_one_face) {
   constexpr std::size_t kBlocksPerPiece = 32;
   std::vector<PatchPart> parts(near.size() / kBlocksPerPiece + 1);
   parallel_for(near.size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      add_block(edges, vertex_xyz, section, blocks.triangles(near[i].block), near[i].others, is_of_one_face,
+      add_block(edges, vertex_xyz, section, section.blocks.triangles(near[i].block), near[i].others, is_of_one_face,
                 parts[begin / kBlocksPerPiece]);
   });
   return joined(std::move(parts));
 }
 
-TwoParts join_parts(const PatchPart& a, const PatchPart& b) {
+SurfaceMesh join_parts(const PatchPart& a, const PatchPart& b) {
   constexpr std::size_t kPerPart = 4096;
-  TwoParts both;
+  SurfaceMesh both;
   const std::size_t n_a = a.xyz.size(), n = n_a + b.xyz.size();
-  parallel_reserve(both.points, n);
+  parallel_reserve(both.node_xyz, n);
   parallel_reserve(both.triangles, n / 3);
-  both.points.resize(n);
+  both.node_xyz.resize(n);
   both.triangles.resize(n / 3);
   parallel_for(n / 3, kPerPart, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-      both.points[i] = i < n_a ? a.xyz[i] : b.xyz[i - n_a];
+      both.node_xyz[i] = i < n_a ? a.xyz[i] : b.xyz[i - n_a];
       both.triangles[i / 3].n[i % 3] = static_cast<NodeId>(i);
     }
   });

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "base/vec.h"
-#include "mesh/patch_section.h"
+#include "mesh/node_key.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -73,17 +73,15 @@ struct PatchPart {
   static auto fields(auto& p) { return std::tie(p.triangle, p.xyz, p.corner, p.key, p.boxes); }
 };
 
-/// The triangles of the blocks `near` that meet the boxes there. Linear in these. `is_of_one_face`: what they are
+struct PatchSection;
+
+/// The triangles of its blocks `near` that meet the boxes there. Linear in these. `is_of_one_face`: what they are
 /// compared with is another section of the face.
 PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
-                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, bool is_of_one_face = false);
+                  std::span<const PatchBlocks::Meeting> near, bool is_of_one_face = false);
 
-/// Two parts of different faces, or sections, as one mesh: those of `a`, then those of `b`, with common nodes by key.
-/// Corners elsewhere have nodes of their own, whoever shares them within a part.
-struct TwoParts {
-  std::vector<Vec3> points;
-  std::vector<Triangle> triangles;
-};
-TwoParts join_parts(const PatchPart& a, const PatchPart& b);
+/// Two parts of different faces, or sections, as places and triangles of one mesh: those of `a`, then those of `b`,
+/// with common nodes by key. Corners elsewhere have nodes of their own, whoever shares them within a part.
+SurfaceMesh join_parts(const PatchPart& a, const PatchPart& b);
 
 }  // namespace st

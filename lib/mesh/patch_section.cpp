@@ -12,31 +12,28 @@ constexpr std::size_t kPerPiece = 65'536;
 
 }  // namespace
 
-SectionRows rows_of(PatchSection&& section, std::span<const SectionBegin> begins, std::size_t own,
-                    std::int32_t n_boundary) {
-  SectionRows all{std::move(section.patch), begins[own], section.is_whole_boundary};
-  if (begins.size() == 1) return all;
+SectionRows rows_of(PatchSection&& section, std::span<const PatchPlace> places, std::size_t own) {
+  SectionRows all{std::move(section.patch), places[own]};
+  if (places.size() == 1) return all;
+  const std::int32_t n_boundary = places.back().n_boundary;
   FacePatch& p = all.rows;
   const std::int32_t n_local = p.n_boundary, n_own = static_cast<std::int32_t>(p.inner_xyz.size()) - section.n_foreign;
   std::vector<NodeId> foreign;  // where other sections have them
   for (const NodeKey key : std::span(section.shared_key).last(section.n_foreign)) {
     const InnerNode node = inner_node(key);
-    foreign.push_back(static_cast<NodeId>(n_boundary + begins[node.section].inner + node.number));
+    foreign.push_back(static_cast<NodeId>(n_boundary + places[node.section].inner_begin + node.number));
   }
-  const auto number = [&](NodeId n) -> NodeId {
-    if (n < n_local) return all.has_boundary ? n : section.boundary_number[n];
-    n -= n_local;
-    return n < n_own ? static_cast<NodeId>(n_boundary + all.begin.inner + n) : foreign[n - n_own];
-  };
+  const SectionNumbers number(n_local, section.boundary_number, n_own,
+                              static_cast<NodeId>(n_boundary + all.place.inner_begin), std::move(foreign));
   parallel_for(p.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
       for (NodeId& n : p.triangles[t].n) n = number(n);
   });
-  for (std::int32_t& corner : p.uv_corner) corner += static_cast<std::int32_t>(3 * all.begin.triangle);
+  for (std::int32_t& corner : p.uv_corner) corner += static_cast<std::int32_t>(3 * all.place.triangle_begin);
   p.inner_xyz.resize(n_own);
   p.inner_uv.resize(n_own);
   p.inner_size.resize(n_own);
-  if (!all.has_boundary) {
+  if (!section.is_whole_boundary) {
     p.boundary_dim.clear();
     p.boundary_entity.clear();
     p.boundary_index.clear();

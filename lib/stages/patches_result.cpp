@@ -91,8 +91,8 @@ std::vector<PatchCounts> counts_of(const MeshResult& r) {
   for (std::size_t f = 0; f < r.places.size(); ++f) {
     if (!r.places[f].is_there()) continue;
     const PatchPlace& last = r.places[f].sections.back();
-    counts.push_back({static_cast<FaceId>(f), last.n_boundary, last.begin.inner + last.n_inner,
-                      last.begin.triangle + last.n_triangles, last.begin.own_uv + last.n_own_uv});
+    counts.push_back({static_cast<FaceId>(f), last.n_boundary, last.inner_begin + last.n_inner,
+                      last.triangle_begin + last.n_triangles, last.own_uv_begin + last.n_own_uv});
   }
   return counts;
 }
@@ -104,7 +104,7 @@ std::string write_own_patches(const PatchTarget& target, const std::vector<Secti
     parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
       const SectionRows& some = own[i];
       const auto patch = std::lower_bound(target.face.begin(), target.face.end(), some.rows.face);
-      rows.write(static_cast<std::size_t>(patch - target.face.begin()), some.rows, some.begin);
+      rows.write(static_cast<std::size_t>(patch - target.face.begin()), some.rows, some.place);
     });
     rows.close();
   } catch (const Error& e) {

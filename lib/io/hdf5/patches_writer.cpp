@@ -119,7 +119,7 @@ PatchesWriter::~PatchesWriter() = default;
 
 std::string PatchesWriter::commit() { return writer_->commit(); }
 
-void PatchRowsFile::write(std::size_t i, const FacePatch& p, const SectionBegin& begin_row) const {
+void PatchRowsFile::write(std::size_t i, const FacePatch& p, const PatchPlace& place) const {
   constexpr std::size_t kPerJob = std::size_t{4} << 20;
   ST_ASSERT(target_.face.at(i) == p.face);
   std::vector<std::function<void()>> jobs;
@@ -138,15 +138,15 @@ void PatchRowsFile::write(std::size_t i, const FacePatch& p, const SectionBegin&
   rows(p.boundary_dim, target_.boundary, 0);
   rows(p.boundary_entity, target_.boundary, 0);
   rows(p.boundary_index, target_.boundary, 0);
-  rows(p.inner_xyz, target_.inner, begin_row.inner);
-  rows(p.inner_uv, target_.inner, begin_row.inner);
-  rows(p.inner_size, target_.inner, begin_row.inner);
-  rows(p.triangles, target_.triangle, begin_row.triangle);
-  rows(p.uv_corner, target_.own_uv, begin_row.own_uv);
-  rows(p.own_uv, target_.own_uv, begin_row.own_uv);
+  rows(p.inner_xyz, target_.inner, place.inner_begin);
+  rows(p.inner_uv, target_.inner, place.inner_begin);
+  rows(p.inner_size, target_.inner, place.inner_begin);
+  rows(p.triangles, target_.triangle, place.triangle_begin);
+  rows(p.uv_corner, target_.own_uv, place.own_uv_begin);
+  rows(p.own_uv, target_.own_uv, place.own_uv_begin);
   if (target_.begin.size() == PatchTarget::kArrays) {
-    rows(p.inner_previous, target_.inner, begin_row.inner);
-    rows(p.triangle_previous, target_.triangle, begin_row.triangle);
+    rows(p.inner_previous, target_.inner, place.inner_begin);
+    rows(p.triangle_previous, target_.triangle, place.triangle_begin);
   }
   run_jobs(jobs);
 }

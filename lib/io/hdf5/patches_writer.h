@@ -61,7 +61,7 @@ class PatchRowsFile {
   explicit PatchRowsFile(const PatchTarget& target) : target_(target), file_(target.file, target.label) {}
   /// Writes rows of patch i of the target, in pieces of some megabytes that threads share. Callable on several threads.
   /// Precondition: they are of that face, and within its size.
-  void write(std::size_t i, const FacePatch& rows, const SectionBegin& begin = {}) const;
+  void write(std::size_t i, const FacePatch& rows, const PatchPlace& place = {}) const;
   void close() { file_.close(); }
 
  private:

@@ -169,7 +169,7 @@ Bytes FaceRounds::record_whole(const Bytes& bytes) const {
   FaceReport report;
   unpack(bytes, report);
   if (!report.place.is_there()) return packed(PatchSection(), report);
-  return packed(faces_.store().get(report.place)->section, report);
+  return packed(*faces_.store().get(report.place), report);
 }
 
 Bytes FaceRounds::restore_whole(Bytes&& whole) {

@@ -96,20 +96,21 @@ std::vector<HoleRim> HoleRounds::find_rims(const std::vector<FaceId>& faces) con
 }
 
 /// Without triangles where it cannot be filled, or where earlier runs ended at its face.
-HoleFill HoleRounds::fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const {
+FaceMesh HoleRounds::fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const {
   const CurrentWork at_face("face", rim.face + 1);
-  HoleFill fill;
+  FaceMesh fill;
   if (options_.left_out.contains(rim.face)) return fill;
   try {
     const RefinedField field(field_, refinements_.near(model_.tables().face_box[rim.face]));
     const auto surface = model_.surface(rim.face);
     const FaceBoundary boundary = make_hole_boundary(model_, *surface, rim, holes_.marks(), *numbering_, field);
-    const FaceMesh filled = make_mesh(*surface, boundary, field);
-    if (filled.cause == FailureCause::kNone && filled.n_folds == 0) fill = make_hole_fill(rim, boundary, filled);
+    FaceMesh filled = make_mesh(*surface, boundary, field);
+    if (filled.cause == FailureCause::kNone && filled.n_folds == 0)
+      fill = make_hole_fill(rim, boundary, std::move(filled));
   } catch (const Error&) {  // no triangles: the hole grows
   }
   int hint = 0;
-  for (FaceNode& n : fill.nodes)
+  for (FaceNode& n : fill.inner)
     if (n.id == kNone) n.h = field_.size(n.x, hint);
   return fill;
 }
@@ -170,7 +171,7 @@ Regions HoleRounds::holes_as_regions(const std::vector<HoleRim>& rims) const {
 }
 
 /// From the tiles.
-HoleFill HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const {
+FaceMesh HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const {
   return fill_hole(rim, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
     Piece seams = tiled.seams(surface, number, boundary, executor_);
     if (seams.mesh.n_folds > 0) return std::move(seams.mesh);  // it will not do
@@ -182,13 +183,13 @@ HoleFill HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRe
 /// ascending.
 std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
   const std::vector<double> expected = expected_triangles(rims);
-  std::vector<HoleFill> fills(rims.size());
+  std::vector<FaceMesh> fills(rims.size());
   const MakeMesh make = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
     return mesh_face(surface, boundary, field, options_.of_face());
   };
   const auto take = [&](std::int32_t i, Bytes&& result) {
     unpack(result, fills[i]);
-    return !fills[i].triangles.empty();
+    return !fills[i].corners.empty();
   };
   std::vector<std::int32_t> all(rims.size());
   std::iota(all.begin(), all.end(), 0);
@@ -207,8 +208,7 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
       .run(all);
   std::vector<std::int32_t> failed;
   for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
-    if (fills[i].triangles.empty() || !add_image(rims[i].face, fills[i]))
-      failed.push_back(static_cast<std::int32_t>(i));
+    if (fills[i].corners.empty() || !add_image(rims[i].face, fills[i])) failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));
   }
   share(executor_, failed);
@@ -216,11 +216,11 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
 }
 
 /// Local, on rank 0. Whether the face's partner, if it has one, has the image of what fills the whole face.
-bool HoleRounds::add_image(FaceId face, const HoleFill& fill) {
+bool HoleRounds::add_image(FaceId face, const FaceMesh& fill) {
   const FaceId partner = paired_.partner_of(face);
   if (partner == kNone) return true;
   fills_[partner].assign(1, paired_.image(face, fill, *numbering_));
-  return !fills_[partner][0].triangles.empty();
+  return !fills_[partner][0].corners.empty();
 }
 
 /// What was kept and what is new as one mesh.

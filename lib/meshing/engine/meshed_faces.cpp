@@ -1,7 +1,6 @@
 #include "meshing/engine/meshed_faces.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "base/share.h"
@@ -161,10 +160,9 @@ void MeshedFaces::report(MeshResult& result) const {
 
 /// Local: a patch that is all here, which is not kept any more.
 FacePatch MeshedFaces::take_whole(FaceId f) {
-  const std::vector<SectionBegin> begins = places_[f].begins();
   std::vector<SectionRows> rows;
-  for (std::size_t s = 0; s < begins.size(); ++s)
-    if (places_[f].sections[s].is_there()) rows.push_back(store_.take(places_[f], s, begins));
+  for (std::size_t s = 0; s < places_[f].sections.size(); ++s)
+    if (places_[f].sections[s].is_there()) rows.push_back(store_.take(places_[f], s));
   return join_rows(std::move(rows));
 }
 
@@ -192,19 +190,14 @@ void MeshedFaces::hand_over(PatchesGo patches, MeshResult& result) {
   struct OwnSection {
     FaceId face;
     std::size_t number;
-    std::shared_ptr<const std::vector<SectionBegin>> begins;
   };
   std::vector<OwnSection> own;
-  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
-    const auto begins = std::make_shared<const std::vector<SectionBegin>>(places_[f].begins());
-    for (std::size_t s = 0; s < begins->size(); ++s)
-      if (store_.is_own(places_[f].sections[s])) own.push_back({f, s, begins});
-  }
+  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+    for (std::size_t s = 0; s < places_[f].sections.size(); ++s)
+      if (store_.is_own(places_[f].sections[s])) own.push_back({f, s});
   result.rows.resize(own.size());
-  parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
-    const auto& [f, number, begins] = own[i];
-    result.rows[i] = store_.take(places_[f], number, *begins);
-  });
+  parallel_for(own.size(), 1,
+               [&](std::size_t i, std::size_t) { result.rows[i] = store_.take(places_[own[i].face], own[i].number); });
   result.places = places_;
 }
 

@@ -1,6 +1,7 @@
 #include "meshing/engine/paired_holes.h"
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 #include <tuple>
@@ -90,44 +91,44 @@ FaceId PairedHoles::partner_of(FaceId face) const {
   return pair ? pairs_.pairs()[*pair].b : kNone;
 }
 
-HoleFill PairedHoles::image(FaceId face, const HoleFill& fill, const HoleNumbering& numbering) const {
+FaceMesh PairedHoles::image(FaceId face, const FaceMesh& fill, const HoleNumbering& numbering) const {
   FaceBoundary boundary;
   FaceMesh mesh;
-  for (const FaceNode& n : fill.nodes) (n.id == kNone ? mesh.inner : boundary.nodes).push_back(n);
-  const int turned = old_.face_is_turned[face] ? 1 : 0;
-  for (const Triangle& t : fill.triangles)
-    for (const NodeId n : {t.n[0], t.n[1 + turned], t.n[2 - turned]}) mesh.corners.push_back(n);
+  for (const FaceNode& n : fill.inner) (n.id == kNone ? mesh.inner : boundary.nodes).push_back(n);
+  mesh.corners = fill.corners;
+  for (std::size_t i = 0; old_.face_is_turned[face] && i < mesh.corners.size(); i += 3)
+    std::swap(mesh.corners[i + 1], mesh.corners[i + 2]);
   const PairImage image =
       image_on_pair(model_, pairs_, *pair_of(face), make_patch(old_.tables, face, boundary, mesh, numbering.boundary),
                     numbering.boundary);
-  return image.error.empty() ? as_fill(image.patch, numbering) : HoleFill();
+  return image.error.empty() ? as_fill(image.patch, numbering) : FaceMesh();
 }
 
 /// Boundary nodes by their (u,v), of which one on a seam has two. They have a place by their id alone.
-HoleFill PairedHoles::as_fill(const FacePatch& patch, const HoleNumbering& numbering) const {
-  HoleFill fill;
+FaceMesh PairedHoles::as_fill(const FacePatch& patch, const HoleNumbering& numbering) const {
+  FaceMesh fill;
   std::map<std::tuple<NodeId, double, double>, std::int32_t> known;
   std::vector<std::int32_t> number(3 * patch.triangles.size(), kNone);
   for (std::size_t i = 0; i < patch.uv_corner.size(); ++i) {
     const std::int32_t corner = patch.uv_corner[i];
     const NodeId n = patch.triangles[corner / 3].n[corner % 3];
     const Vec2 uv = patch.own_uv[i];
-    const auto [it, is_new] = known.emplace(std::tuple(n, uv.x, uv.y), static_cast<std::int32_t>(fill.nodes.size()));
+    const auto [it, is_new] = known.emplace(std::tuple(n, uv.x, uv.y), static_cast<std::int32_t>(fill.inner.size()));
     number[corner] = it->second;
     if (is_new)
-      fill.nodes.push_back(
+      fill.inner.push_back(
           {uv, {}, 0, boundary_id_of(old_.tables.n_vertices(), numbering.update.edges, patch, n), false});
   }
-  const auto shift = static_cast<std::int32_t>(fill.nodes.size()) - patch.n_boundary;
+  const auto shift = static_cast<std::int32_t>(fill.inner.size()) - patch.n_boundary;
   for (std::size_t i = 0; i < patch.inner_xyz.size(); ++i)
-    fill.nodes.push_back({patch.inner_uv[i], patch.inner_xyz[i], patch.inner_size[i], kNone, false});
+    fill.inner.push_back({patch.inner_uv[i], patch.inner_xyz[i], patch.inner_size[i], kNone, false});
   // a patch's triangles look out of the solid, those of a fill as the mesh before
   const bool turns = (old_.tables.face_is_reversed[patch.face] != 0) != (old_.face_is_turned[patch.face] != 0);
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     const auto node = [&](std::size_t k) {
       return number[3 * t + k] == kNone ? patch.triangles[t].n[k] + shift : number[3 * t + k];
     };
-    fill.triangles.push_back({{node(0), node(turns ? 2 : 1), node(turns ? 1 : 2)}});
+    for (const std::size_t k : turns ? std::array{0u, 2u, 1u} : std::array{0u, 1u, 2u}) fill.corners.push_back(node(k));
   }
   return fill;
 }

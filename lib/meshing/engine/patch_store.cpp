@@ -10,21 +10,16 @@
 namespace st {
 
 FacePlace::FacePlace(std::vector<PatchPlace> all) : sections(std::move(all)) {
-  SectionBegin next;
-  for (PatchPlace& p : sections) {
-    p.begin = next;
-    next = {next.inner + p.n_inner, next.triangle + p.n_triangles, next.own_uv + p.n_own_uv};
+  for (std::size_t i = 1; i < sections.size(); ++i) {
+    const PatchPlace& before = sections[i - 1];
+    sections[i].inner_begin = before.inner_begin + before.n_inner;
+    sections[i].triangle_begin = before.triangle_begin + before.n_triangles;
+    sections[i].own_uv_begin = before.own_uv_begin + before.n_own_uv;
   }
 }
 
 std::int64_t FacePlace::n_triangles() const {
-  return sections.empty() ? 0 : sections.back().begin.triangle + sections.back().n_triangles;
-}
-
-std::vector<SectionBegin> FacePlace::begins() const {
-  std::vector<SectionBegin> all;
-  for (const PatchPlace& p : sections) all.push_back(p.begin);
-  return all;
+  return sections.empty() ? 0 : sections.back().triangle_begin + sections.back().n_triangles;
 }
 
 PatchPlace PatchStore::put(PatchSection&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
@@ -33,14 +28,13 @@ PatchPlace PatchStore::put(PatchSection&& section, std::int32_t number, std::int
   place.face = section.patch.face;
   place.section = number;
   if (section.patch.triangles.empty()) return place;
-  auto stored = std::make_shared<StoredPatch>();
-  stored->blocks = PatchBlocks(edges, vertex_xyz, section.patch);
-  stored->section = std::move(section);
-  const FacePatch& p = stored->section.patch;
+  auto stored = std::make_shared<PatchSection>(std::move(section));
+  const FacePatch& p = stored->patch;
+  stored->blocks = PatchBlocks(edges, vertex_xyz, p);
   place.rank = executor_.rank();
   place.version = version;
   place.n_boundary = p.n_boundary;
-  place.n_inner = stored->section.n_own();
+  place.n_inner = stored->n_own();
   place.n_triangles = static_cast<std::int32_t>(p.triangles.size());
   place.n_own_uv = static_cast<std::int32_t>(p.uv_corner.size());
   place.box = stored->blocks.box();
@@ -49,17 +43,17 @@ PatchPlace PatchStore::put(PatchSection&& section, std::int32_t number, std::int
   return place;
 }
 
-std::shared_ptr<const StoredPatch> PatchStore::get(const PatchPlace& place) const {
+std::shared_ptr<const PatchSection> PatchStore::get(const PatchPlace& place) const {
   const std::lock_guard lock(mutex_);
   return patches_.at(key(place));
 }
 
-SectionRows PatchStore::take(const FacePlace& place, std::size_t number, std::span<const SectionBegin> begins) {
+SectionRows PatchStore::take(const FacePlace& place, std::size_t number) {
   std::unique_lock lock(mutex_);
   auto node = patches_.extract(key(place.sections[number]));
   lock.unlock();
   ST_ASSERT(!node.empty());
-  return rows_of(std::move(node.mapped()->section), begins, number, place.sections.back().n_boundary);
+  return rows_of(std::move(*node.mapped()), place.sections, number);
 }
 
 void PatchStore::keep_only(const std::vector<PatchPlace>& live) {
@@ -87,16 +81,13 @@ std::vector<FacePatch> PatchStore::bring(std::vector<FacePlace> wanted) const {
   std::iota(tasks.order.begin(), tasks.order.end(), 0);
   tasks.label = [&](std::int32_t task) { return TaskLabel{"bring", wanted[sections[task].face].sections.back().face}; };
   std::vector<std::vector<SectionRows>> rows(wanted.size());  // of sections by number
-  std::vector<std::vector<SectionBegin>> begins;
-  for (const FacePlace& place : wanted) begins.push_back(place.begins());
   for (std::size_t i = 0; i < wanted.size(); ++i) rows[i].resize(wanted[i].sections.size());
   executor_.run_named_tasks(
       tasks,
       [&](std::int32_t task) {
         const auto [face, number] = sections[task];
-        const std::vector<PatchPlace>& all = wanted[face].sections;
-        PatchSection copy = get(all[number])->section;
-        return packed(rows_of(std::move(copy), begins[face], number, all.back().n_boundary));
+        PatchSection copy = *get(wanted[face].sections[number]);
+        return packed(rows_of(std::move(copy), wanted[face].sections, number));
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, rows[sections[task].face][sections[task].number]); });
   std::vector<FacePatch> patches;

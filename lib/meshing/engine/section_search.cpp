@@ -34,18 +34,18 @@ void FoundCrossings::append(const FoundCrossings& more) {
   ended.insert(ended.end(), more.ended.begin(), more.ended.end());
 }
 
-std::shared_ptr<const StoredPatch> SectionSearch::own(std::int32_t s) const { return store_.get(sections_[s]); }
+std::shared_ptr<const PatchSection> SectionSearch::own(std::int32_t s) const { return store_.get(sections_[s]); }
 
 /// The section that has the triangle.
 std::int32_t SectionSearch::section_of(const Facet& facet) const {
   const auto after = std::upper_bound(sections_.begin(), sections_.end(), facet, [](const Facet& f, const auto& s) {
-    return std::pair<FaceId, std::int64_t>(f.face, f.index) < std::pair(s.face, s.begin.triangle);
+    return std::pair<FaceId, std::int64_t>(f.face, f.index) < std::pair(s.face, s.triangle_begin);
   });
   return static_cast<std::int32_t>(after - sections_.begin()) - 1;
 }
 
 Facet SectionSearch::facet(std::int32_t s, std::int32_t triangle) const {
-  return {sections_[s].face, static_cast<std::int32_t>(sections_[s].begin.triangle + triangle)};
+  return {sections_[s].face, static_cast<std::int32_t>(sections_[s].triangle_begin + triangle)};
 }
 
 std::int32_t SectionSearch::home(const SectionJob& job) const {
@@ -61,7 +61,7 @@ double SectionSearch::weight(const SectionJob& job) const {
 
 FoundCrossings SectionSearch::within(std::int32_t s) const {
   const auto stored = own(s);
-  const FacePatch& p = stored->section.patch;
+  const FacePatch& p = stored->patch;
   const std::vector<Vec3> xyz = node_places(numbering_.edges, numbering_.tables.vertex_xyz, p);
   const std::int32_t begin[] = {0, static_cast<std::int32_t>(p.triangles.size())}, body[] = {0};
   FoundCrossings found;
@@ -69,15 +69,15 @@ FoundCrossings SectionSearch::within(std::int32_t s) const {
   for (const TrianglePair& pair : find_crossing_patches({xyz, p.triangles, begin, body}, was_ended))
     add(facet(s, pair.a), facet(s, pair.b), pair.n_shared, found.pairs);
   if (was_ended) found.ended.push_back({p.face, p.face});
-  found.chords = find_chords(segments_, p, sections_[s].begin.triangle);
+  found.chords = find_chords(segments_, p, sections_[s].triangle_begin);
   return found;
 }
 
 /// Of `s`, at its rank: what is near `others`.
 PatchPart SectionSearch::near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const {
   const auto stored = own(s);
-  return part_of(numbering_.edges, numbering_.tables.vertex_xyz, stored->section, stored->blocks,
-                 stored->blocks.meeting(others), is_of_one_face);
+  return part_of(numbering_.edges, numbering_.tables.vertex_xyz, *stored, stored->blocks.meeting(others),
+                 is_of_one_face);
 }
 
 Bytes SectionSearch::answer(const Bytes& request) const {
@@ -131,10 +131,10 @@ FoundCrossings SectionSearch::between(const SectionJob& job, const PatchPart& ot
   if (other.triangle.empty()) return found;
   const PatchPart near_here = near(here, PatchBlocks(other.boxes), is_of_one_face(job));
   const PatchPart &a = has_a ? near_here : other, &b = has_a ? other : near_here;
-  const TwoParts both = join_parts(a, b);
+  const SurfaceMesh both = join_parts(a, b);
   const auto n_first = static_cast<std::int32_t>(a.triangle.size());
   bool was_ended = false;
-  for (const TrianglePair& pair : find_crossings_between(both.points, both.triangles, n_first, was_ended))
+  for (const TrianglePair& pair : find_crossings_between(both.node_xyz, both.triangles, n_first, was_ended))
     add(facet(job.a, a.triangle[pair.a]), facet(job.b, b.triangle[pair.b - n_first]), pair.n_shared, found.pairs);
   if (was_ended) found.ended.push_back({sections_[job.a].face, sections_[job.b].face});
   return found;
@@ -150,8 +150,8 @@ FoundCrossings SectionSearch::find(const SectionJob& job, const PatchPart& other
 FacetCorners SectionSearch::corners(const Facet& facet) const {
   const std::int32_t s = section_of(facet);
   const auto stored = own(s);
-  const FacePatch& p = stored->section.patch;
-  const auto t = static_cast<std::size_t>(facet.index - sections_[s].begin.triangle);
+  const FacePatch& p = stored->patch;
+  const auto t = static_cast<std::size_t>(facet.index - sections_[s].triangle_begin);
   const NodeId* n = p.triangles[t].n;
   FacetCorners corners{{}, std::max({n[0], n[1], n[2]}) < p.n_boundary};
   for (std::size_t k = 0; k < 3; ++k) {

@@ -80,7 +80,7 @@ class SectionSearch {
   Bytes answer(const Bytes& request) const;
 
  private:
-  std::shared_ptr<const StoredPatch> own(std::int32_t s) const;
+  std::shared_ptr<const PatchSection> own(std::int32_t s) const;
   std::int32_t section_of(const Facet& facet) const;
   Facet facet(std::int32_t s, std::int32_t triangle) const;
   std::array<std::int32_t, 2> here_and_there(const SectionJob& job) const;

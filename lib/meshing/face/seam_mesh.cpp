@@ -9,6 +9,7 @@
 #include "base/parallel_reserve.h"
 #include "base/sort_once.h"
 #include "base/threads.h"
+#include "mesh/patch_section.h"
 #include "meshing/face/face_check.h"
 
 namespace st {
@@ -367,17 +368,16 @@ FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections,
   parallel_for(sections.size(), 1, [&](std::size_t i, std::size_t) {
     const SplitMesh& s = sections[i];
     const bool is_last = i + 1 == sections.size();
-    const std::int32_t n_local = is_last ? n_boundary : size_of(s.boundary), n_own = s.rest.n_own();
+    const std::int32_t n_own = s.rest.n_own();
     const auto first = [&](std::size_t section) {
       return n_boundary + static_cast<std::int32_t>(first_inner[section]);
     };
+    std::vector<NodeId> foreign;
+    for (const InnerNode& n : s.rest.owner) foreign.push_back(first(n.section) + n.number);
+    const SectionNumbers number(is_last ? n_boundary : size_of(s.boundary), s.number, n_own, first(i),
+                                std::move(foreign));
     std::transform(s.rest.mesh.corners.begin(), s.rest.mesh.corners.end(), joined.corners.begin() + first_corner[i],
-                   [&](std::int32_t c) {
-                     if (c < n_local) return is_last ? c : s.number[c];
-                     c -= n_local;
-                     if (c < n_own) return first(i) + c;
-                     return first(s.rest.owner[c - n_own].section) + s.rest.owner[c - n_own].number;
-                   });
+                   [&](std::int32_t c) { return number(c); });
     std::copy(s.rest.mesh.inner.begin(), s.rest.mesh.inner.begin() + n_own, joined.inner.begin() + first_inner[i]);
   });
   return joined;

@@ -280,15 +280,11 @@ std::vector<BoundaryPlace> hole_places(const FaceBoundary& boundary, const HoleN
   return places;
 }
 
-HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, const FaceMesh& mesh) {
-  HoleFill fill;
-  fill.nodes = boundary.nodes;
-  fill.nodes.insert(fill.nodes.end(), mesh.inner.begin(), mesh.inner.end());
-  for (std::size_t i = 0; i < mesh.corners.size(); i += 3) {
-    const std::int32_t* c = &mesh.corners[i];
-    fill.triangles.push_back({{c[0], c[rim.is_turned ? 2 : 1], c[rim.is_turned ? 1 : 2]}});
-  }
-  return fill;
+FaceMesh make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh) {
+  mesh.inner.insert(mesh.inner.begin(), boundary.nodes.begin(), boundary.nodes.end());
+  for (std::size_t i = 0; rim.is_turned && i < mesh.corners.size(); i += 3)
+    std::swap(mesh.corners[i + 1], mesh.corners[i + 2]);
+  return mesh;
 }
 
 }  // namespace st

@@ -1,7 +1,6 @@
 // A hole's boundary in (u,v), and what fills it.
 #pragma once
 
-#include <tuple>
 #include <vector>
 
 #include "meshing/face/face_mesher.h"
@@ -39,15 +38,8 @@ FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, cons
 /// edges meet are like vertices.
 std::vector<BoundaryPlace> hole_places(const FaceBoundary& boundary, const HoleNumbering& numbering);
 
-/// A filled hole.
-struct HoleFill {
-  std::vector<FaceNode> nodes;      ///< on its boundary, by id of HoleNumbering; then new ones, with id kNone
-  std::vector<Triangle> triangles;  ///< of these nodes, oriented as the old mesh; empty: it could not be filled
-
-  static auto fields(auto& f) { return std::tie(f.nodes, f.triangles); }
-};
-
-/// `mesh`: mesh_face of `boundary`.
-HoleFill make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, const FaceMesh& mesh);
+/// What fills the hole, with the nodes of its boundary, by id of HoleNumbering, before its own, whose id is kNone: all
+/// are inner ones. Oriented as the old mesh. `mesh`: mesh_face of `boundary`.
+FaceMesh make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh);
 
 }  // namespace st

@@ -9,7 +9,7 @@ namespace {
 
 class Inserter {
  public:
-  Inserter(const HoleNumbering& numbering, const HoleMarks& marks, std::span<const std::vector<HoleFill>> fills,
+  Inserter(const HoleNumbering& numbering, const HoleMarks& marks, std::span<const std::vector<FaceMesh>> fills,
            std::span<const FaceId> left_out)
       : numbering_(numbering),
         marks_(marks),
@@ -44,12 +44,11 @@ class Inserter {
       for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
         for (NodeId n : old_.triangles[i].n)
           if (n < cad_.inner_begin[0] && is_kept(i)) welder_.use(numbering_.of_node[n]);
-      for (const HoleFill& fill : fills_[f]) {
-        n_inner += fill.nodes.size();
-        n_triangles += fill.triangles.size();
-        for (const Triangle& t : fill.triangles)
-          for (NodeId n : t.n)
-            if (const std::int32_t id = fill.nodes[n].id; id != kNone && !numbering_.is_inner(id)) welder_.use(id);
+      for (const FaceMesh& fill : fills_[f]) {
+        n_inner += fill.inner.size();
+        n_triangles += fill.corners.size() / 3;
+        for (const std::int32_t n : fill.corners)
+          if (const std::int32_t id = fill.inner[n].id; id != kNone && !numbering_.is_inner(id)) welder_.use(id);
       }
     }
     welder_.number_boundary(n_inner, n_triangles);
@@ -96,7 +95,7 @@ class Inserter {
       for (int k = 0; k < 3; ++k) mesh_.corner_uv.push_back(old_.corner_uv[3 * i + k]);
       mesh_.triangle_previous.push_back(i);
     }
-    for (const HoleFill& fill : fills_[f]) add_fill(fill, f);
+    for (const FaceMesh& fill : fills_[f]) add_fill(fill, f);
     const std::size_t n_new = mesh_.triangle_previous.size() - mesh_.triangle_face.size();
     mesh_.triangle_face.insert(mesh_.triangle_face.end(), n_new, f);
     mesh_.triangle_group.insert(mesh_.triangle_group.end(), n_new, old_.triangle_group[cad_.face_begin[f]]);
@@ -109,10 +108,9 @@ class Inserter {
     for (TriangleId i = cad_.face_begin[f]; i < cad_.face_begin[f + 1]; ++i)
       for (NodeId n : old_.triangles[i].n)
         if (n >= cad_.inner_begin[f] && !marks_.triangle[i]) inner_place_[n - cad_.inner_begin[f]] = 0;
-    for (const HoleFill& fill : fills_[f])
-      for (const Triangle& t : fill.triangles)
-        for (NodeId n : t.n)
-          if (const std::int32_t id = fill.nodes[n].id; numbering_.is_inner(id)) inner_place_[id - first_id_] = 0;
+    for (const FaceMesh& fill : fills_[f])
+      for (const std::int32_t n : fill.corners)
+        if (const std::int32_t id = fill.inner[n].id; numbering_.is_inner(id)) inner_place_[id - first_id_] = 0;
     for (NodeId n = cad_.inner_begin[f]; n < cad_.inner_begin[f + 1]; ++n)
       if (NodeId& place = inner_place_[n - cad_.inner_begin[f]]; place != kNone)
         place = add(old_.node_xyz[n], f, old_.node_size[n], n);
@@ -122,18 +120,17 @@ class Inserter {
     return numbering_.is_inner(id) ? inner_place_[id - first_id_] : welder_.boundary(id);
   }
 
-  void add_fill(const HoleFill& fill, FaceId f) {
-    std::vector<NodeId> place(fill.nodes.size(), kNone);
-    for (const Triangle& t : fill.triangles)
-      for (NodeId n : t.n) place[n] = 0;
+  void add_fill(const FaceMesh& fill, FaceId f) {
+    const std::vector<std::int32_t>& corners = fill.corners;
+    std::vector<NodeId> place(fill.inner.size(), kNone);
+    for (const std::int32_t n : corners) place[n] = 0;
     for (std::size_t i = 0; i < place.size(); ++i)
-      if (const FaceNode& n = fill.nodes[i]; place[i] != kNone)
+      if (const FaceNode& n = fill.inner[i]; place[i] != kNone)
         place[i] = n.id == kNone ? add(n.x, f, n.h, kNone) : placed(n.id);
-    for (const Triangle& t : fill.triangles) {
-      welder_.add_triangle(place[t.n[0]], place[t.n[1]], place[t.n[2]]);
-      for (NodeId n : t.n) mesh_.corner_uv.push_back(fill.nodes[n].uv);
-    }
-    mesh_.triangle_previous.resize(mesh_.triangle_previous.size() + fill.triangles.size(), kNone);
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+      welder_.add_triangle(place[corners[i]], place[corners[i + 1]], place[corners[i + 2]]);
+    for (const std::int32_t n : corners) mesh_.corner_uv.push_back(fill.inner[n].uv);
+    mesh_.triangle_previous.resize(mesh_.triangle_previous.size() + corners.size() / 3, kNone);
   }
 
   const HoleNumbering& numbering_;
@@ -141,7 +138,7 @@ class Inserter {
   const HoleMesh& cad_;
   const SurfaceMesh& old_;
   const EdgeMesh& edges_;
-  std::span<const std::vector<HoleFill>> fills_;
+  std::span<const std::vector<FaceMesh>> fills_;
   std::vector<FaceId> faces_;
   Welder welder_;
   std::vector<NodeId> inner_place_;  // in the new mesh, of the nodes inside the present face,
@@ -152,7 +149,7 @@ class Inserter {
 }  // namespace
 
 SurfaceMesh insert_fills(const HoleNumbering& numbering, const HoleMarks& marks,
-                         std::span<const std::vector<HoleFill>> fills, std::span<const FaceId> left_out) {
+                         std::span<const std::vector<FaceMesh>> fills, std::span<const FaceId> left_out) {
   return Inserter(numbering, marks, fills, left_out).run();
 }
 

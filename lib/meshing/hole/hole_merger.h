@@ -12,6 +12,6 @@ namespace st {
 /// [n_faces]: of the holes of each face; none: the face is as it was. `left_out`: faces that get no triangles,
 /// ascending. Local, linear.
 SurfaceMesh insert_fills(const HoleNumbering& numbering, const HoleMarks& marks,
-                         std::span<const std::vector<HoleFill>> fills, std::span<const FaceId> left_out = {});
+                         std::span<const std::vector<FaceMesh>> fills, std::span<const FaceId> left_out = {});
 
 }  // namespace st

@@ -78,19 +78,20 @@ std::vector<PatchSection> in_three(const FacePatch& whole) {
 TEST(PatchSection, rows_of_all_are_the_patch) {
   const FacePatch whole = whole_patch();
   std::vector<PatchSection> sections = in_three(whole);
-  std::vector<SectionBegin> begins(1);
-  for (const PatchSection& s : sections)
-    begins.push_back({begins.back().inner + s.n_own(),
-                      begins.back().triangle + static_cast<std::int64_t>(s.patch.triangles.size()),
-                      begins.back().own_uv + static_cast<std::int64_t>(s.patch.uv_corner.size())});
-  EXPECT_EQ(begins.back().inner, 2);
-  begins.pop_back();
+  std::vector<PatchPlace> places(3);
+  places[2].n_boundary = 6;
+  for (std::size_t i = 1; i < 3; ++i) {
+    const PatchSection& before = sections[i - 1];
+    places[i].inner_begin = places[i - 1].inner_begin + before.n_own();
+    places[i].triangle_begin = places[i - 1].triangle_begin + std::ssize(before.patch.triangles);
+    places[i].own_uv_begin = places[i - 1].own_uv_begin + std::ssize(before.patch.uv_corner);
+  }
+  EXPECT_EQ(places[2].inner_begin + sections[2].n_own(), 2);
   std::vector<SectionRows> rows;
-  for (std::size_t i = 0; i < 3; ++i) rows.push_back(rows_of(std::move(sections[i]), begins, i, 6));
-  EXPECT_FALSE(rows[0].has_boundary);
+  for (std::size_t i = 0; i < 3; ++i) rows.push_back(rows_of(std::move(sections[i]), places, i));
   EXPECT_TRUE(rows[0].rows.boundary_dim.empty());
-  EXPECT_TRUE(rows[2].has_boundary);
-  EXPECT_EQ(rows[2].begin.own_uv, begins[2].own_uv);
+  EXPECT_EQ(rows[2].rows.boundary_dim.size(), 6u);
+  EXPECT_EQ(rows[2].place.own_uv_begin, places[2].own_uv_begin);
   EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole));
 }
 
@@ -98,9 +99,9 @@ TEST(PatchSection, alone_is_the_patch) {
   const FacePatch whole = whole_patch();
   PatchSection section;
   section.patch = whole;
-  const SectionBegin begins[] = {{}};
+  const PatchPlace places[1] = {};
   std::vector<SectionRows> rows;
-  rows.push_back(rows_of(std::move(section), begins, 0, 6));
+  rows.push_back(rows_of(std::move(section), places, 0));
   EXPECT_EQ(packed(rows[0].rows), packed(whole));
   EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole));
 }
@@ -120,21 +121,21 @@ TEST(PatchSection, keys_of_inner_nodes_differ_from_each_other_and_from_those_on_
 }
 
 TEST(PatchSection, parts_of_one_face_have_common_nodes_where_they_share_them_and_those_of_two_faces_do_not) {
-  const std::vector<PatchSection> all = in_three(whole_patch());
-  const PatchSection &one = all[0], &other = all[2];
+  std::vector<PatchSection> all = in_three(whole_patch());
+  PatchSection &one = all[0], &other = all[2];
   const std::vector<Vec3> vertices = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0},
                                       {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0},
                                       {3, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 1, 0}};
   const EdgeMesh edges = EdgeMesh::of_edges(0);
-  const PatchBlocks a(edges, vertices, one.patch), b(edges, vertices, other.patch);
+  for (PatchSection* s : {&one, &other}) s->blocks = PatchBlocks(edges, vertices, s->patch);
   for (const bool is_of_one_face : {true, false}) {
-    const PatchPart of_a = part_of(edges, vertices, one, a, a.meeting(b), is_of_one_face),
-                    of_b = part_of(edges, vertices, other, b, b.meeting(a), is_of_one_face);
-    const TwoParts both = join_parts(of_a, of_b);
+    const PatchPart of_a = part_of(edges, vertices, one, one.blocks.meeting(other.blocks), is_of_one_face),
+                    of_b = part_of(edges, vertices, other, other.blocks.meeting(one.blocks), is_of_one_face);
+    const SurfaceMesh both = join_parts(of_a, of_b);
     ASSERT_EQ(both.triangles.size(), 6u);
     std::map<std::array<double, 2>, std::set<NodeId>> at;
     for (const Triangle& t : both.triangles)
-      for (const NodeId n : t.n) at[{both.points[n].x, both.points[n].y}].insert(n);
+      for (const NodeId n : t.n) at[{both.node_xyz[n].x, both.node_xyz[n].y}].insert(n);
     EXPECT_EQ((at[{2, 0}].size()), 1u) << "on the boundary";
     EXPECT_EQ((at[{1, 1}].size()), is_of_one_face ? 1u : 5u) << "inside";
   }

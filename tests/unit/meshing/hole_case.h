@@ -22,7 +22,7 @@ struct Refilled {
   HoleNumbering numbering;
   std::vector<std::vector<HoleRim>> rims;         ///< [n_faces]
   std::vector<std::vector<FaceBoundary>> bounds;  ///< [n_faces] of the rims
-  std::vector<std::vector<HoleFill>> fills;       ///< [n_faces]
+  std::vector<std::vector<FaceMesh>> fills;       ///< [n_faces]
 
   /// Lengths are the field's where they are below the solid's.
   Refilled(const ShapeMesh& s, const SizeField& f, const HoleMarkOptions& options = {})

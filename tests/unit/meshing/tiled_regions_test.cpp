@@ -57,8 +57,8 @@ TEST(TiledFaces, stay_in_sections_whose_rows_are_the_patch) {
     std::vector<SectionRows>& rows = by_face[static_cast<FaceId>(f)];
     EXPECT_EQ(apart.places[f].n_triangles(), static_cast<std::int64_t>(whole.patches[f].triangles.size()));
     for (std::size_t i = 1; i < rows.size(); ++i)
-      EXPECT_EQ(rows[i].begin.triangle,
-                rows[i - 1].begin.triangle + static_cast<std::int64_t>(rows[i - 1].rows.triangles.size()));
+      EXPECT_EQ(rows[i].place.triangle_begin,
+                rows[i - 1].place.triangle_begin + static_cast<std::int64_t>(rows[i - 1].rows.triangles.size()));
     EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole.patches[f])) << f;
   }
 }
