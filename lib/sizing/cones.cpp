@@ -24,6 +24,9 @@ namespace {
 constexpr ConeShares kSpreadShares{0.99F, 0.99F};
 // In the cell of the sample itself.
 constexpr ConeShares kOwnShares{0.997F, 0.99F};
+constexpr std::size_t kSitesPerPiece = 2'048;
+constexpr std::size_t kAhead = 8;           // events or offers
+constexpr std::size_t kSharedEvents = 512;  // fewer are not worth waking threads for
 
 class ConeSpread {
   using Site = ConeSite;
@@ -102,10 +105,6 @@ class ConeSpread {
   }
 
  private:
-  static constexpr std::size_t kSitesPerPiece = 2'048;
-  static constexpr std::size_t kAhead = 8;           // events or offers
-  static constexpr std::size_t kSharedEvents = 512;  // fewer are not worth waking threads for
-
   void make_parts() {
     constexpr std::size_t kPartsPerThread = 8, kLeastSites = 256;
     const std::size_t n_wanted = kPartsPerThread * static_cast<std::size_t>(thread_count());

@@ -37,7 +37,6 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
     : MeshRounds(field, kFacePolicy, executor, result),
       model_(model),
       topology_(topology),
-      tables_(topology.tables()),
       plan_(std::move(plan)),
       options_(options),
       dirty_edges_(plan_.edges),
@@ -45,8 +44,8 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
       edge_mesher_(model, topology, field, options, executor),
       faces_(model, topology, executor, options.parts_bodies, result.edges),
       paired_(model, topology, executor, options.pairs, faces_),
-      hopeless_(tables_.n_faces()) {
-  if (static_cast<FaceId>(plan_.face_weight.size()) == tables_.n_faces())
+      hopeless_(topology.tables().n_faces()) {
+  if (static_cast<FaceId>(plan_.face_weight.size()) == tables().n_faces())
     for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
   if (expected_.empty()) options_.tile_triangles = 0;  // nothing tells what is heavy
   result.edges = std::move(plan_.kept_edges);
@@ -73,11 +72,11 @@ void FaceRounds::report(PatchesGo patches) {
   const auto mesh_again = [&](const std::vector<Refinement>& changed, const char* why) {
     return mesh_changed(changed, why);
   };
-  RefinementTrials trials(tables_, executor_, hopeless_, faces_, refinements_, mesh_again);
+  RefinementTrials trials(tables(), executor_, hopeless_, faces_, refinements_, mesh_again);
   trials.take_back();
   if (!is_restored_) {
     trials.loosen();
-    StretchEasing(tables_, field_, executor_, faces_, refinements_, options_.find_unheld, mesh_again).run();
+    StretchEasing(tables(), field_, executor_, faces_, refinements_, options_.find_unheld, mesh_again).run();
   }
   refill_bad(faces_, executor_);
   part_touching(faces_, executor_);
@@ -88,7 +87,7 @@ void FaceRounds::report(PatchesGo patches) {
 /// Collective.
 void FaceRounds::mesh_dirty_faces() {
   ++version_;
-  wanted_.assign(tables_.n_faces(), {});
+  wanted_.assign(tables().n_faces(), {});
   std::map<FaceId, FaceReport> parted;
   RegionTasks({.cut = "cut",
                .whole = "face",
@@ -105,7 +104,7 @@ void FaceRounds::mesh_dirty_faces() {
                .restore = [&](Bytes&& whole) { return restore_whole(std::move(whole)); }},
               TiledRegions(model_, faces_as_regions(), field_, refinements_, options_.of_face(),
                            time_limit(options_.tile_triangles)),
-              made_from(), expected_.empty() ? tables_.face_area : expected_, options_, executor_)
+              made_from(), expected_.empty() ? tables().face_area : expected_, options_, executor_)
       .run(paired_.meshed_of(dirty_faces_));
   for (const FaceId f : paired_.make_images(dirty_faces_)) hopeless_.add_meshed(f, faces_.place(f).n_triangles());
 }
@@ -115,7 +114,7 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   mesh_dirty_faces();
   give_up(false);
   std::vector<RefinementPoint> all;
-  for (FaceId f = 0; f < tables_.n_faces(); ++f)
+  for (FaceId f = 0; f < tables().n_faces(); ++f)
     if (!hopeless_.contains(f) || faces_.outcome(f).cause != FailureCause::kNone)
       all.insert(all.end(), wanted_[f].begin(), wanted_[f].end());
   return paired_.with_images(std::move(all));
@@ -124,9 +123,9 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
 /// Local, on rank 0. Faces that refining did not help, by their folds or also by their crossings of the last search:
 /// says so, once for each.
 void FaceRounds::give_up(bool by_crossings) {
-  std::vector<std::int64_t> n_crossing(tables_.n_faces(), 0);
+  std::vector<std::int64_t> n_crossing(tables().n_faces(), 0);
   if (by_crossings) n_crossing = faces_.crossings().n_pairs_within();
-  for (FaceId f = 0; f < tables_.n_faces(); ++f) {
+  for (FaceId f = 0; f < tables().n_faces(); ++f) {
     const std::int64_t n_bad = faces_.outcome(f).n_folds + n_crossing[f];
     if (!(by_crossings ? hopeless_.gives_up_crossing(f, n_bad) : hopeless_.gives_up_folded(f, n_bad))) continue;
     faces_.crossings().give_up(f);
@@ -134,7 +133,7 @@ void FaceRounds::give_up(bool by_crossings) {
     log_warning(
         fmt::format("{}: its triangles fold or cross each other {} times, and smaller ones no less: refining there was "
                     "ended; its surface is damaged or crosses itself, so repair it in the CAD system",
-                    tables_.face_label(f), n_bad));
+                    tables().face_label(f), n_bad));
   }
 }
 
@@ -232,7 +231,7 @@ std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<Fac
       tasks,
       [&](std::int32_t task) {
         const auto [f, index] = tiled.section(sections[task]);
-        PatchSection section = make_section(tables_, f, index, tiled.take(sections[task]), faces_.numbering());
+        PatchSection section = make_section(tables(), f, index, tiled.take(sections[task]), faces_.numbering());
         const char is_sound = has_numbers_only(section.patch);
         if (!is_sound) return packed(is_sound, PatchPlace());
         return packed(is_sound, faces_.keep(std::move(section), index, version_));
@@ -271,11 +270,11 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
       throw Error(ExitCode::kInternal, it->second);
     const auto surface = model_.surface(f);
     boundary = make_face_boundary(model_, *surface, f, faces_.numbering());
-    const FaceField field(field_, refinements_, tables_.face_box[f]);
+    const FaceField field(field_, refinements_, tables().face_box[f]);
     mesh = make_mesh(*surface, boundary, field.get());
     repair_folds(*surface, boundary, field.get(), options_.of_face(), mesh);
     if (mesh.cause == FailureCause::kNone)
-      result.section.patch = make_patch(tables_, f, boundary, mesh, faces_.numbering());
+      result.section.patch = make_patch(tables(), f, boundary, mesh, faces_.numbering());
     if (!has_numbers_only(result.section.patch)) {
       result.section.patch = FacePatch();
       result.section.patch.face = f;
@@ -300,7 +299,7 @@ void FaceRounds::take_face(FaceId f, FaceReport&& report, FacePlace&& place) {
   hopeless_.add_meshed(f, place.n_triangles());
   FaceOutcome o{.cause = report.cause,
                 .error = std::move(report.error),
-                .cause_xyz = report.wanted.empty() ? tables_.face_box[f].center() : report.wanted[0].x,
+                .cause_xyz = report.wanted.empty() ? tables().face_box[f].center() : report.wanted[0].x,
                 .n_folds = report.n_folds,
                 .failed = std::move(report.failed)};
   if (report.n_folds > 0) o.fold_places = report.wanted;
@@ -327,16 +326,16 @@ void FaceRounds::join() {
 
 /// Local, on rank 0. What cannot be closed either stays a hole.
 void FaceRounds::close_holes() {
-  for (FaceId f = 0; f < tables_.n_faces(); ++f) try {
+  for (FaceId f = 0; f < tables().n_faces(); ++f) try {
       if (faces_.outcome(f).is_hole() && !options_.left_out.contains(f)) close_hole(f);
     } catch (const Error& e) {
-      log_info(fmt::format("{} is not closed either: {}", tables_.face_label(f), e.what()));
+      log_info(fmt::format("{} is not closed either: {}", tables().face_label(f), e.what()));
     }
 }
 
 void FaceRounds::close_hole(FaceId f) {
   const CurrentWork at_face("face", f + 1, time_limit(expected_.empty() ? 0 : expected_[f]));
-  const FaceField field(field_, refinements_, tables_.face_box[f]);
+  const FaceField field(field_, refinements_, tables().face_box[f]);
   std::unique_ptr<Surface> surface;
   FaceBoundary boundary;
   try {
@@ -346,9 +345,9 @@ void FaceRounds::close_hole(FaceId f) {
     surface.reset();
     boundary = make_boundary_in_space(f, faces_.numbering());
   }
-  const ClosedFace closed = close_loops(surface.get(), boundary, field.get(), kNearEnough * cad_tolerance(tables_, f));
+  const ClosedFace closed = close_loops(surface.get(), boundary, field.get(), kNearEnough * cad_tolerance(tables(), f));
   if (closed.mesh.cause != FailureCause::kNone) return;
-  FacePatch patch = make_patch(tables_, f, boundary, closed.mesh, faces_.numbering());
+  FacePatch patch = make_patch(tables(), f, boundary, closed.mesh, faces_.numbering());
   if (!has_numbers_only(patch)) return;
   faces_.close(f, std::move(patch), closed.is_near, closed.deviation);
 }

@@ -37,6 +37,7 @@ class FaceRounds : public MeshRounds {
     std::map<FaceId, std::pair<FacePlace, FaceOutcome>> faces;
   };
 
+  const ModelTables& tables() const { return topology_.tables(); }
   void mesh_edges() override;
   std::vector<RefinementPoint> mesh_regions() override;
   void join() override;
@@ -87,7 +88,6 @@ class FaceRounds : public MeshRounds {
 
   const Model& model_;
   const MeshTopology& topology_;
-  const ModelTables& tables_;  // of topology_
   MeshPlan plan_;
   MeshOptions options_;
   std::vector<double> expected_;     // [n_faces] triangles, by the weights of the plan; empty: it has none

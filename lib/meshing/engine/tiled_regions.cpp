@@ -42,23 +42,25 @@ void TiledRegions::share_cuts(const Executor& executor) {
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     if (chosen_cuts_[i].tiles.empty()) continue;
     const std::int32_t region = chosen_[i];
-    const TileCut& cut = cuts_.emplace(region, std::move(chosen_cuts_[i])).first->second;
-    const TileGroups& groups = groups_.emplace(region, TileGroups(cut)).first->second;
-    meshes_[region].resize(static_cast<std::size_t>(groups.n_tiles() + groups.n_groups()));
-    first_[region].tile = static_cast<std::int32_t>(sections_.size());
-    for (std::int32_t t = 0; t < groups.n_tiles(); ++t) sections_.push_back({region, t});
+    TileGroups groups(chosen_cuts_[i]);
+    const std::int32_t n_tiles = groups.n_tiles();
+    std::vector<SplitMesh> meshes(static_cast<std::size_t>(n_tiles + groups.n_groups()));
+    regions_cut_.emplace(region, RegionCut{std::move(chosen_cuts_[i]), std::move(groups), std::move(meshes),
+                                           static_cast<std::int32_t>(sections_.size())});
+    for (std::int32_t t = 0; t < n_tiles; ++t) sections_.push_back({region, t});
   }
   n_tiles_ = static_cast<std::int32_t>(sections_.size());
-  for (const auto& [region, groups] : groups_) {
-    first_[region].group = static_cast<std::int32_t>(sections_.size());
-    for (std::int32_t g = 0; g < groups.n_groups(); ++g) sections_.push_back({region, groups.n_tiles() + g});
+  for (auto& [region, parts] : regions_cut_) {
+    parts.first_group = static_cast<std::int32_t>(sections_.size());
+    for (std::int32_t g = 0; g < parts.groups.n_groups(); ++g)
+      sections_.push_back({region, parts.groups.n_tiles() + g});
   }
   rank_of_.assign(sections_.size(), 0);
 }
 
 std::vector<std::int32_t> TiledRegions::cut_regions() const {
   std::vector<std::int32_t> regions;
-  for (const auto& [region, cut] : cuts_) regions.push_back(region);
+  for (const auto& [region, parts] : regions_cut_) regions.push_back(region);
   return regions;
 }
 
@@ -66,8 +68,8 @@ Bytes TiledRegions::compute(std::int32_t tile, int rank) {
   const auto [region, index] = sections_[tile];
   const FaceId f = regions_.face(region);
   const CurrentWork at_face("face", f + 1, limit_);
-  const TileCut& cut = cuts_.at(region);
-  SplitMesh& split = meshes_.at(region)[index];
+  const TileCut& cut = regions_cut_.at(region).cut;
+  SplitMesh& split = mesh_of(sections_[tile]);
   try {
     const auto surface = model_.surface(f);
     const FaceBoundary whole = regions_.boundary(region, *surface);
@@ -80,7 +82,7 @@ Bytes TiledRegions::compute(std::int32_t tile, int rank) {
 }
 
 Bytes TiledRegions::restore(std::int32_t section, const Bytes& bytes) {
-  unpack(bytes, meshes_.at(sections_[section].region)[sections_[section].index]);
+  unpack(bytes, mesh_of(sections_[section]));
   return packed(std::int32_t{0});
 }
 
@@ -90,7 +92,7 @@ void TiledRegions::mesh_groups(const Executor& executor, const std::string& made
   if (n_groups == 0) return;
   std::vector<double> work;
   for (std::int32_t s = n_tiles_; s < n_sections(); ++s)
-    work.push_back(static_cast<double>(cuts_.at(sections_[s].region).nodes.size()));
+    work.push_back(static_cast<double>(regions_cut_.at(sections_[s].region).cut.nodes.size()));
   const auto label = [&](std::int32_t task) {
     const Section& s = sections_[n_tiles_ + task];
     return TaskLabel{"group", regions_.face(s.region), task};  // a face may have several regions
@@ -113,9 +115,9 @@ void TiledRegions::mesh_groups(const Executor& executor, const std::string& made
 void TiledRegions::mesh_group(std::int32_t section, const Executor& executor) {
   const auto [region, index] = sections_[section];
   const FaceId f = regions_.face(region);
-  const TileCut& cut = cuts_.at(region);
-  const TileGroups& groups = groups_.at(region);
-  SplitMesh& split = meshes_.at(region)[index];
+  const TileCut& cut = regions_cut_.at(region).cut;
+  const TileGroups& groups = regions_cut_.at(region).groups;
+  SplitMesh& split = mesh_of(sections_[section]);
   const std::int32_t group = index - groups.n_tiles();
   std::vector<Piece> bands = gather<Piece>(region, groups.members(group), executor);
   const CurrentWork at_face("face", f + 1, limit_);
@@ -143,7 +145,7 @@ struct SectionRequest {
 /// Moves the band out of the section, or all of it.
 template <class Part>
 Part TiledRegions::take_part(const Section& section) {
-  SplitMesh& mesh = meshes_.at(section.region)[section.index];
+  SplitMesh& mesh = mesh_of(section);
   Piece band = std::exchange(mesh.band, {});
   if constexpr (std::is_same_v<Part, Piece>)
     return band;
@@ -182,9 +184,9 @@ std::vector<Part> TiledRegions::gather(std::int32_t region, const std::array<std
 }
 
 std::int32_t TiledRegions::number_of(std::int32_t region, std::int32_t index) const {
-  const First& first = first_.at(region);
-  const std::int32_t n_tiles = groups_.at(region).n_tiles();
-  return index < n_tiles ? first.tile + index : first.group + index - n_tiles;
+  const RegionCut& parts = regions_cut_.at(region);
+  const std::int32_t n_tiles = parts.groups.n_tiles();
+  return index < n_tiles ? parts.first_tile + index : parts.first_group + index - n_tiles;
 }
 
 Bytes TiledRegions::answer(const Bytes& request) {
@@ -199,9 +201,10 @@ Piece TiledRegions::seams(const Surface& surface, std::int32_t region, const Fac
                           const Executor& executor) {
   const FaceId f = regions_.face(region);
   const SurfaceMaker make_surface = [&] { return model_.surface(f); };
-  const TileGroups& groups = groups_.at(region);
+  const RegionCut& parts = regions_cut_.at(region);
+  const TileGroups& groups = parts.groups;
   const FaceField field = field_of(f);
-  return SeamMaker{surface, make_surface, boundary, cuts_.at(region), groups, field.get(), options_}.of_face(
+  return SeamMaker{surface, make_surface, boundary, parts.cut, groups, field.get(), options_}.of_face(
       gather<Piece>(region, groups.members_of_face(), executor));
 }
 

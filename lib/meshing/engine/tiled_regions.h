@@ -66,13 +66,13 @@ class TiledRegions {
   /// Collective, when all were taken: every rank has the tiles. Where a region could not be cut it stays whole.
   void share_cuts(const Executor& executor);
 
-  bool is_cut(std::int32_t region) const { return cuts_.contains(region); }
+  bool is_cut(std::int32_t region) const { return regions_cut_.contains(region); }
   /// Those that are, ascending.
   std::vector<std::int32_t> cut_regions() const;
   std::int32_t n_tiles() const { return n_tiles_; }
   /// Expected triangles.
   double weight(std::int32_t tile) const {
-    return cuts_.at(sections_[tile].region).tiles[sections_[tile].index].weight;
+    return regions_cut_.at(sections_[tile].region).cut.tiles[sections_[tile].index].weight;
   }
 
   FaceId face(std::int32_t region) const { return regions_.face(region); }
@@ -90,13 +90,15 @@ class TiledRegions {
   /// The tiles of all regions, then the groups.
   std::int32_t n_sections() const { return static_cast<std::int32_t>(sections_.size()); }
   const Section& section(std::int32_t section) const { return sections_[section]; }
-  std::int32_t n_sections_of(std::int32_t region) const { return static_cast<std::int32_t>(meshes_.at(region).size()); }
+  std::int32_t n_sections_of(std::int32_t region) const {
+    return static_cast<std::int32_t>(regions_cut_.at(region).meshes.size());
+  }
   /// Local: the mesh of one tile, which stays on this rank: returns where that is, for take_place() on rank 0.
   Bytes compute(std::int32_t tile, int rank);
   void take_place(std::int32_t section, const Bytes& bytes) { unpack(bytes, rank_of_[section]); }
   /// Local, on its rank: the mesh. Likewise what of an earlier run comes to rank 0; returns as compute() does.
   Bytes record(std::int32_t section) const {
-    return packed(meshes_.at(sections_[section].region)[sections_[section].index]);
+    return packed(regions_cut_.at(sections_[section].region).meshes[sections_[section].index]);
   }
   Bytes restore(std::int32_t section, const Bytes& bytes);
   /// Collective, when all tiles were taken: the seams within groups. `made_from`: as for NamedTasks.
@@ -113,13 +115,16 @@ class TiledRegions {
   /// Local, on its rank: what is left of it without the band.
   SplitMesh take(std::int32_t section);
   /// Local: nothing is wanted of them any more.
-  void drop_sections() { meshes_.clear(); }
+  void drop_sections() {
+    for (auto& [region, parts] : regions_cut_) parts.meshes.clear();
+  }
 
  private:
   template <class Part>
   std::vector<Part> gather(std::int32_t region, const std::array<std::int32_t, 2>& members, const Executor& executor);
   template <class Part>
   Part take_part(const Section& section);
+  SplitMesh& mesh_of(const Section& s) { return regions_cut_.at(s.region).meshes[s.index]; }
   std::int32_t number_of(std::int32_t region, std::int32_t index) const;
   void mesh_group(std::int32_t section, const Executor& executor);
   TileCut cut_of(std::int32_t region) const;
@@ -134,16 +139,16 @@ class TiledRegions {
   double tile_triangles_ = 0;
   std::vector<std::int32_t> chosen_;
   std::vector<TileCut> chosen_cuts_;  // on rank 0; without tiles: could not be cut
-  std::map<std::int32_t, TileCut> cuts_;
-  std::map<std::int32_t, TileGroups> groups_;  // by region
   std::vector<Section> sections_;
   std::int32_t n_tiles_ = 0;
   std::vector<std::int32_t> rank_of_;  // [n_sections] where its mesh is
-  struct First {
-    std::int32_t tile, group;
+  struct RegionCut {
+    TileCut cut;
+    TileGroups groups;
+    std::vector<SplitMesh> meshes;                 // of its sections: those that are here
+    std::int32_t first_tile = 0, first_group = 0;  // numbers of its sections among all
   };
-  std::map<std::int32_t, First> first_;                    // by region: numbers of its sections among all
-  std::map<std::int32_t, std::vector<SplitMesh>> meshes_;  // by region, of its sections: those that are here
+  std::map<std::int32_t, RegionCut> regions_cut_;
 };
 
 }  // namespace st

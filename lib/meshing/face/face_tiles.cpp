@@ -24,74 +24,48 @@ constexpr int kProbes = 16;  // along u and v: where sizes are asked whether the
 
 using Corners = std::pair<std::int32_t, std::int32_t>;
 
-class TileCutter {
+/// The triangles of a coarse mesh in parts of about equal weight.
+class CoarseParts {
  public:
-  TileCutter(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
-             std::span<const BoundaryPlace> places, const SizeField& field, double tile_triangles)
-      : surface_(surface),
-        make_surface_(make_surface),
-        boundary_(boundary),
-        field_(field),
-        tile_triangles_(tile_triangles),
-        n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())),
-        coarse_(surface, boundary, places, field) {}
-
-  TileCut run() {
-    if (is_stretched()) return {};  // rows would end at cuts
-    const auto widest = static_cast<unsigned>(std::max(1.0, std::sqrt(tile_triangles_ / kCoarsePerTile)));
-    for (unsigned step = std::bit_floor(widest); step >= 1; step /= 2)
-      if (coarse_.make(static_cast<std::int32_t>(step))) return cut();
-    return {};
-  }
-
- private:
-  /// At a node of the loops or a place inside.
-  bool is_stretched() const {
-    if (!field_.is_stretched()) return false;
-    if (field_.has_metrics()) return true;  // cuts do not know their plane
-    int hint = 0;
-    const auto is_long_at = [&](Vec3 x) {
-      const LocalSize size = field_.local(x, hint);
-      return size.along > size.length;
-    };
-    if (std::any_of(boundary_.nodes.begin(), boundary_.nodes.end(), [&](const FaceNode& n) { return is_long_at(n.x); }))
-      return true;
-    const double u_step = (surface_.u_max() - surface_.u_min()) / kProbes, v0 = surface_.v_min();
-    const double v_step = (surface_.v_max() - v0) / kProbes;
-    for (int i = 0; i < kProbes; ++i)
-      for (int k = 0; k < kProbes; ++k)
-        if (is_long_at(surface_.point({surface_.u_min() + (i + 0.5) * u_step, v0 + (k + 0.5) * v_step}))) return true;
-    return false;
-  }
-
-  TileCut cut() {
-    find_sides();
-    weigh();
-    part_.assign(static_cast<std::size_t>(coarse_.n_triangles()), 0);
-    std::vector<std::int32_t> all(part_.size());
-    std::iota(all.begin(), all.end(), 0);
-    const double total = std::accumulate(weight_.begin(), weight_.end(), 0.0);
-    n_parts_ = static_cast<std::int32_t>(std::ceil(total / tile_triangles_));
-    if (n_parts_ < 2) return {};
-    bisect(all, 0, n_parts_);
-    join_poles();
-    join_spikes();
-    result_.tiles.resize(static_cast<std::size_t>(n_parts_));
-    for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t) result_.tiles[part_[t]].weight += weight_[t];
-    if (!add_boundary()) return {};
-    add_cuts();
-    std::erase_if(result_.tiles, [](const Tile& tile) { return tile.segments.empty(); });
-    return std::move(result_);
-  }
-
   /// A side of a coarse triangle, from corner a to corner b.
   struct Side {
     std::int32_t a, b, triangle;
     auto operator<=>(const Side&) const = default;
   };
 
+  /// As many parts as tiles of so many triangles take. The references outlive it.
+  CoarseParts(const CoarseFace& coarse, const SizeField& field, double tile_triangles) : coarse_(coarse) {
+    find_sides();
+    weigh(field);
+    part_.assign(static_cast<std::size_t>(coarse_.n_triangles()), 0);
+    std::vector<std::int32_t> all(part_.size());
+    std::iota(all.begin(), all.end(), 0);
+    const double total = std::accumulate(weight_.begin(), weight_.end(), 0.0);
+    n_parts_ = static_cast<std::int32_t>(std::ceil(total / tile_triangles));
+    if (n_parts_ < 2) return;
+    bisect(all, 0, n_parts_);
+    join_poles();
+    join_spikes();
+  }
+
+  std::int32_t n_parts() const { return n_parts_; }
+  std::int32_t part(std::int32_t triangle) const { return part_[triangle]; }
+  /// kNone: there is no such pole.
+  std::int32_t part_of_pole(std::int32_t id) const {
+    const auto it = part_of_pole_.find(id);
+    return it == part_of_pole_.end() ? kNone : it->second;
+  }
+  /// Triangles that are expected in a coarse one.
+  double weight(std::int32_t triangle) const { return weight_[triangle]; }
+  const std::vector<Side>& sides() const { return sides_; }
+  /// The triangle that has the side from a to b.
+  std::int32_t left_of(std::int32_t a, std::int32_t b) const {
+    const auto it = std::lower_bound(sides_.begin(), sides_.end(), Side{a, b, 0});
+    return it == sides_.end() || it->a != a || it->b != b ? kNone : it->triangle;
+  }
+
+ private:
   void find_sides() {
-    sides_.clear();
     for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t)
       for (int k = 0; k < 3; ++k) sides_.push_back({coarse_.corner(t, k), coarse_.corner(t, (k + 1) % 3), t});
     std::sort(sides_.begin(), sides_.end());
@@ -100,20 +74,13 @@ class TileCutter {
       for (int k = 0; k < 3; ++k) beyond_[3 * t + k] = left_of(coarse_.corner(t, (k + 1) % 3), coarse_.corner(t, k));
   }
 
-  /// The triangle that has the side from a to b.
-  std::int32_t left_of(std::int32_t a, std::int32_t b) const {
-    const auto it = std::lower_bound(sides_.begin(), sides_.end(), Side{a, b, 0});
-    return it == sides_.end() || it->a != a || it->b != b ? kNone : it->triangle;
-  }
-
-  void weigh() {
-    weight_.clear();
-    middle_.clear();
+  void weigh(const SizeField& field) {
+    int hint = 0;
     for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t) {
       const FaceNode &a = coarse_.node(coarse_.corner(t, 0)), &b = coarse_.node(coarse_.corner(t, 1)),
                      &c = coarse_.node(coarse_.corner(t, 2));
       middle_.push_back((a.x + b.x + c.x) / 3);
-      const double h = field_.size(middle_.back(), hint_);
+      const double h = field.size(middle_.back(), hint);
       weight_.push_back(kTrianglesPerWeight * 0.5 * norm(cross(b.x - a.x, c.x - a.x)) / (h * h));
     }
   }
@@ -176,6 +143,67 @@ class TileCutter {
       }
   }
 
+  const CoarseFace& coarse_;
+  std::vector<Side> sides_;           // sorted
+  std::vector<std::int32_t> beyond_;  // [3*n_coarse] triangle across each side, kNone: none
+  std::vector<double> weight_;        // of the coarse triangles: triangles expected in each
+  std::vector<Vec3> middle_;
+  std::vector<std::int32_t> part_;
+  std::int32_t n_parts_ = 0;
+  std::map<std::int32_t, std::int32_t> part_of_pole_;  // by id
+};
+
+class TileCutter {
+ public:
+  TileCutter(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,
+             std::span<const BoundaryPlace> places, const SizeField& field, double tile_triangles)
+      : surface_(surface),
+        make_surface_(make_surface),
+        boundary_(boundary),
+        field_(field),
+        tile_triangles_(tile_triangles),
+        n_boundary_(static_cast<std::int32_t>(boundary.nodes.size())),
+        coarse_(surface, boundary, places, field) {}
+
+  TileCut run() {
+    if (is_stretched()) return {};  // rows would end at cuts
+    const auto widest = static_cast<unsigned>(std::max(1.0, std::sqrt(tile_triangles_ / kCoarsePerTile)));
+    for (unsigned step = std::bit_floor(widest); step >= 1; step /= 2)
+      if (coarse_.make(static_cast<std::int32_t>(step))) return cut();
+    return {};
+  }
+
+ private:
+  /// At a node of the loops or a place inside.
+  bool is_stretched() const {
+    if (!field_.is_stretched()) return false;
+    if (field_.has_metrics()) return true;  // cuts do not know their plane
+    int hint = 0;
+    const auto is_long_at = [&](Vec3 x) {
+      const LocalSize size = field_.local(x, hint);
+      return size.along > size.length;
+    };
+    if (std::any_of(boundary_.nodes.begin(), boundary_.nodes.end(), [&](const FaceNode& n) { return is_long_at(n.x); }))
+      return true;
+    const double u_step = (surface_.u_max() - surface_.u_min()) / kProbes, v0 = surface_.v_min();
+    const double v_step = (surface_.v_max() - v0) / kProbes;
+    for (int i = 0; i < kProbes; ++i)
+      for (int k = 0; k < kProbes; ++k)
+        if (is_long_at(surface_.point({surface_.u_min() + (i + 0.5) * u_step, v0 + (k + 0.5) * v_step}))) return true;
+    return false;
+  }
+
+  TileCut cut() {
+    const CoarseParts parts(coarse_, field_, tile_triangles_);
+    if (parts.n_parts() < 2) return {};
+    result_.tiles.resize(static_cast<std::size_t>(parts.n_parts()));
+    for (std::int32_t t = 0; t < coarse_.n_triangles(); ++t) result_.tiles[parts.part(t)].weight += parts.weight(t);
+    if (!add_boundary(parts)) return {};
+    add_cuts(parts);
+    std::erase_if(result_.tiles, [](const Tile& tile) { return tile.segments.empty(); });
+    return std::move(result_);
+  }
+
   /// The corner that stands for a coarse boundary node in the triangles: itself, or its twin nearby.
   std::int32_t standing_for(std::int32_t c, const std::vector<std::uint8_t>& is_used) const {
     if (is_used[c]) return c;
@@ -190,7 +218,7 @@ class TileCutter {
   }
 
   /// Each coarse segment of the loops, as the segments of the face, to the tile on its left. False: a segment has none.
-  bool add_boundary() {
+  bool add_boundary(const CoarseParts& parts) {
     std::vector<std::uint8_t> is_used(coarse_.n_on_boundary(), 0);
     for (const std::int32_t c : coarse_.corners())
       if (c < coarse_.n_on_boundary()) is_used[c] = 1;
@@ -199,10 +227,9 @@ class TileCutter {
       const std::int32_t from = standing_for(a, is_used), to = standing_for(b, is_used);
       std::int32_t part = kNone;
       if (coarse_.node(a).is_pole && coarse_.node(a).id == coarse_.node(b).id) {
-        const auto it = part_of_pole_.find(coarse_.node(a).id);
-        if (it != part_of_pole_.end()) part = it->second;
-      } else if (from != kNone && to != kNone && left_of(from, to) != kNone) {
-        part = part_[left_of(from, to)];
+        part = parts.part_of_pole(coarse_.node(a).id);
+      } else if (from != kNone && to != kNone && parts.left_of(from, to) != kNone) {
+        part = parts.part(parts.left_of(from, to));
         is_boundary_.insert({from, to});
       }
       if (part == kNone) return false;
@@ -214,14 +241,14 @@ class TileCutter {
   }
 
   /// Edges of the coarse mesh between two parts, cut into segments, to the tiles on both sides.
-  void add_cuts() {
+  void add_cuts(const CoarseParts& parts) {
     constexpr std::size_t kPerPiece = 128;
-    std::vector<Side> cuts;
-    for (const Side& side : sides_) {
+    std::vector<CoarseParts::Side> cuts;
+    for (const CoarseParts::Side& side : parts.sides()) {
       const auto& [a, b, t] = side;
       if (a > b) continue;
-      const std::int32_t o = left_of(b, a);
-      if (o != kNone && part_[t] != part_[o] && !is_boundary_.contains({a, b})) cuts.push_back(side);
+      const std::int32_t o = parts.left_of(b, a);
+      if (o != kNone && parts.part(t) != parts.part(o) && !is_boundary_.contains({a, b})) cuts.push_back(side);
     }
     std::vector<std::vector<FaceNode>> inside(cuts.size());
     parallel_for(cuts.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
@@ -233,10 +260,10 @@ class TileCutter {
       std::vector<std::int32_t> chain{end_node(a)};
       for (const FaceNode& n : inside[i]) chain.push_back(add_node(n));
       chain.push_back(end_node(b));
-      const std::int32_t o = left_of(b, a);
+      const std::int32_t o = parts.left_of(b, a);
       for (std::size_t k = 0; k + 1 < chain.size(); ++k) {
-        result_.tiles[part_[t]].segments.push_back({chain[k], chain[k + 1]});
-        result_.tiles[part_[o]].segments.push_back({chain[k + 1], chain[k]});
+        result_.tiles[parts.part(t)].segments.push_back({chain[k], chain[k + 1]});
+        result_.tiles[parts.part(o)].segments.push_back({chain[k + 1], chain[k]});
       }
     }
   }
@@ -294,17 +321,9 @@ class TileCutter {
   const SizeField& field_;
   const double tile_triangles_;
   const std::int32_t n_boundary_;
-  int hint_ = 0;
   CoarseFace coarse_;
-  std::vector<Side> sides_;           // sorted
-  std::vector<std::int32_t> beyond_;  // [3*n_coarse] triangle across each side, kNone: none
   std::set<Corners> is_boundary_;
-  std::vector<double> weight_;  // of the coarse triangles: triangles expected in each
-  std::vector<Vec3> middle_;
-  std::vector<std::int32_t> part_;
-  std::int32_t n_parts_ = 0;
-  std::map<std::int32_t, std::int32_t> part_of_pole_;  // by id
-  std::map<std::int32_t, std::int32_t> junction_;      // cut node at an inner corner of the coarse mesh
+  std::map<std::int32_t, std::int32_t> junction_;  // cut node at an inner corner of the coarse mesh
   std::int32_t last_id_ = 0;
   TileCut result_;
 };

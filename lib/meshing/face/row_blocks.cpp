@@ -15,6 +15,13 @@
 namespace st {
 namespace {
 
+// Where each number comes from: docs/design/heuristics.md.
+constexpr double kEven = 1.0001;     // diagonals that are as long: always the same one
+constexpr double kFlat = 1.9;        // length over height of quadrilaterals of which two become one
+constexpr double kMuchLonger = 1.7;  // length asked for along over that of the row
+constexpr double kMostFit = 0.9;     // share of a row in which this must hold
+constexpr std::size_t kLeastMerged = 8;
+
 using Side = std::pair<std::int32_t, std::int32_t>;
 
 /// Of a boundary node: rows begin there, or end there at their side.
@@ -225,13 +232,6 @@ class RowBlock {
     else
       layer_.settle(n, height, width);
   }
-
-  static constexpr double kEven = 1.0001;  // diagonals that are as long: always the same one
-
-  static constexpr double kFlat = 1.9;        // length over height of quadrilaterals of which two become one
-  static constexpr double kMuchLonger = 1.7;  // length asked for along over that of the row
-  static constexpr double kMostFit = 0.9;     // share of a row in which this must hold
-  static constexpr std::size_t kLeastMerged = 8;
 
   FaceWork& w_;
   Triangulation& m_;

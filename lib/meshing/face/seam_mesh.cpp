@@ -17,28 +17,28 @@ namespace {
 
 std::int32_t size_of(const auto& rows) { return static_cast<std::int32_t>(rows.size()); }
 
+constexpr std::uint8_t kInRest = 1, kInBand = 2;
+
 /// Separates what is near the cuts from the rest of a section.
 class SectionSplitter {
  public:
-  /// `places`: of the boundary nodes of the mesh among boundary and cut nodes. `owner`: of its last inner nodes.
+  /// `places`: of the boundary nodes of the mesh among boundary and cut nodes.
   SectionSplitter(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section,
-                  std::vector<std::int32_t> places, FaceMesh mesh, std::vector<InnerNode> owner)
+                  std::vector<std::int32_t> places, Piece whole)
       : boundary_(boundary),
         cut_(cut),
         section_(section),
         n_face_(size_of(boundary.nodes)),
         places_(std::move(places)),
         n_boundary_(size_of(places_)),
-        mesh_(std::move(mesh)),
-        owner_(std::move(owner)),
-        n_own_(size_of(mesh_.inner) - size_of(owner_)) {}
+        whole_(std::move(whole)) {}
 
   SplitMesh run() {
     Piece& band = split_.band;
-    band.mesh.cause = mesh_.cause;
-    band.mesh.refinement = std::move(mesh_.refinement);
-    band.mesh.n_folds = mesh_.n_folds;
-    if (mesh_.cause != FailureCause::kNone) return std::move(split_);
+    band.mesh.cause = whole_.mesh.cause;
+    band.mesh.refinement = std::move(whole_.mesh.refinement);
+    band.mesh.n_folds = whole_.mesh.n_folds;
+    if (whole_.mesh.cause != FailureCause::kNone) return std::move(split_);
     find_layers();
     find_uses();
     number_nodes();
@@ -48,18 +48,16 @@ class SectionSplitter {
   }
 
  private:
-  static constexpr std::uint8_t kInRest = 1, kInBand = 2;
-
   /// Steps from a cut node; boundary nodes that several tiles have are a step away at most.
   void find_layers() {
-    layer_.assign(n_boundary_ + mesh_.inner.size(), kSeamLayers + 1);
+    layer_.assign(n_boundary_ + whole_.mesh.inner.size(), kSeamLayers + 1);
     for (std::int32_t i = 0; i < n_boundary_; ++i) {
       if (places_[i] >= n_face_)
         layer_[i] = 0;
       else if (std::binary_search(cut_.shared.begin(), cut_.shared.end(), places_[i]))
         layer_[i] = 1;
     }
-    is_in_band_.assign(mesh_.corners.size() / 3, 0);
+    is_in_band_.assign(whole_.mesh.corners.size() / 3, 0);
     std::vector<std::size_t> found;
     for (int layer = 0; layer < kSeamLayers; ++layer) {
       found.clear();
@@ -68,7 +66,7 @@ class SectionSplitter {
       for (const std::size_t t : found) {
         is_in_band_[t] = 1;
         for (int k = 0; k < 3; ++k) {
-          std::uint8_t& own = layer_[mesh_.corners[3 * t + k]];
+          std::uint8_t& own = layer_[whole_.mesh.corners[3 * t + k]];
           own = std::min(own, static_cast<std::uint8_t>(layer + 1));
         }
       }
@@ -76,39 +74,40 @@ class SectionSplitter {
   }
 
   std::uint8_t nearest_layer(std::size_t t) const {
-    const std::int32_t* c = &mesh_.corners[3 * t];
+    const std::int32_t* c = &whole_.mesh.corners[3 * t];
     return std::min({layer_[c[0]], layer_[c[1]], layer_[c[2]]});
   }
 
   void find_uses() {
-    uses_.assign(n_boundary_ + mesh_.inner.size(), 0);
-    for (std::size_t i = 0; i < mesh_.corners.size(); ++i)
-      uses_[mesh_.corners[i]] |= is_in_band_[i / 3] ? kInBand : kInRest;
+    uses_.assign(n_boundary_ + whole_.mesh.inner.size(), 0);
+    for (std::size_t i = 0; i < whole_.mesh.corners.size(); ++i)
+      uses_[whole_.mesh.corners[i]] |= is_in_band_[i / 3] ? kInBand : kInRest;
   }
 
   /// Nodes of the rest are its own, then others'; so are those of the band: its own, then those of sections.
   void number_nodes() {
-    in_rest_.assign(mesh_.inner.size(), kNone);
-    in_band_.assign(mesh_.inner.size(), kNone);
+    const std::int32_t n_own = whole_.n_own();
+    in_rest_.assign(whole_.mesh.inner.size(), kNone);
+    in_band_.assign(whole_.mesh.inner.size(), kNone);
     const auto uses = [&](std::int32_t i) { return uses_[n_boundary_ + i]; };
-    for (std::int32_t i = 0; i < size_of(mesh_.inner); ++i) {
+    for (std::int32_t i = 0; i < size_of(whole_.mesh.inner); ++i) {
       if (!(uses(i) & kInRest)) continue;
       in_rest_[i] = size_of(split_.rest.mesh.inner);
-      split_.rest.mesh.inner.push_back(mesh_.inner[i]);
-      if (i >= n_own_) split_.rest.owner.push_back(owner_[i - n_own_]);
-      if (i < n_own_ && uses(i) & kInBand) split_.shared.push_back(in_rest_[i]);
+      split_.rest.mesh.inner.push_back(whole_.mesh.inner[i]);
+      if (i >= n_own) split_.rest.owner.push_back(whole_.owner[i - n_own]);
+      if (i < n_own && uses(i) & kInBand) split_.shared.push_back(in_rest_[i]);
     }
     Piece& band = split_.band;
     const auto add = [&](std::int32_t i) {
       in_band_[i] = size_of(band.mesh.inner);
-      band.mesh.inner.push_back(mesh_.inner[i]);
+      band.mesh.inner.push_back(whole_.mesh.inner[i]);
     };
-    for (std::int32_t i = 0; i < n_own_; ++i)
+    for (std::int32_t i = 0; i < n_own; ++i)
       if (uses(i) == kInBand) add(i);
-    for (std::int32_t i = 0; i < size_of(mesh_.inner); ++i) {
+    for (std::int32_t i = 0; i < size_of(whole_.mesh.inner); ++i) {
       if (!(uses(i) & kInBand) || in_band_[i] != kNone) continue;
       add(i);
-      band.owner.push_back(i < n_own_ ? InnerNode{section_, in_rest_[i]} : owner_[i - n_own_]);
+      band.owner.push_back(i < n_own ? InnerNode{section_, in_rest_[i]} : whole_.owner[i - n_own]);
     }
   }
 
@@ -129,7 +128,7 @@ class SectionSplitter {
   void share_triangles() {
     const std::int32_t first_in_band = n_face_ + size_of(cut_.nodes), first_in_rest = size_of(split_.boundary);
     for (std::size_t t = 0; t < is_in_band_.size(); ++t) {
-      const std::int32_t* c = &mesh_.corners[3 * t];
+      const std::int32_t* c = &whole_.mesh.corners[3 * t];
       for (int k = 0; k < 3; ++k) {
         const std::int32_t inner = c[k] - n_boundary_;
         if (is_in_band_[t]) {
@@ -152,9 +151,7 @@ class SectionSplitter {
   const std::int32_t section_, n_face_;
   const std::vector<std::int32_t> places_;
   const std::int32_t n_boundary_;
-  FaceMesh mesh_;
-  const std::vector<InnerNode> owner_;
-  const std::int32_t n_own_;
+  Piece whole_;
   std::vector<std::uint8_t> layer_, uses_;       // of each corner
   std::vector<std::uint8_t> is_in_band_;         // [n_triangles]
   std::vector<std::int32_t> in_rest_, in_band_;  // [n_inner] the inner node there
@@ -318,15 +315,15 @@ class SeamMesher {
 }  // namespace
 
 SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh) {
-  return SectionSplitter(boundary, cut, tile, nodes_of(cut.tiles[tile]), std::move(mesh), {}).run();
+  return SectionSplitter(boundary, cut, tile, nodes_of(cut.tiles[tile]), {std::move(mesh), {}, {}}).run();
 }
 
 SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh) {
   std::vector<std::int32_t> places(boundary.nodes.size() + cut.nodes.size());
   std::iota(places.begin(), places.end(), 0);
-  SplitMesh split =
-      SectionSplitter(boundary, cut, section, std::move(places), std::move(mesh.mesh), std::move(mesh.owner)).run();
-  split.band.sides.insert(split.band.sides.end(), mesh.sides.begin(), mesh.sides.end());
+  const std::vector<std::array<std::int32_t, 2>> sides = std::move(mesh.sides);
+  SplitMesh split = SectionSplitter(boundary, cut, section, std::move(places), std::move(mesh)).run();
+  split.band.sides.insert(split.band.sides.end(), sides.begin(), sides.end());
   return split;
 }
 

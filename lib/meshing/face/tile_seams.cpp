@@ -157,9 +157,9 @@ class SeamEnhancer {
 
   void run(std::span<const std::int32_t> piece_of_cut) {
     find_band(piece_of_cut);
-    improve_pieces();
-    improve_joints();
-    if (counted_.n_folds > 0) count_folds();
+    std::vector<std::uint8_t> is_joint;
+    const int n_in_pieces = improve_pieces(is_joint), n_at_joints = improve_joints(is_joint);
+    if (n_in_pieces + n_at_joints > 0) count_folds();
     close_ranks();
   }
 
@@ -220,8 +220,8 @@ class SeamEnhancer {
   /// All triangles of the node are in the band.
   bool is_inside(std::int32_t corner) const { return corner >= n_boundary_ && layer_[corner] < kSeamLayers; }
 
-  /// Each with the nodes that no other has.
-  void improve_pieces() {
+  /// Each with the nodes that no other has; `is_joint`: of each in node_, whether pieces share it. Returns the folds.
+  int improve_pieces(std::vector<std::uint8_t>& is_joint) {
     constexpr std::int32_t kShared = -2;
     std::vector<std::int32_t> owner(node_.size(), kNone);
     std::map<std::int32_t, std::vector<std::int32_t>> pieces;
@@ -232,16 +232,15 @@ class SeamEnhancer {
         own = own == kNone || own == piece_of_[i] ? piece_of_[i] : kShared;
       }
     }
-    improve(std::move(pieces), [&](std::int32_t c) { return is_inside(c) && owner[number_[c]] != kShared; });
-    is_joint_.assign(node_.size(), 0);
-    for (std::size_t i = 0; i < node_.size(); ++i) is_joint_[i] = owner[i] == kShared && is_inside(node_[i]);
+    for (std::size_t i = 0; i < node_.size(); ++i) is_joint.push_back(owner[i] == kShared && is_inside(node_[i]));
+    return improve(std::move(pieces), [&](std::int32_t c) { return is_inside(c) && owner[number_[c]] != kShared; });
   }
 
-  /// Layers about the nodes that pieces share, as pieces of their own.
-  void improve_joints() {
+  /// Layers about the nodes that pieces share, as pieces of their own. Returns the folds.
+  int improve_joints(const std::vector<std::uint8_t>& is_joint) {
     std::vector<std::uint8_t> layer(node_.size(), kSeamLayers + 1), is_in(band_.size(), 0);
     for (std::size_t i = 0; i < layer.size(); ++i)
-      if (is_joint_[i]) layer[i] = 0;
+      if (is_joint[i]) layer[i] = 0;
     DisjointSets sets(static_cast<std::int64_t>(layer.size()));
     const auto numbers = [&](std::int32_t t) {
       const std::int32_t* c = corners(t);
@@ -261,11 +260,11 @@ class SeamEnhancer {
     std::map<std::int32_t, std::vector<std::int32_t>> joints;
     for (std::size_t i = 0; i < band_.size(); ++i)
       if (is_in[i]) joints[sets.find(numbers(band_[i])[0])].push_back(band_[i]);
-    improve(std::move(joints), [&](std::int32_t c) { return is_inside(c) && layer[number_[c]] < kSeamLayers; });
+    return improve(std::move(joints), [&](std::int32_t c) { return is_inside(c) && layer[number_[c]] < kSeamLayers; });
   }
 
   template <class IsInner>
-  void improve(std::map<std::int32_t, std::vector<std::int32_t>>&& parts, const IsInner& is_inner) {
+  int improve(std::map<std::int32_t, std::vector<std::int32_t>>&& parts, const IsInner& is_inner) {
     std::vector<std::vector<std::int32_t>> triangles;
     for (auto& [own, some] : parts) triangles.push_back(std::move(some));
     std::vector<FaceMesh> counts(triangles.size());
@@ -276,7 +275,9 @@ class SeamEnhancer {
       piece.count_folds(counts[i]);
       piece.store(is_gone_);
     });
-    for (const FaceMesh& c : counts) counted_.n_folds += c.n_folds;
+    int n_folds = 0;
+    for (const FaceMesh& c : counts) n_folds += c.n_folds;
+    return n_folds;
   }
 
   /// Measures the whole band, as it is now.
@@ -341,8 +342,6 @@ class SeamEnhancer {
   std::vector<std::int32_t> piece_;     // of each of these
   std::vector<std::int32_t> band_;      // triangles
   std::vector<std::int32_t> piece_of_;  // [n_band]
-  std::vector<std::uint8_t> is_joint_;  // of each in node_: pieces share it
-  FaceMesh counted_;                    // folds of the pieces, for the count alone
 };
 
 }  // namespace

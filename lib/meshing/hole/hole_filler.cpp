@@ -26,7 +26,6 @@ class HoleBoundaryMaker {
       : model_(model),
         t_(model.tables()),
         surface_(surface),
-        face_(rim.face),
         rim_(rim),
         marks_(marks),
         numbering_(numbering),
@@ -49,19 +48,19 @@ class HoleBoundaryMaker {
 
  private:
   [[noreturn]] void fail(const char* what) const {
-    throw Error(ExitCode::kInternal, t_.face_label(face_) + ": " + what);
+    throw Error(ExitCode::kInternal, t_.face_label(rim_.face) + ": " + what);
   }
 
   NodeId node_of(std::int32_t local) const { return rim_.nodes[local].id; }
   Vec2 uv_of(std::int32_t local) const { return rim_.nodes[local].uv; }
 
   void find_coedges() {
-    for (const CoedgeId c : t_.coedges(face_)) coedges_[t_.coedge_edge[c]].push_back(c);
+    for (const CoedgeId c : t_.coedges(rim_.face)) coedges_[t_.coedge_edge[c]].push_back(c);
   }
 
   const Curve2d& pcurve(CoedgeId c) {
     auto& p = pcurves_[c];
-    if (!p) p = model_.pcurve(face_, c);
+    if (!p) p = model_.pcurve(rim_.face, c);
     return *p;
   }
 
@@ -214,7 +213,6 @@ class HoleBoundaryMaker {
   const Model& model_;
   const ModelTables& t_;
   const Surface& surface_;
-  FaceId face_;
   const HoleRim& rim_;
   const HoleMarks& marks_;
   const HoleNumbering& numbering_;
