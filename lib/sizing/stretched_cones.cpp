@@ -17,6 +17,9 @@ namespace st {
 namespace {
 
 constexpr float kClearly = 0.99F;  // of the length along that is known: less is no gain
+constexpr std::size_t kSitesPerPiece = 2'048;
+constexpr std::size_t kLeastAtOnce = 16;  // samples
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 class StretchSpread {
  public:
@@ -45,8 +48,6 @@ class StretchSpread {
   }
 
  private:
-  static constexpr std::size_t kSitesPerPiece = 2'048;
-  static constexpr std::size_t kLeastAtOnce = 16;  // samples
   /// A site where some probe has a stretched length.
   struct Site {
     ConeCell cell;
@@ -93,6 +94,14 @@ class StretchSpread {
   struct Win {
     std::int32_t slot, sample;
   };
+  /// A list of sites for each of something.
+  struct SiteLists {
+    std::vector<std::int32_t> first{0}, sites;
+    std::span<const std::int32_t> operator[](std::int32_t i) const {
+      return std::span(sites).subspan(static_cast<std::size_t>(first[i]),
+                                      static_cast<std::size_t>(first[i + 1] - first[i]));
+    }
+  };
 
   /// Few samples come first, far from each other, then as many as there were before, and so on: so few sites are
   /// lowered again and again, as they are where sample after sample comes nearer.
@@ -132,14 +141,13 @@ class StretchSpread {
         own.sites.push_back(make_site(site, own));
       }
     });
-    first_beside_.push_back(0);
     std::size_t n_sites = 0, n_beside = 0;
     for (const Piece& own : pieces) {
       n_sites += own.sites.size();
       n_beside += own.beside.size();
     }
     parallel_reserve(sites_, n_sites);
-    parallel_reserve(beside_, n_beside);
+    parallel_reserve(beside_.sites, n_beside);
     for (Piece& own : pieces) {
       for (std::size_t i = 0; i < own.sites.size(); ++i) {
         if (own.sites[i].turns != kNone) own.sites[i].turns += static_cast<std::int32_t>(turns_.size());
@@ -147,9 +155,9 @@ class StretchSpread {
       }
       sites_.insert(sites_.end(), own.sites.begin(), own.sites.end());
       turns_.insert(turns_.end(), own.turns.begin(), own.turns.end());
-      beside_.insert(beside_.end(), own.beside.begin(), own.beside.end());
-      require_countable(beside_.size(), "cells beside cells");
-      for (const std::int32_t n : own.n_beside) first_beside_.push_back(first_beside_.back() + n);
+      beside_.sites.insert(beside_.sites.end(), own.beside.begin(), own.beside.end());
+      require_countable(beside_.sites.size(), "cells beside cells");
+      for (const std::int32_t n : own.n_beside) beside_.first.push_back(beside_.first.back() + n);
       own = {};
     }
     find_starts();
@@ -161,12 +169,13 @@ class StretchSpread {
       for (const std::int32_t c : cones_of(site)) all.emplace_back(table_.sample[c], site);
     for_each_own_site(neighbours_, samples_, blanking_,
                       [&](std::int32_t site, std::int32_t sample) { all.emplace_back(sample, site); });
-    first_start_.assign(samples_.size() + 1, 0);
-    for (const auto& [sample, site] : all) ++first_start_[sample + 1];
-    std::partial_sum(first_start_.begin(), first_start_.end(), first_start_.begin());
-    starts_.resize(all.size());
-    std::vector<std::int32_t> next(first_start_.begin(), first_start_.end() - 1);
-    for (const auto& [sample, site] : all) starts_[next[sample]++] = site;
+    std::vector<std::int32_t>& first = starts_.first;
+    first.assign(samples_.size() + 1, 0);
+    for (const auto& [sample, site] : all) ++first[sample + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    starts_.sites.resize(all.size());
+    std::vector<std::int32_t> next(first.begin(), first.end() - 1);
+    for (const auto& [sample, site] : all) starts_.sites[next[sample]++] = site;
   }
 
   Site make_site(std::int32_t site, Piece& own) const {
@@ -278,8 +287,7 @@ class StretchSpread {
       if (is_clearly) note(Win{slot, sample});
       return is_nearly;
     };
-    for (std::int32_t k = first_start_[sample]; k < first_start_[sample + 1]; ++k) {
-      const std::int32_t site = starts_[k];
+    for (const std::int32_t site : starts_[sample]) {
       if (!walk.come_to(site)) continue;
       walk.waiting.push_back(site);
       if (slot_[site] != kNone) leads_on(slot_[site]);
@@ -287,10 +295,8 @@ class StretchSpread {
     while (!walk.waiting.empty()) {
       const std::int32_t site = walk.waiting.back();
       walk.waiting.pop_back();
-      for (std::int32_t k = first_beside_[site]; k < first_beside_[site + 1]; ++k)
-        if (const std::int32_t other = beside_[k];
-            walk.come_to(other) && slot_[other] != kNone && leads_on(slot_[other]))
-          walk.waiting.push_back(other);
+      for (const std::int32_t other : beside_[site])
+        if (walk.come_to(other) && slot_[other] != kNone && leads_on(slot_[other])) walk.waiting.push_back(other);
     }
     walk.forget();
   }
@@ -360,7 +366,6 @@ class StretchSpread {
     table_.along_of_site.push_back(number[sample]);
   }
 
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const Neighbours& neighbours_;
   const OctreeView& octree_;
   const Blanking* const blanking_;
@@ -372,8 +377,8 @@ class StretchSpread {
   std::vector<std::int32_t> slot_;    // [n_sites] into sites_; kNone: nothing is stretched there
   std::vector<Site> sites_;
   std::vector<Directions> turns_;
-  std::vector<std::int32_t> first_beside_, beside_;  // [n_sites + 1], and to which sites lengths pass from each
-  std::vector<std::int32_t> first_start_, starts_;   // [n_samples + 1], and sites where a sample tells a length or lies
+  SiteLists beside_;  // of each site: to which lengths pass from it
+  SiteLists starts_;  // of each sample: where it tells a length or lies
   std::mutex walks_mutex_;
   std::vector<std::unique_ptr<Walk>> walks_;  // not in use
 };
