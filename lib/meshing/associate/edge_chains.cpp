@@ -22,8 +22,6 @@ constexpr double kMergeable = 0.5;   // of the mesh edges at its vertex: a CAD e
                                      // edge
 constexpr double kMaxSagitta = 0.6;  // of a mesh edge: how far the curve's middle may lie from its own (a half circle:
                                      // 0.5)
-constexpr double kOffPenalty = 2;    // how much a node at the end of its tolerance makes a chain worse, in squared
-                                     // lengths
 constexpr std::size_t kNamed = 4;    // places named in a message
 
 /// How a chain is sought: of the tolerance this share, so that where the mesh is exact no node beside the edge is taken
@@ -226,15 +224,14 @@ class ChainFinder {
     return project_near(*curve_, x, std::clamp(from.t + along / speed2, curve_->t_min(), curve_->t_max()));
   }
 
-  /// Squared lengths, so that no node on the way is left out, and what the nodes are off.
+  /// Squared lengths, so that no node on the way is left out.
   void relax(std::int32_t from, std::int32_t to, std::int32_t by) {
     const Label& a = labels_[from];
     Label& b = labels_[to];
     if (!(b.t > a.t) || b.is_done) return;
     const Vec3 xa = mesh_.node_xyz[a.node], xb = mesh_.node_xyz[b.node], middle = curve_->point(0.5 * (a.t + b.t));
     if (distance(middle, 0.5 * (xa + xb)) > kMaxSagitta * distance(xa, xb)) return;
-    const double length = distance(xa, middle) + distance(middle, xb), off = b.off / tolerance(b.node);
-    const double cost = a.cost + length * length * (1 + kOffPenalty * off * off);
+    const double length = distance(xa, middle) + distance(middle, xb), cost = a.cost + length * length;
     if (!(cost < b.cost)) return;
     if (b.from == kNone && to != 1) queue_.push({b.t, to});
     b.cost = cost;
