@@ -35,7 +35,7 @@ TEST(MappedLines, are_none_where_the_field_asks_for_other_rows) {
 
 TEST(MappedLines, are_none_where_edges_or_sides_differ_or_much_is_not_flat) {
   const WallField field(0.1, 0, 1);
-  RowCase sides({band(12, 12, {0.1, 0.2, 0.3, 0.4}, {0.13, 0.26, 0.4})}, field);
+  RowCase sides({band(12, 12, {0.1, 0.2, 0.3}, {0.1, 0.2, 0.25, 0.3})}, field);
   EXPECT_TRUE(mapped_lines(sides.work, find_row_chains(sides.work).at(0)).empty());
   std::vector<Vec2> loop = band(10, 10, {0.1, 0.2}, {0.1, 0.2});
   loop.erase(loop.begin() + 15);  // one node less at the top
