@@ -11,7 +11,7 @@
 #include "base/boxes.h"
 #include "features/edge_places.h"
 #include "features/profile.h"
-#include "geometry/model/facets.h"
+#include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -24,6 +24,8 @@ constexpr double kBehind = 0.35;      // of the chord: from where a trailing edg
 constexpr double kAcross = 0.7;       // cosine between a gap in a trailing edge and the span, at least
 constexpr double kLeastGap = 0.002;   // of the chord: a nose ahead that is nearer goes on from this one
 constexpr double kNosesApart = 0.01;  // of the chord: of both edges of a base, before a thick one as of a slot
+constexpr double kSeam = 0.002;       // of the chord: an edge along the nose is no nearer to the end of its face
+constexpr int kLoopSides = 64;        // of each edge of a face, even
 constexpr int kMostSteps = 2000;      // of one nose
 constexpr int kHalvings = 4;          // of the last step
 constexpr std::size_t kMissed = 2;    // stations without noses over which a nose goes on anyway, as st-raster has it
@@ -46,16 +48,26 @@ struct Walk {
   FaceId face;
 };
 
-/// Tells where a face ends.
-struct FaceCutter {
-  Facets facets;
-  std::optional<ProfileCutter> cutter;  // of these; nullopt: not made yet
-};
+LoopPolygons loops_of(const Model& model, FaceId face) {
+  const ModelTables& t = model.tables();
+  std::vector<LoopSide> sides;
+  for (const CoedgeId c : t.coedges(face)) {
+    const auto curve = model.pcurve(face, c);
+    const double from = t.edge_range[2 * t.coedge_edge[c]], to = t.edge_range[2 * t.coedge_edge[c] + 1];
+    Vec2 last = curve->point(from);
+    for (int i = 1; i <= kLoopSides; ++i) {
+      const Vec2 next = curve->point(from + (to - from) * i / kLoopSides);
+      sides.push_back({last, next});
+      last = next;
+    }
+  }
+  return LoopPolygons(std::move(sides));
+}
 
 class FrontFinder {
  public:
-  FrontFinder(const Model& model, double deflection, std::span<const LiftingSurface> all, const LiftingSurface& own)
-      : model_(model), deflection_(deflection), all_(all), own_(own) {}
+  FrontFinder(const Model& model, std::span<const LiftingSurface> all, const LiftingSurface& own)
+      : model_(model), all_(all), own_(own) {}
 
   std::vector<ChordEdge> run() {
     for (const ChordEdge& edge : own_.trailing) {
@@ -113,7 +125,7 @@ class FrontFinder {
       const Profile near{.normal = walk.normal, .nose = guess, .nose_face = f, .chord = chord};
       std::optional<Vec2> uv;
       std::optional<Vec3> x = exact_nose(*model_.surface(f), trailing, near, reach, uv);
-      if (x && !has_place(f, *x, walk.normal)) x.reset();
+      if (x && !has_place(f, *uv, walk.normal, kSeam * chord)) x.reset();
       if (x) walk.face = f;
       return x;
     };
@@ -125,16 +137,15 @@ class FrontFinder {
     return x;
   }
 
-  /// Whether a place on a face's surface is on the face.
-  bool has_place(FaceId f, Vec3 x, Vec3 normal) {
-    FaceCutter& own = cutters_[f];
-    if (!own.cutter) {
-      std::vector<std::uint8_t> is_own(static_cast<std::size_t>(model_.tables().n_faces()), 0);
-      is_own[static_cast<std::size_t>(f)] = 1;
-      own.facets = make_facets(model_, is_own, {.deflection = deflection_, .is_exact = true});
-      own.cutter.emplace(own.facets);
-    }
-    return own.cutter->nearest_face(x, normal, 2 * deflection_) == f;
+  /// Whether a place on a face's surface is on the face, or beside it in the plane of the profile: an edge along a nose
+  /// is on either of its faces.
+  bool has_place(FaceId f, Vec2 uv, Vec3 normal, double beside) {
+    const auto [known, is_new] = loops_.try_emplace(f);
+    if (is_new) known->second = loops_of(model_, f);
+    const SurfacePoint2 p = model_.surface(f)->evaluate2(uv);
+    const std::optional<Vec2> step = tangent_step(p.du, p.dv, beside * normalized(cross(cross(p.du, p.dv), normal)));
+    return known->second.contains(uv) ||
+           (step && (known->second.contains(uv + *step) || known->second.contains(uv - *step)));
   }
 
   /// What is behind a nose would be at `x`.
@@ -245,7 +256,7 @@ class FrontFinder {
       run.stations.push_back(alone(s));
     }
     if (end) run.stations.push_back(alone(*end));
-    if (end || distance(run.stations.back().nose, from.nose) >= kStep * from.chord) keep(std::move(run));
+    if (end || distance(run.stations.back().nose, from.nose) >= kLeastGap * from.chord) keep(std::move(run));
   }
 
   void keep(ChordEdge&& run) {
@@ -257,11 +268,10 @@ class FrontFinder {
   }
 
   const Model& model_;
-  const double deflection_;
   std::span<const LiftingSurface> all_;
   const LiftingSurface& own_;
   std::vector<Piece> pieces_;  // trailing edges with noses, and gaps; empty: not known yet
-  std::map<FaceId, FaceCutter> cutters_;
+  std::map<FaceId, LoopPolygons> loops_;
   std::vector<ChordEdge> front_;
 };
 
@@ -280,8 +290,8 @@ bool has_other_noses(const LiftingSurface& wing, const ChordEdge& second) {
   });
 }
 
-void add_front_noses(const Model& model, double deflection, std::span<LiftingSurface> surfaces) {
-  for (LiftingSurface& surface : surfaces) surface.front = FrontFinder(model, deflection, surfaces, surface).run();
+void add_front_noses(const Model& model, std::span<LiftingSurface> surfaces) {
+  for (LiftingSurface& surface : surfaces) surface.front = FrontFinder(model, surfaces, surface).run();
 }
 
 }  // namespace st

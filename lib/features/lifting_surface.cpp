@@ -46,6 +46,7 @@ constexpr double kStraightBlade = 0.7;         // the same over their length
 constexpr double kLeastNoseWay = 0.25;         // of the way along the trailing edge: way along the noses
 constexpr double kOnPlane = 1e-6;              // of the reference diagonal: from a plane of symmetry
 constexpr double kAcrossSpan = 0.7;            // cosine between the normal of a tip or a root and the chain
+constexpr double kJump = 3;                    // chord over that of the next cut: one along the span
 constexpr double kParallelSides = radians(1);  // of a base, from square to it
 constexpr double kRoundCorner = radians(150);  // material at the edges of a base without corners
 constexpr double kWidestCut = 0.1;             // of the chord: base of a profile whose tail may have been cut off
@@ -492,16 +493,34 @@ class SurfaceMeasurer {
       const Vec3* axis = k < normals_.size() ? &normals_[k] : nullptr;
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
-      const double on_itself = way_with_own_nose(places, own), way = measured_way(places, own) - kLens * on_itself;
+      const double on_itself = way_with_own_nose(places, own);
+      double way = measured_way(places, own) - kLens * on_itself;
+      const std::vector<std::size_t> long_ones = cuts_along_span(own);
+      for (const std::size_t i : long_ones) way -= places[i].way;
       const bool is_axis = k < n_axes_;
       if (way <= (is_axis ? 1.0 : kClearlyMore) * longest) continue;
       longest = way;
       best_axis = axis;
       best = std::move(own);
-      if (on_itself == 0 && std::ranges::all_of(best, [](const auto& p) { return p.has_value(); }))
+      if (on_itself == 0 && long_ones.empty() && std::ranges::all_of(best, [](const auto& p) { return p.has_value(); }))
         break;  // none shows more
     }
     return best;
+  }
+
+  /// Of one edge: the smaller part of its cuts, at an end, beyond a jump of the chord. Planes square to an axis run
+  /// along the span of a wing before a winglet there.
+  static std::vector<std::size_t> cuts_along_span(std::span<const std::optional<Profile>> of_edge) {
+    std::vector<std::size_t> measured, found;
+    for (std::size_t i = 0; i < of_edge.size(); ++i)
+      if (of_edge[i]) measured.push_back(i);
+    for (int side = 0; side < 2; ++side, std::ranges::reverse(measured))
+      for (std::size_t k = 1; k <= measured.size() / 2 && k < measured.size(); ++k)
+        if (of_edge[measured[k - 1]]->chord > kJump * of_edge[measured[k]]->chord) {
+          found.insert(found.end(), measured.begin(), measured.begin() + static_cast<std::ptrdiff_t>(k));
+          break;
+        }
+    return found;
   }
 
   /// Cuts that run on into a body or end in a fairing: their chords differ from those of all stations around.
@@ -932,7 +951,7 @@ class SurfaceFinder {
     unite_surfaces();
     find_behind_noses();
     leave_out_slivers(small);
-    add_front_noses(model_, kDeflection * roles_.reference_diagonal, surfaces_);
+    add_front_noses(model_, surfaces_);
     const bool has_aircraft = noseless == Noseless::kAll || !surfaces_.empty();
     for (Rest& rest : rest_) explain(rest);
     for (Rest& rest : rest_) find_thin(rest, has_aircraft);

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
 constexpr double kAround = 1.5;      // lengths, or heights, around the nearest triangle: that row, some of the next
+constexpr double kAlongSpan = 2;     // of these along the span: else few segments stand for a station's whole stretch
 constexpr double kUnheldReach = 3;   // lengths around a place that is not held
 constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
 constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
@@ -61,14 +62,15 @@ class WingMesh {
     const TriangleId at_place = nearest(place, along_span);
     const double side = mean_side(at_place), height = norm(height_of(at_place));
     const bool is_flat = kStretched * height < side;
-    const double reach = kAround * side, flatness = is_flat ? height / side : 1;
+    const double reach_across = kAround * (is_flat ? height : side),
+                 reach_along = is_flat ? kAround * side : kAlongSpan * reach_across;
     const Vec3 middle = ball_of(at_place).center;  // a station inside a base may lie out of reach
     const auto is_around = [&](Vec3 x) {
-      const double along2 = is_flat ? dot(x, along_span) * dot(x, along_span) : 0;
-      return along2 + (norm2(x) - along2) / (flatness * flatness) <= reach * reach;
+      const double own = dot(x, along_span);
+      return own * own / (reach_along * reach_along) + (norm2(x) - own * own) / (reach_across * reach_across) <= 1;
     };
     Mean across, along;
-    for (const auto& [t, center, radius, at] : skin_within(middle, reach)) {
+    for (const auto& [t, center, radius, at] : skin_within(middle, reach_along)) {
       if (!is_around(center - middle)) continue;
       if (is_flat) across.add(width_of(t, along_span));
       for (std::size_t k = 0; k < 3; ++k) {

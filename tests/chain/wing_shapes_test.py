@@ -194,6 +194,14 @@ class WingShapes(ToolTest):
         (wing,) = self.raster("c_wing", "euler").json()["lifting_surfaces"]
         self.assertGreater(wing["chord"][0], 0.95 * 0.3)  # of its tip
 
+    def test_noses_alone_end_with_their_face(self):
+        small = min(self.raster("split_winglet", "rans").json()["lifting_surfaces"], key=lambda wing: wing["span"])
+        self.assertLess(small["noses_alone"], 0.02)  # on into the wing it is 0.037
+
+    def test_planes_along_a_wing_are_no_profiles_of_its_winglet(self):
+        (wing,) = self.raster("chamfer_winglet", "rans").json()["lifting_surfaces"]
+        self.assertLess(wing["chord"][2], 1.001)  # at the root
+
     def test_eight_lengths_are_across_a_slot_of_a_quarter_per_cent_of_the_model(self):
         self.raster("gapped_aileron", "rans")
         must("st-prolong", self.folder / "raster.hdf", "--preset", "rans", "-o", self.folder / "sizing.hdf")

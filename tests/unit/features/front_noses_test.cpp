@@ -11,8 +11,6 @@
 namespace st {
 namespace {
 
-constexpr double kFrontDeflection = 0.01;
-
 /// A sharp wing of chord 10 along z, from 0 to 30.
 struct WholeWing {
   Model model = test::make_model("sharp_wing");
@@ -22,7 +20,7 @@ struct WholeWing {
   std::vector<ChordStation>& stations() { return wing.trailing.at(0).stations; }
   void follow(std::vector<LiftingSurface> others = {}) {
     others.insert(others.begin(), wing);
-    add_front_noses(model, kFrontDeflection, others);
+    add_front_noses(model, others);
     wing = others[0];
   }
 };

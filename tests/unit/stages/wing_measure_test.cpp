@@ -55,6 +55,18 @@ TEST(WingMeasure, of_cells_that_grow_is_the_length_at_the_edge) {
     }
 }
 
+TEST(WingMeasure, of_triangles_that_scatter_is_the_mean_of_several_along_the_span) {
+  std::vector<double> x;
+  for (int i = 0; i <= kChordwise; ++i) x.push_back(0.05 * i);
+  SurfaceMesh mesh = test::plank_of(x, 80, 0);
+  for (Vec3& node : mesh.node_xyz)  // one column has rows of 0.1 at the nose
+    if (node.x < 0.4 && std::abs(node.y - 2) < 0.01) node.x *= 2;
+  const WingRecord wing = record(0.05);
+  const std::vector<WingMeasure> all = measure_wings(mesh, {&wing, 1});
+  ASSERT_TRUE(all[0].worst);
+  EXPECT_LT(all[0].worst->has, 0.067) << "of half as many sides it is 0.07";
+}
+
 TEST(WingMeasure, of_half_a_fin_counts_the_lengths_of_its_only_side) {
   SurfaceMesh half = plank();
   half.triangles.resize(half.triangles.size() / 2);
