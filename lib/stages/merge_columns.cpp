@@ -215,8 +215,6 @@ MeshColumns merged_columns(const std::vector<PatchInFile>& patches, const MergeI
     return Column<T>{column.n_rows, [rows, give = std::move(column.give)](const auto& take) { give(take); }};
   };
   MeshColumns c;
-  c.n_nodes = order.inner_begin.back();
-  c.n_triangles = order.triangle_begin.back();
   c.node_xyz = keep(rows->of_nodes(head.node_xyz, &PatchRows::inner_xyz));
   c.node_entity_dim = keep(
       rows->of_face_nodes(head.node_entity_dim, [](FaceId) { return static_cast<std::uint8_t>(EntityDim::kFace); }));

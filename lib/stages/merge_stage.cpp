@@ -135,8 +135,8 @@ StageSummary summarize(const MergeStageOptions& options, const MeshColumns& mesh
   const OrientationReport& orientation = order.orientation;
   const nlohmann::json json{{"output", options.output},
                             {"hash", hash},
-                            {"triangles", mesh.n_triangles},
-                            {"nodes", mesh.n_nodes},
+                            {"triangles", mesh.n_triangles()},
+                            {"nodes", mesh.n_nodes()},
                             {"components", facts.n_components},
                             {"closed", facts.is_closed()},
                             {"complete", is_complete},
@@ -152,7 +152,7 @@ StageSummary summarize(const MergeStageOptions& options, const MeshColumns& mesh
   const std::string state = facts.is_closed() ? "closed"
                                               : fmt::format("{} open and {} non-manifold edges", facts.n_boundary_edges,
                                                             facts.n_nonmanifold_edges);
-  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles, mesh.n_nodes,
+  return {fmt::format("{}: {} triangles, {} nodes, {}{}, {:.1f} s", options.output, mesh.n_triangles(), mesh.n_nodes(),
                       state, is_complete ? "" : ", INCOMPLETE", seconds),
           json_text(json), ExitCode::kOk};
 }

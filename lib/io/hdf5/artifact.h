@@ -93,7 +93,6 @@ struct Column {
 
 /// The nodes and triangles of a mesh that are not in memory all at once. Columns are asked for from several threads.
 struct MeshColumns {
-  std::int64_t n_nodes = 0, n_triangles = 0;
   Column<Vec3> node_xyz;
   Column<std::uint8_t> node_entity_dim;
   Column<std::int32_t> node_entity;
@@ -106,6 +105,9 @@ struct MeshColumns {
   std::optional<Column<TriangleId>> triangle_previous;             ///< likewise
   std::optional<Column<FaceId>> triangle_cad_face, node_cad_face;  ///< as in MeshArtifact
   std::optional<Column<Vec2>> node_cad_uv;                         ///< likewise
+
+  std::int64_t n_nodes() const { return static_cast<std::int64_t>(node_xyz.n_rows); }
+  std::int64_t n_triangles() const { return static_cast<std::int64_t>(triangles.n_rows); }
 };
 
 /// Header of any artifact; what else is in the file is for its reader to judge. Throws Error(kInput) for a missing

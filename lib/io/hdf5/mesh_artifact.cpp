@@ -81,7 +81,7 @@ std::vector<std::int32_t> read_ids(const Hdf5Reader& r, const std::string& name,
 }
 
 void write_cells(ColumnWriter& c, const MeshColumns& m) {
-  const auto n = static_cast<std::size_t>(m.n_triangles);
+  const auto n = m.triangles.n_rows;
   c.add<std::int64_t>(
       "/VTKHDF/Connectivity", m.triangles,
       [](const Triangle& t, std::vector<std::int64_t>& ids) { ids.insert(ids.end(), std::begin(t.n), std::end(t.n)); },
@@ -100,7 +100,7 @@ void write_numbers(Hdf5Writer& w, ColumnWriter& c, const SurfaceMesh& head, cons
                         });
   for (NodeGroups& n : node_groups(head)) {
     c.add_values<std::int32_t>(
-        "/VTKHDF/PointData/" + n.name, m.n_nodes,
+        "/VTKHDF/PointData/" + n.name, m.node_xyz.n_rows,
         [of_node = std::move(n.of_node)](std::size_t i) { return i < of_node.size() ? of_node[i] : 0; });
     w.write_vtk_strings("/VTKHDF/FieldData/" + n.name + "_name", n.group_name);
   }
@@ -109,9 +109,9 @@ void write_numbers(Hdf5Writer& w, ColumnWriter& c, const SurfaceMesh& head, cons
 void write_vtk(Hdf5Writer& w, ColumnWriter& c, const SurfaceMesh& head, const MeshColumns& m) {
   w.set_attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
   w.set_attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
-  w.write("/VTKHDF/NumberOfPoints", std::vector<std::int64_t>{m.n_nodes});
-  w.write("/VTKHDF/NumberOfCells", std::vector<std::int64_t>{m.n_triangles});
-  w.write("/VTKHDF/NumberOfConnectivityIds", std::vector<std::int64_t>{3 * m.n_triangles});
+  w.write("/VTKHDF/NumberOfPoints", std::vector<std::int64_t>{m.n_nodes()});
+  w.write("/VTKHDF/NumberOfCells", std::vector<std::int64_t>{m.n_triangles()});
+  w.write("/VTKHDF/NumberOfConnectivityIds", std::vector<std::int64_t>{3 * m.n_triangles()});
   c.add("/VTKHDF/Points", m.node_xyz);
   write_cells(c, m);
   c.add<std::int32_t>("/VTKHDF/CellData/face", m.triangle_face, add_one_based);
@@ -167,9 +167,7 @@ std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
 
 MeshColumns columns_of(const MeshArtifact& artifact) {
   const SurfaceMesh& m = artifact.mesh;
-  MeshColumns c{m.n_nodes(),
-                m.n_triangles(),
-                column_of(m.node_xyz),
+  MeshColumns c{column_of(m.node_xyz),
                 column_of(m.node_entity_dim),
                 column_of(m.node_entity),
                 column_of(m.node_t),
