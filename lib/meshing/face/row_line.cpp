@@ -22,7 +22,6 @@ constexpr double kMostAngle = 130;
 constexpr double kMostShear = radians(50);        // of a side against the square
 constexpr double kSideMisfit = 1.8;               // between the height asked for and that of the side's segment
 constexpr double kMostTurned = 0.9;               // of the largest turning of the normal: the height shrinks
-constexpr double kTurningFloor = 0.25;            // by no more than to that
 constexpr double kEvenly = 1.15;                  // of such a height: the one beside it
 constexpr double kTooLong = 1.5;                  // over the length asked for along a quadrilateral
 constexpr double kFalling = 0.75;                 // of a column's greatest height: it comes to where others begin,
@@ -154,7 +153,7 @@ class LineMaker {
       if (next_.columns[i].existing != kNone || !step_on_surface(w_, node(i), across_[i], height_[i], p)) continue;
       const double turned = angle_between(p.normal, node(i).normal);
       if (turned <= kMostTurned * w_.max_turning) continue;
-      height_[i] *= std::max(kTurningFloor, kMostTurned * w_.max_turning / turned);
+      height_[i] *= kMostTurned * w_.max_turning / turned;
       is_limited = true;
     }
     if (!is_limited) return;
