@@ -78,13 +78,6 @@ int count_free_edges(const TopoDS_Shape& shape) {
   return n;
 }
 
-double max_edge_tolerance(const TopoDS_Shape& shape) {
-  double tolerance = 0;
-  for (TopExp_Explorer e(shape, TopAbs_EDGE); e.More(); e.Next())
-    tolerance = std::max(tolerance, BRep_Tool::Tolerance(TopoDS::Edge(e.Current())));
-  return tolerance;
-}
-
 std::string format_number(double x) {
   std::ostringstream s;
   s.precision(4);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "geometry/brep/edge_tolerance.h"
 
 namespace st::occt {
 
@@ -27,8 +28,6 @@ std::vector<int> edge_sides(const TopoDS_Shape& shape, TopTools_IndexedMapOfShap
 
 /// Edges used once, poles left out.
 int count_free_edges(const TopoDS_Shape& shape);
-
-double max_edge_tolerance(const TopoDS_Shape& shape);
 
 /// Four significant digits.
 std::string format_number(double x);
