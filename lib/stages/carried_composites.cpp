@@ -118,6 +118,7 @@ class Carrier {
          t < static_cast<std::size_t>(c.triangle_offsets[i + 1]); ++t) {
       out_.triangle_nodes.push_back(c.triangle_nodes[t]);
       out_.triangle_face.push_back(place(c.triangle_face[t]));
+      out_.triangle_pole.push_back(c.triangle_pole[t]);
       std::array<Vec2, 3>& uv = out_.triangle_uv.emplace_back(c.triangle_uv[t]);
       const Vec2 growth = growth_of.at(c.triangle_face[t]);
       for (Vec2& p : uv) p = {growth.x * p.x, growth.y * p.y};

@@ -91,7 +91,10 @@ class HarmFinder {
     for (const LoopId l : t_.loops(f)) {
       const IdRange loop = t_.loop_coedges(l);
       for (const CoedgeId c : loop) {
-        const CoedgeId next = loop.first() + (c - loop.first() + 1) % loop.size();
+        if (t_.edge_is_degenerate[t_.coedge_edge[c]]) continue;
+        const auto after = [&](CoedgeId at) { return loop.first() + (at - loop.first() + 1) % loop.size(); };
+        CoedgeId next = after(c);
+        while (t_.edge_is_degenerate[t_.coedge_edge[next]]) next = after(next);  // the corner is at a pole
         judge_corner(c, next);
         judge_width(f, c);
       }
@@ -115,7 +118,7 @@ class HarmFinder {
 
   void judge_corner(CoedgeId c, CoedgeId next) {
     const EdgeId a = t_.coedge_edge[c], b = t_.coedge_edge[next];
-    if (a == b || (!is_inside_[a] && !is_inside_[b]) || t_.edge_is_degenerate[a] || t_.edge_is_degenerate[b]) return;
+    if (a == b || (!is_inside_[a] && !is_inside_[b])) return;
     if (angle_between(direction(c, true), direction(next, false)) < kSharpCorner)
       for (const EdgeId e : {a, b}) harm_[e] += may_join(e) ? 1 : 0;
     for (const auto& [own, other] : {std::pair{a, b}, std::pair{b, a}})

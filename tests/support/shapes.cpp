@@ -637,6 +637,18 @@ TopoDS_Shape ball_with_bar() {
   return BRepAlgoAPI_Fuse(ball, BRepBuilderAPI_Transform(bar, turn, true).Shape()).Shape();
 }
 
+/// An eighth of a ball, in six pieces that meet at its pole.
+TopoDS_Shape melon() {
+  TopoDS_Shape all;
+  for (int i = 0; i < 6; ++i) {
+    const gp_Dir x(std::cos(i * M_PI / 12), std::sin(i * M_PI / 12), 0);
+    const gp_Ax2 axes(gp_Pnt(0, 0, 0), gp_Dir(0, 0, 1), x);
+    const TopoDS_Shape piece = BRepPrimAPI_MakeSphere(axes, 10, 0, M_PI / 2, M_PI / 12).Shape();
+    all = i == 0 ? piece : BRepAlgoAPI_Fuse(all, piece).Shape();
+  }
+  return all;
+}
+
 using Factory = std::function<TopoDS_Shape()>;
 
 const std::map<std::string, Factory>& factories() {
@@ -751,6 +763,7 @@ const std::map<std::string, Factory>& factories() {
       {"wing_of_2", [] { return cut_wing(2, 1); }},
       {"wing_of_8", [] { return cut_wing(4, 2); }},
       {"wing_of_200", [] { return cut_wing(10, 20); }},
+      {"melon", melon},
       {"cylinder_of_8", [] { return cut_prism(new Geom_Circle(kZ, 5), 8, 1); }},
       {"disc_of_16", [] { return cut_prism(new Geom_Circle(kZ, 5), 16, 1, 0.05); }},  // its rim: strips and short
                                                                                       // pieces

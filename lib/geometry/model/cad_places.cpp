@@ -28,8 +28,9 @@ std::vector<CadPlace> CadPlaces::on(FaceId face, std::span<const Vec2> uv) const
   for (const Vec2 p : uv) {
     const auto t = static_cast<std::size_t>(surface.locate(p).triangle);
     const Corners& c = chart.corners[t];
-    const AffineMap map({chart.uv[c[0]], chart.uv[c[1]], chart.uv[c[2]]}, composites_.triangle_uv[first + t]);
-    places.push_back({composites_.triangle_face[first + t], map(p)});
+    const MemberMap map({chart.uv[c[0]], chart.uv[c[1]], chart.uv[c[2]]}, composites_.triangle_uv[first + t],
+                        composites_.triangle_pole[first + t]);
+    places.push_back({composites_.triangle_face[first + t], map(p).uv});
   }
   return places;
 }
@@ -49,7 +50,8 @@ bool has_sound_charts(const Composites& c, FaceId n_faces) {
       members.back() >= n_faces || std::ranges::adjacent_find(members) != members.end() ||
       !are_offsets(c.node_offsets, n, c.node_uv.size()) || c.node_xyz.size() != c.node_uv.size() ||
       !are_offsets(c.triangle_offsets, n, c.triangle_nodes.size()) ||
-      c.triangle_face.size() != c.triangle_nodes.size() || c.triangle_uv.size() != c.triangle_nodes.size())
+      c.triangle_face.size() != c.triangle_nodes.size() || c.triangle_uv.size() != c.triangle_nodes.size() ||
+      c.triangle_pole.size() != c.triangle_nodes.size() || !are_pole_codes(c.triangle_pole))
     return false;
   for (std::int32_t i = 0; i < c.size(); ++i) {
     const std::span<const FaceId> own = c.members(i);

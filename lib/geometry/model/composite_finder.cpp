@@ -175,10 +175,7 @@ class CompositeFinder {
           inside.push_back(e);
     sort_once(inside);
     set(inside, 0);
-    for (const FaceId f : faces) {
-      part_of_[f] = f;
-      parts_[f] = {f};
-    }
+    for (const FaceId f : faces) parts_[part_of_[f] = f] = {f};
     return inside;
   }
 
@@ -301,6 +298,7 @@ class CompositeFinder {
       const auto at = std::ranges::lower_bound(faces, facets_.face[static_cast<std::size_t>(t)]) - faces.begin();
       support.member.push_back(static_cast<std::int32_t>(at));
       support.corner_uv.push_back(facets_.uv[static_cast<std::size_t>(t)]);
+      support.pole.push_back(facets_.pole[static_cast<std::size_t>(t)]);
     }
     bounds_ = {};
     for (const Vec2 p : chart.uv) bounds_.add(p);
@@ -319,14 +317,14 @@ class CompositeFinder {
     const std::vector<double>& t = facets_.rim_t[rim.coedge];
     for (std::size_t i = 0; i + 1 < t.size(); ++i) {
       const Corners& n = chart.corners[static_cast<std::size_t>(rim.triangle[i])];
-      const AffineMap map(facets_.uv[static_cast<std::size_t>(u.triangles[rim.triangle[i]])],
-                          {chart.uv[n[0]], chart.uv[n[1]], chart.uv[n[2]]});
+      const auto own = static_cast<std::size_t>(u.triangles[rim.triangle[i]]);
+      const MemberMap map({chart.uv[n[0]], chart.uv[n[1]], chart.uv[n[2]]}, facets_.uv[own], facets_.pole[own]);
       const Vec2 a = chart.uv[rim.node[i]], b = chart.uv[rim.node[i + 1]];
       const double chord = norm(b - a);
       constexpr int kPlaces = 4;
       for (int k = 0; k <= kPlaces; ++k) {
         const double share = static_cast<double>(k) / kPlaces, at = t[i] + share * (t[i + 1] - t[i]);
-        const Vec2 p = map(pcurve->point(at));
+        const Vec2 p = map.chart(pcurve->point(at));
         if (!(std::abs(cross(b - a, p - a)) <= kMostBulge * chord * chord)) return false;
         bounds_.add(p);
         const double most =
@@ -351,6 +349,7 @@ class CompositeFinder {
       c.triangle_nodes.push_back(chart.corners[i]);
       c.triangle_face.push_back(facets_.face[static_cast<std::size_t>(u.triangles[i])]);
       c.triangle_uv.push_back(facets_.uv[static_cast<std::size_t>(u.triangles[i])]);
+      c.triangle_pole.push_back(facets_.pole[static_cast<std::size_t>(u.triangles[i])]);
     }
     c.triangle_offsets.push_back(static_cast<std::int32_t>(c.triangle_nodes.size()));
     for (const double b : {bounds_.lo.x, bounds_.hi.x, bounds_.lo.y, bounds_.hi.y}) c.uv_bounds.push_back(b);

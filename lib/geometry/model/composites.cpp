@@ -5,6 +5,7 @@
 #include "base/finite.h"
 #include "geometry/model/id_checks.h"
 #include "geometry/model/model.h"
+#include "geometry/shape/member_map.h"
 
 namespace st {
 namespace {
@@ -57,8 +58,10 @@ std::string Composites::contradiction(const ModelTables& t) const {
     return "numbers of composites";
   if (!are_offsets(node_offsets, n, node_xyz.size()) || node_uv.size() != node_xyz.size()) return "nodes of composites";
   if (!are_offsets(triangle_offsets, n, triangle_nodes.size()) || triangle_face.size() != triangle_nodes.size() ||
-      triangle_uv.size() != triangle_nodes.size() || uv_bounds.size() != 4 * n)
+      triangle_uv.size() != triangle_nodes.size() || triangle_pole.size() != triangle_nodes.size() ||
+      uv_bounds.size() != 4 * n)
     return "triangles of composites";
+  if (!are_pole_codes(triangle_pole)) return "triangles of composites";
   std::vector<std::uint8_t> is_joined(static_cast<std::size_t>(t.n_edges()), 0);
   for (const EdgeId e : joined_edges) is_joined[e] = 1;
   if (!are_between_two(t, *this, is_joined)) return "edges of composites";

@@ -26,6 +26,7 @@ struct Composites {
   std::vector<Corners> triangle_nodes;           ///< counted within the composite, counter-clockwise from outside
   std::vector<FaceId> triangle_face;             ///< CAD face
   std::vector<std::array<Vec2, 3>> triangle_uv;  ///< of the corners, on that face
+  std::vector<std::int32_t> triangle_pole;       ///< PoleCorner::code(), or kNone
   std::vector<std::int32_t> node_offsets{0}, triangle_offsets{0};
   std::vector<double> uv_bounds;  ///< [4*n_composites] u_min, u_max, v_min, v_max of the trimming curves
   // rims: each coedge of a member whose edge stays

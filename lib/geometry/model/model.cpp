@@ -176,6 +176,7 @@ std::unique_ptr<Surface> Model::Impl::composite(std::int32_t i, SurfaceType type
     const auto at = std::ranges::lower_bound(faces, composites.triangle_face[t]) - faces.begin();
     support.member.push_back(static_cast<std::int32_t>(at));
     support.corner_uv.push_back(composites.triangle_uv[t]);
+    support.pole.push_back(composites.triangle_pole[t]);
   }
   return std::make_unique<CompositeSurface>(chart, std::move(support), std::move(members),
                                             std::array{bounds[0], bounds[1], bounds[2], bounds[3]});
@@ -192,7 +193,8 @@ std::unique_ptr<Curve2d> Model::Impl::rim(std::int32_t i, CoedgeId coedge) const
     std::array<Vec2, 3> places;
     for (std::size_t c = 0; c < 3; ++c)
       places[c] = composites.node_uv[first_node + static_cast<std::size_t>(composites.triangle_nodes[t][c])];
-    segments.push_back({composites.rim_t[k], AffineMap(composites.triangle_uv[t], places)});
+    segments.push_back(
+        {composites.rim_t[k], MemberMap(places, composites.triangle_uv[t], composites.triangle_pole[t])});
     face = composites.triangle_face[t];
   }
   return std::make_unique<RimCurve2d>(cad->pcurve(face, coedge), std::move(segments));

@@ -11,9 +11,11 @@
 #include <map>
 #include <utility>
 
+#include "base/boxes.h"
 #include "geometry/brep/compound.h"
 #include "geometry/model/brep_facets.h"
 #include "geometry/model/model_editor.h"
+#include "geometry/shape/member_map.h"
 
 namespace st {
 namespace {
@@ -22,6 +24,12 @@ namespace {
 struct Rim {
   std::vector<double> t;
   std::vector<std::int32_t> node;
+};
+
+/// Nodes that are one in space, along a line of (u,v).
+struct Pole {
+  std::vector<std::int32_t> node;
+  bool is_along_v = false;
 };
 
 class FacetReader {
@@ -37,13 +45,18 @@ class FacetReader {
     const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(face, location);
     if (mesh.IsNull() || !mesh->HasUVNodes()) return;
     std::vector<std::pair<CoedgeId, Rim>> rims;
+    std::vector<Pole> poles;
     for (const CoedgeId c : t_.coedges(f)) {
-      if (t_.edge_is_degenerate[t_.coedge_edge[c]]) return;  // a pole: its nodes are one in space alone
       std::optional<Rim> rim = rim_of(f, c, mesh, location, copy);
       if (!rim) return;
-      rims.emplace_back(c, std::move(*rim));
+      if (t_.edge_is_degenerate[t_.coedge_edge[c]])
+        poles.push_back({std::move(rim->node), {}});
+      else
+        rims.emplace_back(c, std::move(*rim));
     }
     UvFacets own = triangles(f, *mesh, location);
+    for (Pole& pole : poles)
+      if (!find_line(*mesh, pole) || !close(own, pole, rims)) return;
     if (connect(own, rims)) append(std::move(own), rims);
   }
 
@@ -100,7 +113,56 @@ class FacetReader {
       for (int k = 0; k < 3; ++k) uv[k] = {mesh.UVNode(n[k]).X(), mesh.UVNode(n[k]).Y()};
       own.face.push_back(f);
     }
+    own.pole.assign(own.corners.size(), kNone);
     return own;
+  }
+
+  /// Whether the nodes of a pole lie on a line along u or v.
+  static bool find_line(const Poly_Triangulation& mesh, Pole& pole) {
+    constexpr double kStraight = 1e-6;  // of its length
+    const auto uv = [&](std::int32_t node) { return Vec2{mesh.UVNode(node + 1).X(), mesh.UVNode(node + 1).Y()}; };
+    Box2 box;
+    for (const std::int32_t n : pole.node) box.add(uv(n));
+    const Vec2 size = box.hi - box.lo;
+    pole.is_along_v = size.y > size.x;
+    return std::min(size.x, size.y) <= kStraight * std::max(size.x, size.y) && size != Vec2{};
+  }
+
+  /// Makes one node of those at a pole and takes out the triangles that have no area then. False where what is left
+  /// does not lie side by side around it.
+  static bool close(UvFacets& own, const Pole& pole, std::vector<std::pair<CoedgeId, Rim>>& rims) {
+    const std::int32_t first = pole.node.front();
+    const auto weld = [&](std::int32_t& node) {
+      if (std::ranges::find(pole.node, node) != pole.node.end()) node = first;
+    };
+    for (auto& [coedge, rim] : rims) std::ranges::for_each(rim.node, weld);
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < own.corners.size(); ++t) {
+      Corners& c = own.corners[t];
+      std::ranges::for_each(c, weld);
+      const auto n_there = std::ranges::count(c, first);
+      if (n_there > 1) continue;
+      if (n_there == 1 &&
+          !turn_to_pole(own, t, static_cast<std::int32_t>(std::ranges::find(c, first) - c.begin()), pole))
+        return false;
+      own.corners[n] = c, own.uv[n] = own.uv[t], own.pole[n] = own.pole[t];
+      ++n;
+    }
+    own.corners.resize(n), own.uv.resize(n), own.pole.resize(n), own.face.resize(n);
+    return true;
+  }
+
+  /// Puts corner k, at a pole, half way between the others along its line. False where that turns the triangle over.
+  static bool turn_to_pole(UvFacets& own, std::size_t t, std::int32_t k, const Pole& pole) {
+    if (own.pole[t] != kNone) return false;  // of two poles
+    own.pole[t] = PoleCorner{k, pole.is_along_v}.code();
+    Vec2& there = own.uv[t][static_cast<std::size_t>(k)];
+    const Vec2 a = own.uv[t][static_cast<std::size_t>((k + 1) % 3)],
+               b = own.uv[t][static_cast<std::size_t>((k + 2) % 3)];
+    const double before = cross(a - there, b - there);
+    (pole.is_along_v ? there.y : there.x) = pole.is_along_v ? 0.5 * (a.y + b.y) : 0.5 * (a.x + b.x);
+    const auto height = [&](Vec2 p) { return pole.is_along_v ? p.x - there.x : p.y - there.y; };
+    return height(a) * height(b) > 0 && before * cross(a - there, b - there) > 0;
   }
 
   /// Finds mates and sides along edges; false where they contradict each other.
@@ -142,6 +204,7 @@ class FacetReader {
       facets_.corners.push_back({c[0] + first_node, c[1] + first_node, c[2] + first_node});
     facets_.uv.insert(facets_.uv.end(), own.uv.begin(), own.uv.end());
     facets_.face.insert(facets_.face.end(), own.face.begin(), own.face.end());
+    facets_.pole.insert(facets_.pole.end(), own.pole.begin(), own.pole.end());
     for (const std::int32_t m : own.mate) facets_.mate.push_back(m == kNone ? kNone : m + first_side);
     for (auto& [coedge, rim] : rims) {
       rim.node.pop_back();

@@ -16,6 +16,7 @@ struct UvFacets {
   std::vector<Vec3> x;                              ///< [n_nodes] model unit; a node of two faces stands here twice
   std::vector<Corners> corners;                     ///< [n_triangles] counter-clockwise seen from outside
   std::vector<std::array<Vec2, 3>> uv;              ///< [n_triangles] of the corners, on the face's surface
+  std::vector<std::int32_t> pole;                   ///< [n_triangles] PoleCorner::code(), or kNone
   std::vector<FaceId> face;                         ///< [n_triangles] ascending
   std::vector<std::int32_t> face_offsets;           ///< [n_faces+1] triangles; none where a face cannot be triangulated
   std::vector<std::int32_t> mate;                   ///< [3*n_triangles] side of the same face; kNone along its edges
@@ -26,8 +27,8 @@ struct UvFacets {
   bool fit(std::int32_t a, std::int32_t b) const;
 };
 
-/// By OpenCASCADE's BRepMesh; faces that are not wanted or have a pole, whose triangles do not fill their loops, or
-/// whose nodes are not those of their edges have none. Local. Cost: some microseconds per facet.
+/// By OpenCASCADE's BRepMesh; faces that are not wanted, whose triangles do not fill their loops or do not lie side by
+/// side around a pole, or whose nodes are not those of their edges have none. Local. Cost: some microseconds per facet.
 UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits);
 
 }  // namespace st

@@ -104,7 +104,7 @@ RimCurve2d::RimCurve2d(std::unique_ptr<Curve2d> own, std::vector<Segment> segmen
 Vec2 RimCurve2d::point(double t) const {
   const auto next =
       std::upper_bound(segments_.begin() + 1, segments_.end(), t, [](double at, const Segment& s) { return at < s.t; });
-  return (next - 1)->to_chart(own_->point(t));
+  return (next - 1)->map.chart(own_->point(t));
 }
 
 }  // namespace st

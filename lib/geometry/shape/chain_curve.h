@@ -62,8 +62,8 @@ class ChainCurve2d final : public Curve2d {
 class RimCurve2d final : public Curve2d {
  public:
   struct Segment {
-    double t;            ///< where it begins
-    AffineMap to_chart;  ///< from (u,v) of the member
+    double t;       ///< where it begins
+    MemberMap map;  ///< to (u,v) of the member
   };
   /// Precondition: segments ascend.
   RimCurve2d(std::unique_ptr<Curve2d> own, std::vector<Segment> segments);

@@ -10,24 +10,19 @@ namespace st {
 namespace {
 
 constexpr double kLeastCosine = 0.5;          // between the normals of a facet and of its face
+constexpr double kSlender = 0.02;             // height over longest side: chords across a bend turn such a facet,
+constexpr double kLeastSlenderCosine = 0.1;   // which may be turned this far
 constexpr double kMostCompositeStretch = 20;  // of (u,v): twice what the chart alone may have
 
 }  // namespace
 
-AffineMap::AffineMap(const std::array<Vec2, 3>& places, const std::array<Vec2, 3>& images)
-    : from(places[0]), to(images[0]) {
-  const Vec2 a = places[1] - places[0], b = places[2] - places[0], x = images[1] - images[0], y = images[2] - images[0];
-  const double det = cross(a, b);
-  along_u = (1 / det) * (b.y * x - a.y * y);
-  along_v = (1 / det) * (a.x * y - b.x * x);
-}
-
 struct CompositeSurface::Data {
   Data(Chart c, CompositeSupport support) : corner_uv(std::move(support.corner_uv)), member(std::move(support.member)) {
-    ST_ASSERT(member.size() == c.corners.size() && corner_uv.size() == c.corners.size());
+    ST_ASSERT(member.size() == c.corners.size() && corner_uv.size() == c.corners.size() &&
+              support.pole.size() == c.corners.size());
     for (std::size_t t = 0; t < c.corners.size(); ++t) {
       const Corners& n = c.corners[t];
-      map.emplace_back(std::array{c.uv[n[0]], c.uv[n[1]], c.uv[n[2]]}, corner_uv[t]);
+      map.emplace_back(std::array{c.uv[n[0]], c.uv[n[1]], c.uv[n[2]]}, corner_uv[t], support.pole[t]);
       largest_stretch = std::max(largest_stretch, stretch(c, n));
     }
     chart = std::make_unique<ChartSurface>(std::move(c));
@@ -36,7 +31,7 @@ struct CompositeSurface::Data {
   std::unique_ptr<ChartSurface> chart;
   std::vector<std::array<Vec2, 3>> corner_uv;
   std::vector<std::int32_t> member;
-  std::vector<AffineMap> map;
+  std::vector<MemberMap> map;
   double largest_stretch = 0;
 };
 
@@ -85,13 +80,14 @@ CompositeSurface::MemberPlace CompositeSurface::place(Vec2 p) const {
   const auto t = static_cast<std::size_t>(at.triangle);
   const std::array<Vec2, 3>& uv = data_->corner_uv[t];
   const Vec2 inside = at.weight[0] * uv[0] + at.weight[1] * uv[1] + at.weight[2] * uv[2];
-  const Vec2 beyond = data_->map[t](p);
-  const Vec2 way = beyond - inside;
+  const MemberMap::Image beyond = data_->map[t](p);
+  const Vec2 way = beyond.uv - inside;
   const double side2 = std::max(
       {dot(uv[1] - uv[0], uv[1] - uv[0]), dot(uv[2] - uv[1], uv[2] - uv[1]), dot(uv[0] - uv[2], uv[0] - uv[2])});
   const std::int32_t member = data_->member[t];
-  if (dot(way, way) > kFar * kFar * side2) return {at.triangle, member, inside};
-  return {at.triangle, member, within_bounds(*members_[member], uv, beyond)};
+  const bool is_far = dot(way, way) > kFar * kFar * side2;
+  return {at.triangle, member, is_far ? inside : within_bounds(*members_[member], uv, beyond.uv), beyond.along_u,
+          beyond.along_v};
 }
 
 double CompositeSurface::largest_stretch() const { return data_->largest_stretch; }
@@ -104,13 +100,13 @@ Vec3 CompositeSurface::point(Vec2 uv) const {
 SurfacePoint CompositeSurface::evaluate(Vec2 uv) const {
   const MemberPlace at = place(uv);
   const SurfacePoint s = members_[at.member]->evaluate(at.uv);
-  const Vec2 a = data_->map[at.triangle].along_u, b = data_->map[at.triangle].along_v;
+  const Vec2 a = at.along_u, b = at.along_v;
   return {s.x, a.x * s.du + a.y * s.dv, b.x * s.du + b.y * s.dv};
 }
 
 SurfacePoint2 CompositeSurface::evaluate2(const MemberPlace& at) const {
   const SurfacePoint2 s = members_[at.member]->evaluate2(at.uv);
-  const Vec2 a = data_->map[at.triangle].along_u, b = data_->map[at.triangle].along_v;
+  const Vec2 a = at.along_u, b = at.along_v;
   const auto second = [&](Vec2 p, Vec2 q) {
     return p.x * q.x * s.duu + (p.x * q.y + p.y * q.x) * s.duv + p.y * q.y * s.dvv;
   };
@@ -147,12 +143,14 @@ bool follows_facets(const CompositeSurface& surface, const Chart& chart) {
   constexpr double kNeedle = 1e-6;  // height over longest side: rounding turns its normal
   for (const Corners& c : chart.corners) {
     const Vec3 a = chart.x[c[1]] - chart.x[c[0]], b = chart.x[c[2]] - chart.x[c[0]], n = cross(a, b);
-    const bool is_needle = norm(n) <= kNeedle * std::max({norm2(a), norm2(b), norm2(b - a)});
+    const double longest2 = std::max({norm2(a), norm2(b), norm2(b - a)});
+    const bool is_needle = norm(n) <= kNeedle * longest2;
+    const double least = norm(n) <= kSlender * longest2 ? kLeastSlenderCosine : kLeastCosine;
     for (const auto& w : {std::array{1 / 3., 1 / 3., 1 / 3.}, std::array{0.8, 0.1, 0.1}, std::array{0.1, 0.8, 0.1},
                           std::array{0.1, 0.1, 0.8}}) {
       const SurfacePoint p = surface.evaluate(w[0] * chart.uv[c[0]] + w[1] * chart.uv[c[1]] + w[2] * chart.uv[c[2]]);
       const Vec3 m = cross(p.du, p.dv);
-      if (!is_needle && !(dot(m, n) > kLeastCosine * norm(m) * norm(n))) return false;
+      if (!is_needle && !(dot(m, n) > least * norm(m) * norm(n))) return false;
       const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv), mean = 0.5 * (e + g),
                    root = std::hypot(0.5 * (e - g), f);
       if (!(mean + root <= kMostCompositeStretch * kMostCompositeStretch * (mean - root))) return false;

@@ -8,27 +8,19 @@
 #include <vector>
 
 #include "geometry/shape/chart_surface.h"
+#include "geometry/shape/member_map.h"
 #include "geometry/shape/surface.h"
 
 namespace st {
-
-/// The affine map that takes three places to three others. Precondition: the first three span a triangle.
-struct AffineMap {
-  Vec2 from, to;          ///< of the first place
-  Vec2 along_u, along_v;  ///< derivatives
-
-  AffineMap() = default;
-  AffineMap(const std::array<Vec2, 3>& places, const std::array<Vec2, 3>& images);
-  Vec2 operator()(Vec2 p) const { return to + (p - from).x * along_u + (p - from).y * along_v; }
-};
 
 /// What stands under a chart.
 struct CompositeSupport {
   std::vector<std::int32_t> member;            ///< [n_triangles] row of the surfaces
   std::vector<std::array<Vec2, 3>> corner_uv;  ///< [n_triangles] (u,v) of the corners on that surface
+  std::vector<std::int32_t> pole;              ///< [n_triangles] PoleCorner::code() or kNone
 };
 
-/// x(u,v) = the member's surface at the affine image of (u,v) in its chart triangle: exact places and derivatives of
+/// x(u,v) = the member's surface at the image of (u,v) by its chart triangle's map: exact places and derivatives of
 /// the members. Beside the patch the map of the nearest triangle goes on, up to the bounds of the member. Where two
 /// members meet, x jumps by as much as the chart's sides leave the common edge, squared, times the curvature.
 class CompositeSurface final : public Surface {
@@ -48,7 +40,7 @@ class CompositeSurface final : public Surface {
   /// A place on a member.
   struct MemberPlace {
     std::int32_t triangle = kNone, member = kNone;
-    Vec2 uv;
+    Vec2 uv, along_u, along_v;  ///< derivatives by the chart's (u,v)
   };
   MemberPlace place(Vec2 uv) const;
   /// Largest length in space over length in (u,v), of the chart's flat triangles.
@@ -66,8 +58,8 @@ class CompositeSurface final : public Surface {
   std::vector<std::unique_ptr<Surface>> members_;
 };
 
-/// Whether the surface's normals are within 60 degrees of the facets', at four places in each, and (u,v) stretches by
-/// 20 at most there.
+/// Whether the surface's normals are within 60 degrees of the facets' (84 of slender ones), at four places in each, and
+/// (u,v) stretches by 20 at most there.
 bool follows_facets(const CompositeSurface& surface, const Chart& chart);
 
 }  // namespace st

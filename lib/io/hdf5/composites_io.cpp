@@ -1,5 +1,6 @@
 #include "io/hdf5/composites_io.h"
 
+#include <algorithm>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace st {
 namespace {
 
-constexpr int kCompositesVersion = 1;  // of the group /st/composites
+constexpr int kCompositesVersion = 2;  // of the group /st/composites; 1: without poles
 
 /// Name and column of each.
 template <class C, class Visit>
@@ -33,6 +34,7 @@ void for_each_column(C& c, const Visit& visit) {
 }
 
 constexpr const char* kTriangleUv = "/st/composites/triangle_uv";
+constexpr const char* kTrianglePole = "/st/composites/triangle_pole";
 
 }  // namespace
 
@@ -42,7 +44,9 @@ void write_composites(Hdf5Writer& w, const Composites& c) {
   std::vector<Vec2> uv;
   for (const auto& corners : c.triangle_uv) uv.insert(uv.end(), corners.begin(), corners.end());
   w.write(kTriangleUv, uv);
-  w.set_attribute("/st/composites", "version", std::int64_t{kCompositesVersion});
+  const bool has_poles = std::ranges::any_of(c.triangle_pole, [](std::int32_t pole) { return pole != kNone; });
+  if (has_poles) w.write(kTrianglePole, c.triangle_pole);
+  w.set_attribute("/st/composites", "version", std::int64_t{has_poles ? kCompositesVersion : 1});
 }
 
 bool has_composites(const Hdf5Reader& r) { return r.has("/st/composites/member"); }
@@ -57,6 +61,8 @@ Composites read_composites(const Hdf5Reader& r) {
   const std::vector<Vec2> uv = r.read_rows<Vec2>(kTriangleUv, 3 * c.triangle_nodes.size());
   for (std::size_t t = 0; t < c.triangle_nodes.size(); ++t)
     c.triangle_uv.push_back({uv[3 * t], uv[3 * t + 1], uv[3 * t + 2]});
+  c.triangle_pole.assign(c.triangle_nodes.size(), kNone);
+  if (r.has(kTrianglePole)) c.triangle_pole = r.read<std::int32_t>(kTrianglePole);
   require_finite(r, "/st/composites/node_uv", c.node_uv);
   require_finite(r, kTriangleUv, uv);
   return c;

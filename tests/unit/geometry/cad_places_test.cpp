@@ -1,4 +1,5 @@
 #include "geometry/model/cad_places.h"
+#include "geometry/shape/member_map.h"
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,8 @@ TEST(CadPlaces, need_charts_that_lead_nowhere_else) {
   EXPECT_FALSE(is_sound([](Composites& c) { c.triangle_face[3] = -1; }));
   EXPECT_FALSE(is_sound([](Composites& c) { c.triangle_nodes[3][1] = 1'000'000; }));
   EXPECT_FALSE(is_sound([](Composites& c) { c.triangle_uv.pop_back(); }));
+  EXPECT_FALSE(is_sound([](Composites& c) { c.triangle_pole.pop_back(); }));
+  EXPECT_FALSE(is_sound([](Composites& c) { c.triangle_pole[0] = kNPoleCorners; }));
   EXPECT_FALSE(is_sound([](Composites& c) { c.node_uv.pop_back(); }));
 }
 

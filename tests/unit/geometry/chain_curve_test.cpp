@@ -57,8 +57,8 @@ TEST(ChainCurve2d, passes_its_pieces_head_to_tail) {
 TEST(RimCurve2d, maps_each_part_by_its_triangle) {
   auto own = std::make_unique<PolylineCurve2d>(std::vector<double>{0, 2}, std::vector<Vec2>{{0, 0}, {2, 0}});
   const std::array<Vec2, 3> first{{{0, 0}, {1, 0}, {0, 1}}}, second{{{1, 0}, {2, 0}, {1, 1}}};
-  const RimCurve2d curve(std::move(own), {{0, AffineMap(first, {{{0, 0}, {0, 1}, {-1, 0}}})},
-                                          {1, AffineMap(second, {{{0, 1}, {0, 4}, {-1, 1}}})}});
+  const RimCurve2d curve(std::move(own), {{0, MemberMap({{{0, 0}, {0, 1}, {-1, 0}}}, first, kNone)},
+                                          {1, MemberMap({{{0, 1}, {0, 4}, {-1, 1}}}, second, kNone)}});
   EXPECT_LE(norm(curve.point(0.5) - Vec2{0, 0.5}), 1e-15);
   EXPECT_LE(norm(curve.point(1.5) - Vec2{0, 2.5}), 1e-15);
 }

@@ -57,6 +57,29 @@ TEST(CompositeSurface, has_the_derivatives_of_its_places) {
   }
 }
 
+TEST(CompositeSurface, is_smooth_around_a_pole) {
+  const test::Joined melon("melon");
+  ASSERT_EQ(melon.composites.size(), 1);
+  const auto surface = melon.model.surface(melon.composites.members(0)[0]);
+  const Chart chart = melon.composites.chart(0);
+  int n = 0;
+  for (std::size_t t = 0; t < chart.corners.size(); ++t) {
+    if (melon.composites.triangle_pole[t] == kNone) continue;
+    for (const double weight : {0.5, 0.99, 0.999999, 1.0}) {
+      const auto pole = static_cast<std::size_t>(PoleCorner::of_code(melon.composites.triangle_pole[t]).corner);
+      const Corners& c = chart.corners[t];
+      const Vec2 uv = weight * chart.uv[c[pole]] +
+                      (1 - weight) * (0.3 * chart.uv[c[(pole + 1) % 3]] + 0.7 * chart.uv[c[(pole + 2) % 3]]);
+      const SurfacePoint2 p = surface->evaluate2(uv);
+      EXPECT_NEAR(norm(p.x), 10, 1e-9);
+      EXPECT_NEAR(std::abs(dot(normalized(cross(p.du, p.dv)), normalized(p.x))), 1, 1e-5);
+      EXPECT_NEAR(std::abs(principal_curvature(p).k1), 0.1, 1e-4);
+      ++n;
+    }
+  }
+  EXPECT_GE(n, 6 * 4);
+}
+
 TEST(CompositeSurface, has_the_curvature_of_the_cad_whatever_its_chart) {
   const Skin skin;
   const Model& cad = skin.joined.model.cad();
@@ -86,7 +109,7 @@ TEST(CompositeSurface, copies_are_the_same_and_go_on_beside_the_chart) {
   std::vector<std::unique_ptr<Surface>> members;
   members.push_back(std::make_unique<ChartSurface>(Chart{x, normal, own, {{0, 1, 3}, {0, 3, 2}}}));
   const Chart chart{{x[0], x[1], x[2]}, {normal[0], normal[1], normal[2]}, {{0, 0}, {2, 0}, {0, 2}}, {{0, 1, 2}}};
-  const CompositeSurface surface(chart, {{0}, {{own[0], own[1], own[2]}}}, std::move(members), {0, 2, 0, 2});
+  const CompositeSurface surface(chart, {{0}, {{own[0], own[1], own[2]}}, {kNone}}, std::move(members), {0, 2, 0, 2});
   const auto copy = surface.copy();
   ASSERT_TRUE(copy);
   for (const Vec2 uv : {Vec2{0.4, 0.4}, Vec2{1.2, 1}, Vec2{1.5, 1.5}}) {
@@ -111,20 +134,13 @@ TEST(CompositeSurface, mixes_second_derivatives_as_its_map_does) {
   const std::vector<Vec3> x(3), normal(3, Vec3{0, 0, 1});
   std::vector<std::unique_ptr<Surface>> members;
   members.push_back(std::make_unique<Saddle>());
-  const CompositeSurface surface({x, normal, {{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}}, {{0}, {own}}, std::move(members),
-                                 {0, 1, 0, 1});
+  const CompositeSurface surface({x, normal, {{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}}, {{0}, {own}, {kNone}},
+                                 std::move(members), {0, 1, 0, 1});
   const SurfacePoint2 p = surface.evaluate2(Vec2{0.3, 0.3});
   // z = (u - v / 2) (u / 4 + v) + (u - v / 2)^2
   EXPECT_NEAR(p.duu.z, 2.5, 1e-14);
   EXPECT_NEAR(p.duv.z, -0.125, 1e-14);
   EXPECT_NEAR(p.dvv.z, -0.5, 1e-14);
-}
-
-TEST(AffineMap, takes_three_places_to_three) {
-  const std::array<Vec2, 3> from{{{1, 2}, {4, 2.5}, {0, 7}}}, to{{{-1, 0}, {3, 3}, {2, -8}}};
-  const AffineMap map(from, to);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(norm(map(from[k]) - to[k]), 1e-14);
-  EXPECT_LE(norm(map((1 / 3.) * (from[0] + from[1] + from[2])) - (1 / 3.) * (to[0] + to[1] + to[2])), 1e-14);
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "geometry/model/composites.h"
+#include "geometry/shape/member_map.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,8 @@ TEST(Composites, are_refused_where_a_column_is_damaged) {
   damage([](Composites& c) { c.triangle_nodes[0][1] = 100000; });
   damage([](Composites& c) { c.triangle_face[0] = 9; });
   damage([](Composites& c) { c.triangle_uv.pop_back(); });
+  damage([](Composites& c) { c.triangle_pole.pop_back(); });
+  damage([](Composites& c) { c.triangle_pole[0] = kNPoleCorners; });
   damage([](Composites& c) { c.rim_coedge.pop_back(); });
   damage([](Composites& c) { c.rim_node[0] = -1; });
   damage([](Composites& c) { c.rim_triangle[0] = 100000; });

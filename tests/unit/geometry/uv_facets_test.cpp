@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/shape/member_map.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -14,7 +15,7 @@ UvFacets uv_facets_of(const Model& model) {
 }
 
 TEST(UvFacets, have_corners_at_their_places_and_face_outward) {
-  for (const char* shape : {"box", "drilled_cylinder", "mirrored_cylinder", "torus", "wing_of_8"}) {
+  for (const char* shape : {"box", "drilled_cylinder", "mirrored_cylinder", "torus", "wing_of_8", "melon", "cone"}) {
     SCOPED_TRACE(shape);
     const Model model = test::make_model(shape);
     const ModelTables& t = model.tables();
@@ -34,7 +35,7 @@ TEST(UvFacets, have_corners_at_their_places_and_face_outward) {
 }
 
 TEST(UvFacets, know_their_neighbours_and_the_sides_along_edges) {
-  for (const char* shape : {"box", "drilled_cylinder", "torus"}) {
+  for (const char* shape : {"box", "drilled_cylinder", "torus", "melon", "cone", "sphere"}) {
     SCOPED_TRACE(shape);
     const Model model = test::make_model(shape);
     const UvFacets facets = uv_facets_of(model);
@@ -76,8 +77,16 @@ TEST(UvFacets, have_their_rims_on_the_trimming_curves_at_seams_too) {
   }
 }
 
-TEST(UvFacets, are_not_made_of_faces_with_poles) {
-  EXPECT_TRUE(uv_facets_of(test::make_model("sphere")).corners.empty());
+TEST(UvFacets, have_one_node_at_a_pole) {
+  const Model model = test::make_model("melon");
+  const UvFacets facets = uv_facets_of(model);
+  EXPECT_GE(std::ranges::count_if(facets.pole, [](std::int32_t pole) { return pole != kNone; }), 6);
+  for (std::size_t i = 0; i < facets.corners.size(); ++i) {
+    const Corners& c = facets.corners[i];
+    EXPECT_GT(norm(cross(facets.x[c[1]] - facets.x[c[0]], facets.x[c[2]] - facets.x[c[0]])), 1e-6);
+    if (facets.pole[i] == kNone) continue;
+    EXPECT_LE(distance(facets.x[c[PoleCorner::of_code(facets.pole[i]).corner]], {0, 0, 10}), 1e-6);
+  }
 }
 
 TEST(UvFacets, are_made_of_wanted_faces_alone) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/shape/member_map.h"
 #include "unit/io/sample_artifacts.h"
 #include "unit/io/temporary_directory.h"
 
@@ -19,6 +20,7 @@ Composites sample_composites() {
   c.triangle_nodes = {{0, 1, 2}, {0, 2, 3}};
   c.triangle_face = {0, 1};
   c.triangle_uv = {{{{0, 0}, {2, 0}, {2, 2}}}, {{{5, 5}, {7, 7}, {5, 7}}}};
+  c.triangle_pole = {kNone, kNone};
   c.triangle_offsets = {0, 2};
   c.uv_bounds = {0, 1, 0, 1};
   return c;
@@ -36,6 +38,19 @@ TEST(CompositesIo, patches_keep_the_charts) {
   EXPECT_EQ(read.node_uv, p.composites.node_uv);
   EXPECT_EQ(read.triangle_uv, p.composites.triangle_uv);
   EXPECT_EQ(read.triangle_face, p.composites.triangle_face);
+}
+
+TEST(CompositesIo, older_tools_refuse_poles_alone) {
+  const TemporaryDirectory dir;
+  PatchesArtifact p = sample_patches();
+  p.composites = sample_composites();
+  write_patches(dir / "p.hdf", p);
+  EXPECT_EQ(Hdf5Reader(dir / "p.hdf").int_attribute("/st/composites", "version"), 1);
+  EXPECT_EQ(read_patches(dir / "p.hdf").composites.triangle_pole, p.composites.triangle_pole);
+  p.composites.triangle_pole = {kNone, PoleCorner{2, true}.code()};
+  write_patches(dir / "p.hdf", p);
+  EXPECT_EQ(Hdf5Reader(dir / "p.hdf").int_attribute("/st/composites", "version"), 2);
+  EXPECT_EQ(read_patches(dir / "p.hdf").composites.triangle_pole, p.composites.triangle_pole);
 }
 
 TEST(CompositesIo, patches_refuse_charts_that_lead_nowhere) {

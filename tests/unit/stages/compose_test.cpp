@@ -58,6 +58,13 @@ TEST(Compose, asks_only_for_edges_that_do_harm) {
   EXPECT_EQ(std::ranges::count(all.may_join, 1), 8);
 }
 
+TEST(Compose, sharp_corners_at_poles_do_harm) {
+  const GeometryArtifact g = composed("melon", "harm", "");
+  ASSERT_EQ(g.composites.size(), 2);  // the skin, and the floor, whose pieces meet in a point of a plane
+  EXPECT_EQ(g.composites.member.size(), 12u);
+  EXPECT_TRUE(std::ranges::any_of(g.composites.triangle_pole, [](std::int32_t pole) { return pole != kNone; }));
+}
+
 TEST(Compose, narrow_faces_are_no_reason_to_join_at_edges_across_them) {
   ImportResult cad = test::import_shape("cylinder_of_8");
   const Model model(cad.tables, cad.brep);
