@@ -86,6 +86,7 @@ class RidgeLayer {
     MeshNode at = m_.nodes[seed];
     Vec3 ahead = inward;
     triangle_ = kNone;
+    to_least(at, normalized(cross(at.normal, inward)), at.request);  // the seed is at one end of a round nose
     for (int n = 0, n_without = 0; n < kMostSteps && n_without < kSearched; ++n) {
       const std::optional<MeshNode> next = step_from(at, ahead);
       if (!next || !goes_to(next->p, seed)) break;

@@ -71,14 +71,17 @@ TEST(RidgeLines, follow_a_bent_one) {
   }
 }
 
-/// As at a round tail: lengths are alike within 1 of the middle.
+/// As at a round tail: lengths are alike within `half` of the middle.
 class FlatRidgeField : public WallField {
  public:
-  FlatRidgeField() : WallField(0.1, 0.2, 1) {}
+  explicit FlatRidgeField(double half = 1) : WallField(0.1, 0.2, 1), half_(half) {}
   using WallField::size;
   double size(Vec3 x, int& hint) const override {
-    return WallField::size({x.x, std::max(0.0, std::abs(x.y) - 1), 0}, hint);
+    return WallField::size({x.x, std::max(0.0, std::abs(x.y) - half_), 0}, hint);
   }
+
+ private:
+  double half_;
 };
 
 TEST(RidgeLines, lie_in_the_middle_of_equal_lengths) {
@@ -88,6 +91,14 @@ TEST(RidgeLines, lie_in_the_middle_of_equal_lengths) {
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_GE(lines[0].size(), 27u);
   for (const std::int32_t n : lines[0]) EXPECT_NEAR(face.work.mesh.nodes[n].x.y, 0, 0.02);
+}
+
+TEST(RidgeLines, begin_in_the_middle_of_equal_lengths_wider_than_a_step) {
+  const FlatRidgeField field(3);
+  RowCase face({loop_about_ridge()}, field);
+  const auto lines = lay_ridges(face.work);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_GE(lines[0].size(), 27u);
 }
 
 /// At two places of the ridge edges may not be longer along it.
