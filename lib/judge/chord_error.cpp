@@ -253,7 +253,8 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, DeviationSum* de
     FaceSurface faces(model);
     CornerPoints points;
     Parts& parts = pieces[begin / kTrianglesPerPiece];
-    for (auto [t, at] = std::pair(begin, parts.end()); t < end; ++t) {
+    auto at = parts.end();
+    for (std::size_t t = begin; t < end; ++t) {
       const FaceId f = mesh.triangle_face[t];
       const Surface& surface = faces.of(f);
       if (at == parts.end() || at->first != f) at = parts.try_emplace(f).first;  // triangles come face by face

@@ -368,6 +368,7 @@ CompositeSurface kinked_composite(double kink, double jump) {
       uv[k] = chart.uv[static_cast<std::size_t>(chart.corners[t][k])] - Vec2{t < 2 ? 0 : kSide, 0};
     support.member.push_back(t < 2 ? 0 : 1);
     support.corner_uv.push_back(uv);
+    support.pole.push_back(kNone);
   }
   return CompositeSurface(std::move(chart), std::move(support), std::move(members), {-1, 1 + kSide, 0, 1});
 }
