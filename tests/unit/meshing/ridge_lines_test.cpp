@@ -94,7 +94,7 @@ TEST(RidgeLines, lie_in_the_middle_of_equal_lengths) {
 }
 
 TEST(RidgeLines, begin_in_the_middle_of_equal_lengths_wider_than_a_step) {
-  const FlatRidgeField field(1.1);
+  const FlatRidgeField field(1.15);
   RowCase face({loop_about_ridge()}, field);
   const auto lines = lay_ridges(face.work);
   ASSERT_EQ(lines.size(), 1u);
