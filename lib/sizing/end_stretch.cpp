@@ -12,18 +12,15 @@ namespace {
 
 constexpr double kMostAcross = 0.7;  // cosine: a side that lies further along the stretch does not end it
 
+bool lies_across(Vec3 side, Vec3 direction) { return std::abs(dot(side, direction)) <= kMostAcross; }
+
 /// The sides at which a face ends.
 class EndSides {
  public:
   EndSides(std::span<const SpaceSide> sides, const std::function<bool(CoedgeId)>& ends) {
     std::copy_if(sides.begin(), sides.end(), std::back_inserter(sides_),
                  [&](const SpaceSide& s) { return ends(s.coedge); });
-    std::vector<Box3> boxes(sides_.size());
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      boxes[i].add(sides_[i].a);
-      boxes[i].add(sides_[i].end());
-    }
-    tree_ = BoxTree(boxes);
+    tree_ = tree_of(sides_);
   }
 
   /// Along the nearest one across `direction` (zero: of all) that is nearer than `reach`; zero: none is.
@@ -34,7 +31,7 @@ class EndSides {
         x, [&](std::int32_t, double d2) { return d2 < nearest2; },
         [&](std::int32_t i) {
           const double d2 = norm2(sides_[i].nearest_to(x) - x);
-          if (!(d2 < nearest2) || std::abs(dot(sides_[i].along, direction)) > kMostAcross) return;
+          if (!(d2 < nearest2) || !lies_across(sides_[i].along, direction)) return;
           nearest2 = d2;
           end = sides_[i].along;
         });
@@ -49,8 +46,7 @@ class EndSides {
 }  // namespace
 
 double most_aspect_at(Vec3 end, Vec3 direction) {
-  const bool is_end = end != Vec3{} && std::abs(dot(end, direction)) <= kMostAcross;
-  return is_end ? kEndAspect : std::numeric_limits<double>::infinity();
+  return end != Vec3{} && lies_across(end, direction) ? kEndAspect : std::numeric_limits<double>::infinity();
 }
 
 void bound_stretch_at_ends(std::span<const SpaceSide> sides, const std::function<bool(CoedgeId)>& ends,

@@ -44,15 +44,7 @@ class Necks {
  public:
   Necks(std::span<const SpaceSide> sides, const SamplingLimits& limits,
         const std::function<bool(CoedgeId, CoedgeId)>& counts)
-      : sides_(sides), limits_(limits), counts_(counts) {
-    std::vector<Box3> boxes;
-    for (const SpaceSide& s : sides_) {
-      boxes.emplace_back();
-      boxes.back().add(s.a);
-      boxes.back().add(s.end());
-    }
-    tree_ = BoxTree(boxes);
-  }
+      : sides_(sides), limits_(limits), counts_(counts), tree_(tree_of(sides)) {}
 
   void add_boxes(std::int32_t cause, std::vector<RasterBox>& boxes) const {
     std::vector<Place> places;

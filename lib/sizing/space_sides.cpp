@@ -22,4 +22,13 @@ std::vector<SpaceSide> sides_in_space(const Surface& surface, const LoopPolygons
   return sides;
 }
 
+BoxTree tree_of(std::span<const SpaceSide> sides) {
+  std::vector<Box3> boxes(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    boxes[i].add(sides[i].a);
+    boxes[i].add(sides[i].end());
+  }
+  return BoxTree(boxes);
+}
+
 }  // namespace st

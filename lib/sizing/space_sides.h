@@ -1,8 +1,10 @@
 // The sides of a face's loops in space.
 #pragma once
 
+#include <span>
 #include <vector>
 
+#include "base/box_tree.h"
 #include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/surface.h"
 
@@ -19,5 +21,8 @@ struct SpaceSide {
 
 /// In the order of the loops. Sides without a coedge or without a length, such as those at poles, are left out. Local.
 std::vector<SpaceSide> sides_in_space(const Surface& surface, const LoopPolygons& loops);
+
+/// Of their boxes; its items are their places in `sides`.
+BoxTree tree_of(std::span<const SpaceSide> sides);
 
 }  // namespace st

@@ -94,7 +94,7 @@ class CompositeFinder {
       can_join_[e] = 1;
       for (std::size_t i = 0; i < a.size(); ++i) across_[a[i]] = b[i], across_[b[i]] = a[i];
     }
-    for (FaceId f = 0; f < t_.n_faces(); ++f) parts_[part_of_[f] = f] = {f};
+    for (FaceId f = 0; f < t_.n_faces(); ++f) part_of_[f] = f, parts_[f] = {f};
   }
 
   void grow(std::vector<EdgeId> edges, std::int32_t most_faces) {
