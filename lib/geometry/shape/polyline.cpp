@@ -18,6 +18,41 @@ double share_of(const std::vector<double>& t, std::size_t i, double at) {
   return t[i + 1] > t[i] ? (at - t[i]) / (t[i + 1] - t[i]) : 0;
 }
 
+constexpr int kPasses = 3;  // in which tangents see those beside them
+
+/// As an arc begins whose chord and tangent at its other end these are.
+Vec3 mirrored(Vec3 tangent, Vec3 chord) { return 2 * dot(tangent, chord) * chord - tangent; }
+
+/// Of the curve that the segments stand for. Each is that of the circle through three points, or, where an arc ends at
+/// a line, more that of the longer segment: whichever makes arcs of the segments beside it.
+std::vector<Vec3> smooth_tangents(const std::vector<Vec3>& points) {
+  const std::size_t n = points.size();
+  std::vector<Vec3> direction, tangent(n), round, straight;
+  for (std::size_t i = 0; i + 1 < n; ++i) direction.push_back(normalized(points[i + 1] - points[i]));
+  if (n == 2) return {direction[0], direction[0]};
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const double before = distance(points[i - 1], points[i]), after = distance(points[i], points[i + 1]);
+    round.push_back(normalized(after * direction[i - 1] + before * direction[i]));
+    straight.push_back(normalized(before * direction[i - 1] + after * direction[i]));
+    tangent[i] = round.back();
+  }
+  const auto set_ends = [&] {
+    tangent.front() = mirrored(tangent[1], direction.front());
+    tangent.back() = mirrored(tangent[n - 2], direction.back());
+  };
+  const auto misfit = [&](std::size_t segment, Vec3 a, Vec3 b) { return norm2(cross(direction[segment], a + b)); };
+  set_ends();
+  for (int pass = 0; pass < kPasses; ++pass) {
+    const std::vector<Vec3> last = tangent;
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const auto sum = [&](Vec3 own) { return misfit(i - 1, last[i - 1], own) + misfit(i, own, last[i + 1]); };
+      tangent[i] = sum(straight[i - 1]) < sum(round[i - 1]) ? straight[i - 1] : round[i - 1];
+    }
+    set_ends();
+  }
+  return tangent;
+}
+
 }  // namespace
 
 std::vector<double> polyline_parameters(std::span<const Vec3> points) {
@@ -34,6 +69,7 @@ PolylineCurve::PolylineCurve(std::vector<Vec3> points)
   const auto direction = [&](std::size_t i) { return normalized(points_[i + 1] - points_[i]); };
   for (std::size_t i = 1; i + 1 < n; ++i)
     if (t_[i + 1] > t_[i - 1]) bend_[i] = (direction(i) - direction(i - 1)) / (0.5 * (t_[i + 1] - t_[i - 1]));
+  tangent_ = smooth_tangents(points_);
   if (n == 2) return;
   bend_.front() = bend_[1];
   bend_.back() = bend_[n - 2];
@@ -48,7 +84,8 @@ Vec3 PolylineCurve::point(double t) const {
 CurvePoint PolylineCurve::evaluate(double t) const {
   const std::size_t i = segment_of(t_, t);
   const double s = std::clamp(share_of(t_, i, t), 0.0, 1.0);
-  const Vec3 d = normalized(points_[i + 1] - points_[i]), bend = (1 - s) * bend_[i] + s * bend_[i + 1];
+  const Vec3 d = normalized((1 - s) * tangent_[i] + s * tangent_[i + 1]);
+  const Vec3 bend = (1 - s) * bend_[i] + s * bend_[i + 1];
   return {point(t), d, bend - dot(bend, d) * d};
 }
 

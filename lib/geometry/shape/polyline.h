@@ -8,8 +8,8 @@
 
 namespace st {
 
-/// Through two points or more, parametrised by arc length from 0. The second derivative is that of the curve that the
-/// segments stand for, by the turning at the points: linear between them, across the segment.
+/// Through two points or more, parametrised by arc length from 0. Derivatives are those of the smooth curve that the
+/// segments stand for: tangents turn evenly from point to point, the second derivative is linear between them.
 class PolylineCurve final : public Curve {
  public:
   explicit PolylineCurve(std::vector<Vec3> points);
@@ -20,7 +20,7 @@ class PolylineCurve final : public Curve {
   std::unique_ptr<Curve> copy() const override { return std::make_unique<PolylineCurve>(*this); }
 
  private:
-  std::vector<Vec3> points_, bend_;
+  std::vector<Vec3> points_, tangent_, bend_;
   std::vector<double> t_;
 };
 

@@ -30,6 +30,26 @@ TEST(PolylineCurve, has_the_curvature_that_its_turning_means) {
   EXPECT_EQ(curvature(PolylineCurve({{0, 0, 0}, {1, 2, 3}}).evaluate(1)), 0);
 }
 
+double turn_per_length(const PolylineCurve& curve, double from, double to) {
+  return angle_between(curve.evaluate(from).d1, curve.evaluate(to).d1) / (to - from);
+}
+
+TEST(PolylineCurve, turns_evenly_along_segments_of_an_arc) {
+  std::vector<Vec3> points;
+  for (const double a : {0.0, 0.5, 0.6, 1.0, 1.1, 1.5, 2.0}) points.push_back({2 * std::cos(a), 2 * std::sin(a), 0});
+  const PolylineCurve curve(points);
+  for (double s = 0; s < 0.95; s += 0.05)
+    EXPECT_NEAR(turn_per_length(curve, s * curve.t_max(), (s + 0.05) * curve.t_max()), 0.5, 0.02) << s;
+}
+
+TEST(PolylineCurve, is_straight_where_a_line_ends_at_an_arc) {
+  std::vector<Vec3> points{{-6, 2, 0}, {-3, 2, 0}};
+  for (const double a : {0.0, 0.4, 0.8, 1.2}) points.push_back({2 * std::sin(a), 2 * std::cos(a), 0});
+  const PolylineCurve curve(points);
+  EXPECT_NEAR(turn_per_length(curve, 0, 5.999), 0, 0.01);
+  EXPECT_NEAR(turn_per_length(curve, 6.001, curve.t_max()), 0.5, 0.02);
+}
+
 TEST(PolylineCurve, has_feet_near_a_guess) {
   const PolylineCurve curve(circle_points(2, 12));
   for (double s = 0.1; s < 1; s += 0.1) {
