@@ -592,6 +592,18 @@ TopoDS_Shape banded_pie() {
   return BRepAlgoAPI_Fuse(lower, upper).Shape();
 }
 
+/// A bar of 20 in layers along it: two whole thin ones, the upper one thicker, and one in two parts of the length.
+TopoDS_Shape layered_bar() {
+  const auto layer = [](double from, double to, double z, double height) {
+    return BRepPrimAPI_MakeBox(gp_Pnt(from, 0, z), to - from, 5, height).Shape();
+  };
+  TopoDS_Shape bar = layer(0, 20, 0, 3);
+  for (const TopoDS_Shape& next : {layer(0, 20, 3, 0.1), layer(0, 20, 3.1, 0.12), layer(0, 12, 3.22, 0.1),
+                                   layer(12, 20, 3.22, 0.1), layer(0, 20, 3.32, 3)})
+    bar = BRepAlgoAPI_Fuse(bar, next).Shape();
+  return bar;
+}
+
 /// A passage of a compressor about x, of 40 degrees: its two sides are curved, one the image of the other.
 TopoDS_Shape passage() {
   TColgp_Array2OfPnt poles(1, 3, 1, 3);
@@ -728,6 +740,7 @@ const std::map<std::string, Factory>& factories() {
        }},
       {"shallow_prism", shallow_prism},
       {"banded_pie", banded_pie},
+      {"layered_bar", layered_bar},
       {"pie", [] { return BRepPrimAPI_MakeCylinder(10, 30, 40 * M_PI / 180).Shape(); }},
       {"pie_off_axis", [] { return moved(BRepPrimAPI_MakeCylinder(10, 30, 40 * M_PI / 180).Shape(), 1e5, 7e4, 0); }},
       {"passage", passage},

@@ -24,6 +24,7 @@ namespace st::test {
 ///   lens (12.5 wide, 2 thick, its rim sharp)
 ///   pie (40 degrees of a cylinder about z) passage (40 degrees about x between two curved sides)
 ///   banded_pie (a band of 0.002 about a part of a cylinder, its upper side in two edges)
+///   layered_bar (three bands of 0.1 beside each other on two sides, the uppermost in halves)
 ///   fan (the sharp wing revolved by 90 degrees about its nose) wing_skin (without tips, inside out)
 ///   thin_pin_in_block (radius 0.05, no gap) rod_and_shallow_prism
 /// - Faces: square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees)

@@ -29,7 +29,7 @@ class Roles {
   explicit Roles(const MeshTopology& topology) : topology_(topology), role_(topology.tables().n_edges(), kNone) {}
 
   void add(const StripSides& strip, bool has_rows) {
-    strip.across.size() == 1 ? add_pair(strip, has_rows) : add_chain(strip);
+    strip.across.size() == 1 ? add_pair(strip, has_rows) : add_chain(strip, has_rows);
   }
 
   Facing take() { return std::move(all_); }
@@ -45,22 +45,56 @@ class Roles {
     if (!may_follow(follower)) std::swap(leader, follower);
     if (!may_follow(follower) || (role_[leader] >= 0 && !has_rows)) return;
     FacingEdges::Leader first{leader, strip.across[0].is_opposed};
-    if (role_[leader] >= 0) {
-      const FacingEdges& of = all_[role_[leader]];
-      if (of.leaders.size() > 1) return;
-      first = {of.leaders[0].edge, of.leaders[0].is_opposed != first.is_opposed};
-    }
+    if (!lead_by_leader(first)) return;
     add({follower, {first}, strip.width});
   }
 
-  void add_chain(const StripSides& strip) {
+  /// Where edges lead across several faces: those that the chain's edges follow lead in their place, and the one that
+  /// the single edge follows becomes the follower, with all that followed it.
+  void add_chain(const StripSides& strip, bool has_rows) {
     FacingEdges facing{strip.single, {}, strip.width};
-    bool is_free = may_follow(strip.single);
     for (const StripSides::Side& s : strip.across) {
+      if (!may_lead(s.edge) || (role_[s.edge] >= 0 && !has_rows)) return;
       facing.leaders.push_back({s.edge, s.is_opposed});
-      is_free &= may_lead(s.edge) && role_[s.edge] < 0;
+      if (!lead_by_leader(facing.leaders.back())) return;
     }
-    if (is_free) add(std::move(facing));
+    if (has_rows && role_[strip.single] >= 0) {
+      FacingEdges::Leader single{strip.single, false};
+      if (!lead_by_leader(single)) return;
+      facing.edge = single.edge;
+      if (single.is_opposed) turn_round(facing.leaders);
+    }
+    const auto is_own = [&](const FacingEdges::Leader& l) { return l.edge == facing.edge; };
+    if (std::ranges::any_of(facing.leaders, is_own)) return;
+    if (has_rows ? !may_become_follower(facing.edge) : !may_follow(facing.edge)) return;
+    for (FacingEdges& f : all_) {
+      if (!is_own(f.leaders[0])) continue;
+      const bool is_opposed = f.leaders[0].is_opposed;
+      f.leaders = facing.leaders;
+      if (is_opposed) turn_round(f.leaders);
+    }
+    add(std::move(facing));
+  }
+
+  /// Instead of an edge that follows, the one that it follows; false: these are several.
+  bool lead_by_leader(FacingEdges::Leader& leader) const {
+    if (role_[leader.edge] < 0) return true;
+    const std::vector<FacingEdges::Leader>& of = all_[role_[leader.edge]].leaders;
+    leader = {of[0].edge, of[0].is_opposed != leader.is_opposed};
+    return of.size() == 1;
+  }
+
+  static void turn_round(std::vector<FacingEdges::Leader>& leaders) {
+    std::ranges::reverse(leaders);
+    for (FacingEdges::Leader& l : leaders) l.is_opposed = !l.is_opposed;
+  }
+
+  /// It leads only single edges, if any.
+  bool may_become_follower(EdgeId e) const {
+    if (!may_lead(e) || topology_.strip_kept_at(e) || role_[e] >= 0) return false;
+    return std::ranges::none_of(all_, [e](const FacingEdges& f) {
+      return f.leaders.size() > 1 && std::ranges::any_of(f.leaders, [e](const auto& l) { return l.edge == e; });
+    });
   }
 
   /// The nodes of closed edges are made last.

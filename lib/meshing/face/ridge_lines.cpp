@@ -173,6 +173,7 @@ class RidgeLayer {
 
   std::int32_t insert(const MeshNode& p, std::int32_t last, std::int32_t seed) {
     if (w_.is_runaway()) return kNone;
+    if (last != kNone) triangle_ = m_.seen_from(last, p.p);  // a search over triangles stops at the line itself
     if (!goes_to(p.p, seed)) return kNone;
     if (!m_.find_cavity(p.p, metric_of(p), triangle_) || is_crowded(p, last)) return kNone;
     m_.nodes.push_back(p);

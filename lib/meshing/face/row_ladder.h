@@ -8,7 +8,7 @@ namespace st {
 
 /// Lays a column of nodes between each node of the bottom and the one across, as many as the sizes ask for there, and
 /// triangles between neighbouring columns: with about as many rows they have no obtuse angle. False, and nothing: the
-/// sides do not fit, or the face is wider than that at most columns.
+/// sides do not fit, or at most columns the face is wider than that, or than a few segments where it is flat.
 bool lay_ladder(FaceWork& work, const RowChain& chain);
 
 }  // namespace st

@@ -137,6 +137,25 @@ TEST(FacingEdges, are_found_on_the_narrowest_faces_first) {
   }
 }
 
+TEST(FacingEdges, of_strips_beside_each_other_follow_one_that_is_in_halves) {
+  const Model model = test::make_model("layered_bar");
+  const std::vector<FacingEdges> all = find_facing_edges(MeshTopology(model.tables()), true);
+  const auto follows = [&](EdgeId e) { return std::ranges::any_of(all, [e](const auto& f) { return f.edge == e; }); };
+  std::size_t n_chains = 0;
+  for (const FacingEdges& f : all) {
+    for (const FacingEdges::Leader& l : f.leaders) EXPECT_FALSE(follows(l.edge));
+    if (f.leaders.size() == 1) continue;
+    ++n_chains;
+    const ModelTables& t = model.tables();
+    const auto begin = [&](EdgeId e, bool is_end) { return t.vertex_xyz[t.edge_vertices[2 * e + is_end]]; };
+    for (std::size_t i = 0; i < 2; ++i) {
+      const FacingEdges::Leader& l = f.leaders.at(i);
+      EXPECT_LT(distance(begin(f.edge, i == 1), begin(l.edge, (i == 1) != l.is_opposed)), 0.5);
+    }
+  }
+  EXPECT_EQ(n_chains, 4u) << "on two sides both edges of the whole strips";
+}
+
 TEST(FacingEdges, leave_no_folds_on_a_band_between_one_edge_and_two) {
   const test::Meshed band("banded_pie", 1.3, {.merge_below = 0});
   EXPECT_TRUE(band.result.failures.empty());

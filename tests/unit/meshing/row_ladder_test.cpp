@@ -45,6 +45,49 @@ TEST(RowLadder, has_as_many_rows_as_each_place_asks_for) {
   EXPECT_TRUE(std::is_sorted(rows.begin() + 1, rows.end() - 1, std::greater<>()));
 }
 
+TEST(RowLadder, is_laid_on_a_flat_face_some_segments_wide) {
+  const FewerRowsField field;
+  const std::vector<double> sides = growing(0.1, 0, 4);
+  RowCase face({band(10, 10, sides, sides)}, field);
+  ASSERT_TRUE(lay_ladder(face.work, find_row_chains(face.work).at(0)));
+  EXPECT_NEAR(face.laid_area(), 10 * 4, 1e-9);
+  const WallField square(0.9, 0, 1.2);
+  RowCase other({band(10, 10, sides, sides)}, square);
+  const std::vector<RowChain> chains = find_row_chains(other.work);
+  EXPECT_TRUE(chains.empty() || !lay_ladder(other.work, chains[0])) << "rows as high as long";
+}
+
+/// Lengths across that let columns have 5.4, 5.6, 5.4 rows, and so on.
+class UnevenField : public WallField {
+ public:
+  UnevenField() : WallField(0.1, 0, 1) {}
+  LocalSize local(Vec3 x, int&) const override { return {1 / (5.5 + 0.1 * std::cos(3.14159 * x.x)), 1.2, {1, 0, 0}}; }
+};
+
+TEST(RowLadder, has_as_many_rows_as_the_column_before_where_sizes_hardly_differ) {
+  const UnevenField field;
+  RowCase face({band(10, 10, {0.2, 0.4, 0.6, 0.8, 1}, {0.2, 0.4, 0.6, 0.8, 1})}, field);
+  ASSERT_TRUE(lay_ladder(face.work, find_row_chains(face.work).at(0)));
+  EXPECT_NEAR(face.laid_area(), 10, 1e-9);
+  EXPECT_EQ(face.n_laid(), 2 * 5 * 10) << "five rows all along";
+}
+
+/// A strip of rows that lean by 45 degrees, and have fewer rows further on.
+TEST(RowLadder, has_no_fans_where_columns_lean_and_differ) {
+  const FewerRowsField field;
+  std::vector<Vec2> loop = band(10, 10, growing(0.1, 0, 1.2), growing(0.3, 0, 1.2));
+  for (Vec2& p : loop) p.x += p.y;
+  RowCase face({loop}, field);
+  ASSERT_TRUE(lay_ladder(face.work, find_row_chains(face.work).at(0)));
+  EXPECT_NEAR(face.laid_area(), 10 * 1.2, 1e-9);
+  const Triangulation& m = face.work.mesh;
+  std::vector<int> fan(m.nodes.size(), 0);
+  for (const PlaneTriangle& t : m.triangles)
+    if (t.state == kLaid)
+      for (const std::int32_t n : t.v) ++fan[n];
+  EXPECT_LE(*std::ranges::max_element(fan), 8);
+}
+
 TEST(RowLadder, is_part_of_a_sound_mesh) {
   const FewerRowsField field;
   FaceBoundary boundary = polygons({band(10, 10, {0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {0.6})}, 0.1);
@@ -55,7 +98,7 @@ TEST(RowLadder, is_part_of_a_sound_mesh) {
 
 TEST(RowLadder, is_none_on_wide_faces_and_between_unlike_sides) {
   const FewerRowsField field;
-  RowCase wide({band(10, 10, {3}, {3})}, field);
+  RowCase wide({band(10, 10, {7}, {7})}, field);
   EXPECT_FALSE(lay_ladder(wide.work, find_row_chains(wide.work).at(0)));
   std::vector<Vec2> loop = band(10, 10, {0.6}, {0.6});
   loop.erase(loop.begin() + 14);
