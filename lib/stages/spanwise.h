@@ -55,27 +55,44 @@ struct Spanwise {
     return normalized(station[away(i, 1)]->*place - station[away(i, -1)]->*place);
   }
 
-  /// Likewise by those before and after it in the record, edge by edge; zero where these are no others.
+  /// Likewise by those before and after it in the record, edge by edge: both edges of a base may have noses far apart.
+  /// A far one of these is another edge's. Zero where there is no other.
   Vec3 direction_of_edge(std::size_t i, Vec3 WingRecord::Station::*place) const {
-    const WingRecord::Station *own = station[i], *nearest = nullptr;
-    for (const WingRecord::Station* s : {own - 1, own + 1}) {
-      if (s < first || s >= first + n_recorded || s->is_nose_alone() != own->is_nose_alone()) continue;
-      if (!nearest || distance(s->*place, own->*place) < distance(nearest->*place, own->*place)) nearest = s;
-    }
-    const Vec3 way = nearest ? nearest->*place - own->*place : Vec3{};
-    return norm(way) > 0 ? normalized(way) : Vec3{};
+    const WingRecord::Station* own = station[i];
+    const auto place_of = [&](const WingRecord::Station* s) {
+      const bool is_other = s < first || s >= first + n_recorded || s->is_nose_alone() != own->is_nose_alone();
+      return is_other ? own->*place : s->*place;
+    };
+    Vec3 a = place_of(own - 1), b = place_of(own + 1);
+    const double before = distance(a, own->*place), after = distance(b, own->*place);
+    if (before > kMuchFurther * after && after > 0) a = own->*place;
+    if (after > kMuchFurther * before && before > 0) b = own->*place;
+    return norm(b - a) > 0 ? normalized(b - a) : Vec3{};
   }
 
-  /// Half of the way to the stations beside it, or to the end.
+  /// The way from the station before it to the one after it, or from or to the end.
   double part(std::size_t i) const {
     const std::size_t a = beside(i, -1).value_or(i), b = beside(i, 1).value_or(i);
     return share[b] - share[a] + (is_ring && b < a ? 1 : 0);
   }
 
+  /// The way to the noses before and after it in the record, of noses alone; model unit. These come in runs, far from
+  /// each other: what lies between runs is none's.
+  double nose_way(std::size_t i) const {
+    const WingRecord::Station* own = station[i];
+    double way = 0;
+    for (const WingRecord::Station* s : {own - 1, own + 1})
+      if (s >= first && s < first + n_recorded && s->is_nose_alone())
+        if (const double step = distance(s->nose, own->nose); step <= kRunStep * own->chord) way += step;
+    return way;
+  }
+
  private:
   static constexpr double kWidestGap = radians(90);  // between stations about their middle: with a wider one they are
                                                      // no ring
-  static constexpr double kOpenGap = radians(30);    // with a wider one the ring is open
+  static constexpr double kMuchFurther = 4;          // times: stations are up to three times as far as those before
+  static constexpr double kRunStep = 0.1;          // of the chord, twice a step of noses alone: further is another run
+  static constexpr double kOpenGap = radians(30);  // with a wider one the ring is open
 
   template <class ShareOf>
   void sort_by(const ShareOf& share_of) {

@@ -21,7 +21,6 @@ constexpr double kAlongSpan = 2;     // of these along the span: else few segmen
 constexpr double kUnheldReach = 3;   // lengths around a place that is not held
 constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
 constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
-constexpr double kLeaving = 0.5;     // cosine between an edge and the span, below
 constexpr double kBeside = 2;        // radii of the nearest triangle: a place further away is not on the mesh
 constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
 constexpr double kThick = 0.4;       // of the chord: a profile's points lie no further from it
@@ -262,12 +261,11 @@ class WingMesh {
   double Vec3::*axis_ = &Vec3::x;  // along which the wing is longest
 };
 
-/// Rows run along their edge, which leaves the span where a strut or fin joins.
+/// Rows run along their edge or nose, which may leave the span, as where a strut or fin joins.
 LengthsAt lengths_of(const WingMesh& mesh, const Spanwise& spanwise, std::size_t i, Vec3 WingRecord::Station::*place) {
   const Vec3 x = spanwise.station[i]->*place, span = spanwise.direction(i, place);
   const Vec3 edge = spanwise.direction_of_edge(i, place);
-  const bool leaves = edge != Vec3{} && std::abs(dot(edge, span)) < kLeaving && mesh.is_stretched_at(x);
-  return mesh.lengths_at(x, leaves ? edge : span);
+  return mesh.lengths_at(x, edge != Vec3{} && mesh.is_stretched_at(x) ? edge : span);
 }
 
 LengthsAt nose_of(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, std::size_t i) {
@@ -300,18 +298,15 @@ struct HeldSpan {
   std::optional<WingMiss> worst = std::nullopt;
 };
 
-/// Of stations with trailing edges, or of noses alone. `share_of`: of the whole wing's span, by index.
-template <class ShareOf>
+/// Of stations with trailing edges, or of noses alone. By index, `share_of`: of the whole wing's span, and `way_of`:
+/// what a station stands for, model unit.
+template <class ShareOf, class WayOf>
 void add_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, const ShareOf& share_of,
-                  HeldSpan& all) {
+                  const WayOf& way_of, HeldSpan& all) {
   const std::vector<const WingRecord::Station*>& stations = spanwise.station;
-  if (stations.empty()) return;
-  double way = distance(stations.front()->trailing, stations.back()->trailing);
-  for (std::size_t i = 1; spanwise.is_ring && i < stations.size(); ++i)
-    way += distance(stations[i - 1]->trailing, stations[i]->trailing);
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const WingRecord::Station& s = *stations[i];
-    const double part = way * spanwise.part(i);
+    const double part = way_of(i);
     all.span += part;
     double factor = 0;
     const auto take = [&](const char* what, double has, Vec3 place) {
@@ -331,15 +326,21 @@ void add_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& 
 /// Sets `held` and `worst`, from all stations.
 void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, WingMeasure& own) {
   HeldSpan all;
+  const std::vector<const WingRecord::Station*>& stations = spanwise.station;
+  double way = distance(stations.front()->trailing, stations.back()->trailing);
+  for (std::size_t i = 1; spanwise.is_ring && i < stations.size(); ++i)
+    way += distance(stations[i - 1]->trailing, stations[i]->trailing);
   add_stations(
-      mesh, wing, spanwise, [&](std::size_t i) { return spanwise.share[i]; }, all);
+      mesh, wing, spanwise, [&](std::size_t i) { return spanwise.share[i]; },
+      [&](std::size_t i) { return way * spanwise.part(i); }, all);
   const Spanwise front(wing, Spanwise::Kind::kNosesAlone);
   const auto share_of_front = [&](std::size_t i) {
     const auto nearest = std::ranges::min_element(
         spanwise.station, {}, [&](const auto* s) { return distance(s->nose, front.station[i]->nose); });
     return spanwise.share[static_cast<std::size_t>(nearest - spanwise.station.begin())];
   };
-  add_stations(mesh, wing, front, share_of_front, all);
+  add_stations(
+      mesh, wing, front, share_of_front, [&](std::size_t i) { return front.nose_way(i); }, all);
   own.worst = all.worst;
   if (all.span > 0) own.held = all.held / all.span;
 }

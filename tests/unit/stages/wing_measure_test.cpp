@@ -125,7 +125,7 @@ TEST(WingMeasure, of_rows_that_leave_the_span_has_their_heights) {
 TEST(WingMeasure, of_noses_alone_counts_for_what_is_held) {
   WingRecord wing = record(0.05);
   for (WingRecord::Station& s : wing.stations)
-    if (s.nose.y > 3) s = {s.nose, s.nose, 1, 0.025};
+    if (s.nose.y > 3) s = {s.nose, s.nose, 4, 0.025};  // steps of a twentieth of the chord
   const std::vector<WingMeasure> all = measure_wings(plank(), {&wing, 1});
   EXPECT_NEAR(all[0].held, 0.75, 0.02);
   ASSERT_TRUE(all[0].worst);
@@ -133,6 +133,30 @@ TEST(WingMeasure, of_noses_alone_counts_for_what_is_held) {
   EXPECT_NEAR(all[0].worst->has / all[0].worst->asked, 2, 1e-9);
   EXPECT_EQ(all[0].worst->place.x, 0);
   for (const WingStationMeasure& s : all[0].stations) EXPECT_LT(s.place.y, 3) << "of the trailing edge";
+}
+
+/// What lies between two runs of them is on no nose, as between a pylon and a tip.
+TEST(WingMeasure, of_noses_alone_counts_no_way_between_their_runs) {
+  WingRecord wing = record(0.05);
+  for (const double y : {0.3, 0.35, 3.5, 3.55})
+    wing.stations.push_back({{0, y, 0}, {0, y, 0}, 1, y < 1 ? 0.025 : 0.05});
+  const double way = distance(wing.stations.front().trailing, wing.stations[wing.stations.size() - 5].trailing);
+  EXPECT_NEAR(measure_wings(plank(), {&wing, 1})[0].held, 1 - 0.05 / (way + 0.1), 1e-9);
+}
+
+/// Stations of both edges of a base take turns along the span, and one edge has its noses elsewhere.
+TEST(WingMeasure, of_rows_goes_along_the_noses_of_one_edge) {
+  std::vector<double> x{0};
+  for (double height = 0.001; x.back() + height < 0.5; height *= 1.2) x.push_back(x.back() + height);
+  for (int i = static_cast<int>(x.size()) - 1; i >= 0; --i) x.push_back(1 - x[i]);
+  WingRecord wing = record(0.001);
+  WingRecord other = wing;
+  for (WingRecord::Station& s : other.stations) s = {{0.9, s.nose.y, 0}, s.trailing + Vec3{0, 0.01, 0}, 1, 0};
+  wing.stations.insert(wing.stations.end(), other.stations.begin(), other.stations.end());
+  const SurfaceMesh mesh = test::plank_of(x, 16, 0.1);
+  for (const WingStationMeasure& s : measure_wings(mesh, {&wing, 1})[0].stations)
+    EXPECT_TRUE(s.asked == 0 || s.nose.normal < 0.0013);
+  EXPECT_TRUE(find_unheld(mesh, {&wing, 1}).empty());
 }
 
 /// As on the end of a wing.
