@@ -11,7 +11,6 @@
 #include "base/boxes.h"
 #include "features/edge_places.h"
 #include "features/profile.h"
-#include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -47,22 +46,6 @@ struct Walk {
   Vec3 normal;       // of the planes, unit
   FaceId face;
 };
-
-LoopPolygons loops_of(const Model& model, FaceId face) {
-  const ModelTables& t = model.tables();
-  std::vector<LoopSide> sides;
-  for (const CoedgeId c : t.coedges(face)) {
-    const auto curve = model.pcurve(face, c);
-    const double from = t.edge_range[2 * t.coedge_edge[c]], to = t.edge_range[2 * t.coedge_edge[c] + 1];
-    Vec2 last = curve->point(from);
-    for (int i = 1; i <= kLoopSides; ++i) {
-      const Vec2 next = curve->point(from + (to - from) * i / kLoopSides);
-      sides.push_back({last, next});
-      last = next;
-    }
-  }
-  return LoopPolygons(std::move(sides));
-}
 
 class FrontFinder {
  public:
@@ -276,6 +259,22 @@ class FrontFinder {
 };
 
 }  // namespace
+
+LoopPolygons loops_of(const Model& model, FaceId face) {
+  const ModelTables& t = model.tables();
+  std::vector<LoopSide> sides;
+  for (const CoedgeId c : t.coedges(face)) {
+    const auto curve = model.pcurve(face, c);
+    const double from = t.edge_range[2 * t.coedge_edge[c]], to = t.edge_range[2 * t.coedge_edge[c] + 1];
+    Vec2 last = curve->point(from);
+    for (int i = 1; i <= kLoopSides; ++i) {
+      const Vec2 next = curve->point(from + (to - from) * i / kLoopSides);
+      sides.push_back({last, next});
+      last = next;
+    }
+  }
+  return LoopPolygons(std::move(sides));
+}
 
 bool has_other_noses(const LiftingSurface& wing, const ChordEdge& second) {
   return std::ranges::any_of(second.stations, [&](const ChordStation& s) {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "features/lifting_surface.h"
+#include "geometry/shape/loop_polygons.h"
 
 namespace st {
 
@@ -16,5 +17,8 @@ void add_front_noses(const Model& model, std::span<LiftingSurface> surfaces);
 /// Whether some noses before the second edge of a base are others than those before the first: corners of the wall of a
 /// slot. Local; stations of one times those of the other.
 bool has_other_noses(const LiftingSurface& wing, const ChordEdge& second);
+
+/// The loops of a face, its edges as chords. Local.
+LoopPolygons loops_of(const Model& model, FaceId face);
 
 }  // namespace st

@@ -10,6 +10,7 @@
 #include "base/sort_once.h"
 #include "features/arc_table.h"
 #include "features/front_noses.h"
+#include "features/ridge_noses.h"
 #include "geometry/shape/projection.h"
 #include "sizing/end_stretch.h"
 
@@ -226,6 +227,7 @@ class WingRaster {
     for (const ChordStation* s : run) x.push_back(s->*place);
     for (std::size_t i = 0; i + 1 < run.size(); ++i) {
       const ChordStation &a = *run[i], &b = *run[i + 1];
+      if (sizes_.stretch.max_aspect > 1 && jumps(a, b)) continue;
       const double bent_a = is_tail ? bent_at_tail(a) : kFlat, bent_b = is_tail ? bent_at_tail(b) : kFlat;
       const SmoothPiece piece(x, i);
       walk(distance(x[i], x[i + 1]), pack_cause(CauseKind::kFace, a.*face), {}, [&](double share) {
@@ -335,6 +337,7 @@ WingRecord record_wing(const LiftingSurface& wing, const WingSizes& sizes, std::
   }
   for (const ChordEdge& front : wing.front)
     for (const ChordStation& s : front.stations) {
+      if (!s.is_measured) continue;
       record.stations.push_back({s.nose, s.nose, s.chord, length_along(wing, sizes, front, s.chord)});
       record.faces.push_back(s.nose_face);
     }

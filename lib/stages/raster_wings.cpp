@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "base/text.h"
+#include "features/ridge_noses.h"
 #include "geometry/model/edge_faces.h"
 #include "stages/raster_options.h"
 #include "stages/size_tally.h"
@@ -140,6 +141,8 @@ GivenFloors find_floors(const std::vector<SizeRule>& rules, bool everywhere, con
 
 ModelLimits find_limits(const RasterStageOptions& o, const Model& model, const FaceRoles& roles,
                         std::span<const Strip> strips, const AskedLimits& asked, RasterWings& wings) {
+  if (o.max_aspect > 1)
+    for (LiftingSurface& wing : wings.aircraft.wings) put_on_ridges(model, wing);
   wings.aircraft.bodies = find_bodies(model, roles, wings.aircraft.wings);
   ModelLimits limits = model_limits(model.tables(), roles, asked.wall, asked.rules, wings.edges, wings.aircraft);
   sample_wings(o, model, asked.rules, strips, roles.reference_diagonal, asked.wall.max_length, limits, wings);

@@ -151,7 +151,7 @@ TEST(WingMeasure, of_rows_goes_along_the_noses_of_one_edge) {
   for (int i = static_cast<int>(x.size()) - 1; i >= 0; --i) x.push_back(1 - x[i]);
   WingRecord wing = record(0.001);
   WingRecord other = wing;
-  for (WingRecord::Station& s : other.stations) s = {{0.9, s.nose.y, 0}, s.trailing + Vec3{0, 0.01, 0}, 1, 0};
+  for (WingRecord::Station& s : other.stations) s = {{0.1, s.nose.y, 0}, s.trailing + Vec3{0, 0.09, 0}, 1, 0};
   wing.stations.insert(wing.stations.end(), other.stations.begin(), other.stations.end());
   const SurfaceMesh mesh = test::plank_of(x, 16, 0.1);
   for (const WingStationMeasure& s : measure_wings(mesh, {&wing, 1})[0].stations)

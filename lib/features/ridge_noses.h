@@ -1,0 +1,16 @@
+// Noses on ridges, where rows of stretched triangles can begin.
+#pragma once
+
+#include "features/lifting_surface.h"
+
+namespace st {
+
+/// Whether two noses that follow each other are no line: one is another body's, perhaps.
+bool jumps(const ChordStation& a, const ChordStation& b);
+
+/// Noses beside which the surface is much more curved, as where a profile was cut obliquely or along the face of a
+/// pylon, are moved to where it is most so, across the flattest direction and on their face. What is no further apart
+/// than that belongs to one nose: rows cannot begin at two lines that cross. Others stay, to the bit. Local.
+void put_on_ridges(const Model& model, LiftingSurface& wing);
+
+}  // namespace st

@@ -1,0 +1,69 @@
+// Noses on ridges, where rows of stretched triangles can begin.
+#include "features/ridge_noses.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "features/strip.h"
+#include "geometry/shape/projection.h"
+#include "support/shapes.h"
+
+namespace st {
+namespace {
+
+/// A sharp NACA 0012 of chord 10 along z, from 0 to 30; its nose is round, at x = 0.
+struct RidgeWing {
+  Model model = test::make_model("sharp_wing");
+  FaceRoles roles = face_roles(model.tables());
+  LiftingSurface wing = find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0);
+
+  /// In the middle of the span.
+  ChordStation& station(std::size_t i) { return wing.trailing.at(0).stations.at(10 + i); }
+  /// On the side of its face.
+  void put_nose(std::size_t i, double x, double y) {
+    ChordStation& s = station(i);
+    const auto surface = model.surface(s.nose_face);
+    const SurfaceFoot above = closest_point(*surface, {x, y, s.nose.z}),
+                      below = closest_point(*surface, {x, -y, s.nose.z});
+    s.nose = (above.distance < below.distance ? above : below).x;
+  }
+};
+
+TEST(RidgeNoses, are_where_they_were_on_a_ridge) {
+  RidgeWing w;
+  const LiftingSurface before = w.wing;
+  put_on_ridges(w.model, w.wing);
+  for (std::size_t i = 0; i < before.trailing[0].stations.size(); ++i) {
+    EXPECT_EQ(w.wing.trailing[0].stations[i].nose, before.trailing[0].stations[i].nose);
+    EXPECT_EQ(w.wing.trailing[0].stations[i].is_measured, before.trailing[0].stations[i].is_measured);
+  }
+}
+
+TEST(RidgeNoses, move_to_the_ridge_beside_them) {
+  RidgeWing w;
+  const Vec3 nose = w.station(0).nose;
+  w.put_nose(0, 0.2, 0.25);
+  ASSERT_GT(distance(w.station(0).nose, nose), 0.15);
+  put_on_ridges(w.model, w.wing);
+  EXPECT_TRUE(w.station(0).is_measured);
+  EXPECT_LT(distance(w.station(0).nose, nose), 0.01) << "a thousandth of the chord";
+}
+
+TEST(RidgeNoses, are_none_along_the_chord_where_the_surface_is_nearly_flat) {
+  RidgeWing w;
+  for (const std::size_t i : {0, 1, 2}) w.put_nose(i, 0.2 + 4.8 * static_cast<double>(i), 0.5);
+  put_on_ridges(w.model, w.wing);
+  EXPECT_FALSE(w.station(1).is_measured);
+  EXPECT_TRUE(w.station(6).is_measured);
+}
+
+TEST(RidgeNoses, jump_where_they_are_far_apart_beside_their_trailing_edges) {
+  ChordStation a{.trailing = {10, 0, 0}, .nose = {0, 0, 0}}, b{.trailing = {10, 1, 0}, .nose = {5, 1, 0}};
+  EXPECT_FALSE(jumps(a, b)) << "swept by 79 degrees";
+  b.nose.x = 7;
+  EXPECT_TRUE(jumps(a, b));
+}
+
+}  // namespace
+}  // namespace st
