@@ -3,20 +3,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "sizing/gap_stretch.h"
 
 namespace st {
 namespace {
 
-constexpr double kTouching = 1e-3;  // of the smallest length: nearer surfaces touch
-constexpr double kSagging = 2;      // times that of both patches: nearer patches of two solids touch
-constexpr double kBeyond = 0.13;    // of the patch's width beyond a crossing: clear of cells that a border cuts
-constexpr double kSidestep = 0.2;   // of the patch's width, along a crossing: more than such a cell
-constexpr double kFill = 0.9;       // largest side of a tile over the edge of its raster box
-constexpr double kLarge = 2.5;      // times this patch: its corners may miss this one
-constexpr int kMaxDepth = 8;        // of tiles in tiles
-constexpr int kMaxParts = 4;        // into which a tile is cut each way at once
+constexpr double kTouching = 1e-3;     // of the smallest length: nearer surfaces touch
+constexpr double kSagging = 2;         // times that of both patches: nearer patches of two solids touch
+constexpr double kBeyond = 0.13;       // of the patch's width beyond a crossing: clear of cells that a border cuts
+constexpr double kSidestep = 0.2;      // of the patch's width, along a crossing: more than such a cell
+constexpr double kLeastClosing = 0.5;  // of the slope that closes a gap at an edge: a cusp has twice
+constexpr double kMostClosing = 4;     // likewise
+constexpr double kFill = 0.9;          // largest side of a tile over the edge of its raster box
+constexpr double kLarge = 2.5;         // times this patch: its corners may miss this one
+constexpr int kMaxDepth = 8;           // of tiles in tiles
+constexpr int kMaxParts = 4;           // into which a tile is cut each way at once
 constexpr int kFirstParts = 2;
 
 /// Lengths across what lies ahead (gap) or behind (wall) of a patch; 0: it does not matter.
@@ -43,9 +46,13 @@ struct Facing {
 /// Cuts a patch into tiles that are small enough for the gap they see.
 class GapTiler {
  public:
-  GapTiler(const GapPatch& patch, const std::vector<Facing>& facing, double cell_per_length,
-           std::vector<RasterBox>& boxes)
-      : patch_(patch), facing_(facing), cell_per_length_(cell_per_length), boxes_(boxes) {
+  GapTiler(const GapPatch& patch, const std::vector<Facing>& facing, const GapFinder::MeetingPlace& meeting_place,
+           double cell_per_length, std::vector<RasterBox>& boxes)
+      : patch_(patch),
+        facing_(facing),
+        meeting_place_(meeting_place),
+        cell_per_length_(cell_per_length),
+        boxes_(boxes) {
     has_large_ = std::any_of(facing.begin(), facing.end(), [&](const Facing& f) { return is_large(*f.patch); });
   }
 
@@ -79,7 +86,7 @@ class GapTiler {
         continue;
       const std::optional<double> d = f.patch->facing_distance(x, n);
       if (d && !is_contact(*f.patch, *d) && std::abs(*d) < cells_to(patch_, *d) * sight.length &&
-          !(*d > 0 && is_past_crossing(*f.patch, s, t, *d)))
+          !(*d > 0 && (is_past_crossing(*f.patch, s, t, *d) || closes_at_edge(*f.patch, x, n, *d))))
         sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n, x, n};
     }
     return sight;
@@ -112,6 +119,18 @@ class GapTiler {
       slide_inside(along_s, along_t, s1, t1);
       return lies_before(other, s1, t1);
     });
+  }
+
+  /// Between a fairing and its wing no lengths fit across where they meet: down to the floor, rows of these would
+  /// follow the edge. In a slot that ends in an edge both sides run beside each other.
+  bool closes_at_edge(const GapPatch& other, Vec3 x, Vec3 n, double d) const {
+    const std::optional<Vec3> edge = meeting_place_(patch_.cause, other.cause, x);
+    if (!edge) return false;
+    const Vec3 to = x + d * n - other.x, opposite = other.normal_at(dot(to, other.axis_s), dot(to, other.axis_t));
+    const Vec3 closing = (dot(opposite, n) * n - opposite) / std::abs(dot(opposite, n));  // by its length in each
+                                                                                          // length
+    const double at_edge = norm(closing) * distance(*edge, x);  // by how much the gap has closed up there, about
+    return dot(*edge - x, closing) > 0 && at_edge > kLeastClosing * d && at_edge < kMostClosing * d;
   }
 
   /// Is the place inside the loops, with the other patch's face behind it?
@@ -206,6 +225,7 @@ class GapTiler {
 
   const GapPatch& patch_;
   const std::vector<Facing>& facing_;
+  const GapFinder::MeetingPlace& meeting_place_;
   const double cell_per_length_;
   std::vector<RasterBox>& boxes_;
   bool has_large_;
@@ -213,8 +233,8 @@ class GapTiler {
 
 }  // namespace
 
-GapFinder::GapFinder(std::span<const GapPatch> patches, double cell_per_length)
-    : patches_(patches), cell_per_length_(cell_per_length), tree_(patches) {}
+GapFinder::GapFinder(std::span<const GapPatch> patches, double cell_per_length, MeetingPlace meeting_place)
+    : patches_(patches), cell_per_length_(cell_per_length), meeting_place_(std::move(meeting_place)), tree_(patches) {}
 
 void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
   const GapPatch& patch = patches_[i];
@@ -227,7 +247,7 @@ void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
     const Box3 box = patches_[id].box();
     facing.push_back({box.center(), 0.5 * box.diagonal(), &patches_[id]});
   }
-  GapTiler(patch, facing, cell_per_length_, boxes).run();
+  GapTiler(patch, facing, meeting_place_, cell_per_length_, boxes).run();
 }
 
 }  // namespace st

@@ -289,7 +289,8 @@ class RasterRun {
     counts_.n_boxes += wings_.boxes.size();
     std::vector<RasterBox>& boxes = samples.own_boxes;
     boxes.insert(boxes.end(), wings_.boxes.begin(), wings_.boxes.end());
-    if (limits_.wants_gaps) counts_.n_gap_boxes = sample_gaps(samples, o_.cell_per_length, budget_.max_samples, trace_);
+    if (limits_.wants_gaps)
+      counts_.n_gap_boxes = sample_gaps(model_, samples, o_.cell_per_length, budget_.max_samples, trace_);
     times_.end("gaps");
     trace_.begin_phase("octree");
     const Box3 box = model_.tables().box();

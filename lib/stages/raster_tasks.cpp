@@ -15,6 +15,7 @@
 #include "base/progress.h"
 #include "base/share.h"
 #include "sizing/cell_limit.h"
+#include "sizing/common_edges.h"
 #include "sizing/end_stretch.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
@@ -255,9 +256,14 @@ void limit_samples(std::uint64_t max_samples, ModelLimits& limits) {
       if (own) own->max_samples = max_samples;
 }
 
-std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t max_samples, const Executor& comm) {
+std::size_t sample_gaps(const Model& model, Samples& samples, double cell_per_length, std::uint64_t max_samples,
+                        const Executor& comm) {
   const std::vector<GapPatch> patches = share_patches(samples, comm);
-  const GapFinder finder(patches, cell_per_length);
+  const CommonEdges edges(model);
+  const auto meeting_place = [&](std::int32_t a, std::int32_t b, Vec3 x) {
+    return edges.nearest(cause_id(a), cause_id(b), x);
+  };
+  const GapFinder finder(patches, cell_per_length, meeting_place);
   require_countable(patches.size(), "samples that look for gaps");
   const auto n_tasks = static_cast<std::int32_t>((patches.size() + kPatchesPerTask - 1) / kPatchesPerTask);
   std::size_t n_boxes = 0;

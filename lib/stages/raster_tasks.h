@@ -46,7 +46,8 @@ void limit_samples(std::uint64_t max_samples, ModelLimits& limits);
 
 /// Collective. Boxes of gaps stay on the rank that made them, as the others do; returns their number on rank 0. Throws
 /// TooManyCells beyond `max_samples`.
-std::size_t sample_gaps(Samples& samples, double cell_per_length, std::uint64_t max_samples, const Executor& comm);
+std::size_t sample_gaps(const Model& model, Samples& samples, double cell_per_length, std::uint64_t max_samples,
+                        const Executor& comm);
 
 struct SampleCounts {
   std::size_t n_boxes = 0, n_failures = 0, n_gap_boxes = 0;

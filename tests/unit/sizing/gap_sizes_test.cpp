@@ -34,8 +34,11 @@ void add_patches(const Surface& surface, Normals normals, const SamplingLimits& 
 
 PlaneSurface plate(double z) { return PlaneSurface({{0, 0, z}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0, 10, 0, 10); }
 
-std::vector<RasterBox> gaps(const std::vector<GapPatch>& patches) {
-  const GapFinder finder(patches, 2);
+std::optional<Vec3> nowhere(std::int32_t, std::int32_t, Vec3) { return std::nullopt; }
+
+std::vector<RasterBox> gaps(const std::vector<GapPatch>& patches,
+                            const GapFinder::MeetingPlace& meeting_place = nowhere) {
+  const GapFinder finder(patches, 2, meeting_place);
   std::vector<RasterBox> boxes;
   for (std::size_t i = 0; i < patches.size(); ++i) finder.add_boxes(i, boxes);
   return boxes;
@@ -106,6 +109,32 @@ TEST(GapSizes, see_no_gap_beyond_a_sharp_edge_but_the_end_of_a_slot) {
     EXPECT_LT(length_at(boxes, {4.7, 0.47 * width, 0}, 0), 0.03) << width;
     EXPECT_LT(length_at(boxes, {4.95, 0.495 * width, 0}, 0), 0.01) << width;
   }
+}
+
+/// Two plates over [0, 10] x [0, 10], the upper one with its normals down, `height` above the other at x = 0 and turned
+/// by `angle` there. `has_edge`: they bound one edge, along x = 0.
+std::vector<RasterBox> gaps_of_wedge(double height, double angle, bool has_edge) {
+  const PlaneSurface upper(
+      {{0, 0, height}, {std::cos(angle), 0, std::sin(angle)}, {0, 1, 0}, {-std::sin(angle), 0, std::cos(angle)}}, 0, 10,
+      0, 10);
+  SamplingLimits own = limits(1, 0.001);
+  own.wall_cells.reset();
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, own, patches, 0);
+  add_patches(upper, Normals::kAgainst, own, patches, 1);
+  return gaps(patches, [&](std::int32_t a, std::int32_t b, Vec3 x) {
+    return has_edge && a != b ? std::optional(Vec3{0, x.y, 0}) : std::nullopt;
+  });
+}
+
+TEST(GapSizes, see_no_gap_that_closes_towards_a_common_edge) {
+  for (const double angle : {5.0, 20.0, 40.0}) {
+    EXPECT_TRUE(gaps_of_wedge(0, radians(angle), true).empty()) << angle;
+    EXPECT_LT(length_at(gaps_of_wedge(0, radians(angle), false), {0.3, 5, 0}, 0), 0.1) << angle;
+  }
+  // slots whose end is the edge: of even height, and opening
+  EXPECT_NEAR(length_at(gaps_of_wedge(0.4, 0, true), {5, 5, 0}, 0), 0.1, 1e-6);
+  EXPECT_NEAR(length_at(gaps_of_wedge(1, radians(3), true), {2, 5, 0}, 0), 0.27, 0.03);
 }
 
 TEST(GapSizes, see_no_wall_between_two_solids_and_no_gap_where_a_shaft_fills_its_bore) {

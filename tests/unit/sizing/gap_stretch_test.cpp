@@ -104,7 +104,7 @@ TEST(GapStretch, of_a_rod_in_its_bore_is_along_both_on_both_sides) {
     patches.insert(patches.end(), own.begin(), own.end());
   }
   std::vector<RasterBox> boxes;
-  const GapFinder finder(patches, 2.5);
+  const GapFinder finder(patches, 2.5, [](auto, auto, Vec3) { return std::nullopt; });
   for (std::size_t i = 0; i < patches.size(); ++i) finder.add_boxes(i, boxes);
   ASSERT_FALSE(boxes.empty());
   for (const RasterBox& box : boxes) {
