@@ -112,7 +112,8 @@ class RowBlock {
 
   /// Do all but a few of the quadrilaterals allow edges twice as long, and triangles over two of them?
   bool is_merging(const NextLine& next) const {
-    if (line_.is_closed || n_rows_ == 0) return false;
+    const auto is_across = [](const NextLine::Column& c) { return c.is_across; };
+    if (line_.is_closed || n_rows_ == 0 || std::ranges::any_of(next.columns, is_across)) return false;
     std::size_t n = 0, n_fit = 0;
     for (std::size_t i = 0; i < next.joined.size(); ++i) {
       if (!next.joined[i]) continue;
@@ -182,6 +183,8 @@ class RowBlock {
       if (!w_.field->has_metrics()) return distance(x(from), x(to));
       return std::sqrt(length2(x(to) - x(from), m_.nodes[c], m_.nodes[d]));
     };
+    if (a == c) return layer_.lay({{a, b, d}});
+    if (b == d) return layer_.lay({{a, b, c}});
     if (length(a, d) <= kEven * length(b, c)) return layer_.lay({{a, b, d}, {d, c, a}});
     return layer_.lay({{a, b, c}, {d, c, b}});
   }
@@ -200,14 +203,19 @@ class RowBlock {
     double sum = 0;
     std::size_t n = 0;
     const std::size_t n_columns = next.columns.size();
-    RowLine line{std::vector<std::int32_t>(n_columns, kNone), std::vector<double>(n_columns, 0),
-                 std::vector<double>(n_columns, 0), next.joined, line_.is_closed};
+    RowLine line{std::vector<std::int32_t>(n_columns, kNone),
+                 std::vector<double>(n_columns, 0),
+                 std::vector<double>(n_columns, 0),
+                 next.joined,
+                 line_.is_closed,
+                 std::vector<char>(n_columns, 0)};
     std::vector<char> goes_on(line_.joined.size(), 0);
     for (std::size_t i = 0; i < next.joined.size(); ++i) {
       if (!next.joined[i]) continue;
       std::fill_n(goes_on.begin() + static_cast<std::ptrdiff_t>(stride * i), stride, 1);
       for (const std::size_t k : {i, i + 1}) {
         line.nodes[k] = next.columns[k].existing;
+        line.arrived[k] = next.columns[k].is_across;
         const double height = distance(x(line_.nodes[stride * k]), x(line.nodes[k]));
         settle(line.nodes[k], height, distance(x(next.columns[i].existing), x(next.columns[i + 1].existing)));
         const double lowest = line_.lowest[stride * k];
@@ -229,7 +237,7 @@ class RowBlock {
   void settle(std::int32_t n, double height, double width) {
     if (n < m_.n_boundary)
       is_used_[n] = kLine;
-    else
+    else if (!m_.nodes[n].is_laid)
       layer_.settle(n, height, width);
   }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/predicates.h"
+#include "meshing/face/row_across.h"
 #include "meshing/face/row_chains.h"
 #include "meshing/face/stretch.h"
 
@@ -43,6 +44,7 @@ class LineMaker {
     along_.resize(n());
     across_.resize(n());
     height_.assign(n(), 0);
+    across_node_.assign(n(), kNone);
   }
 
   NextLine run() {
@@ -52,6 +54,9 @@ class LineMaker {
       bound(first, last);
       smooth(first, last);
       limit_turning(first, last);
+      find_across(w_, {line_, next_.joined, along_, across_, height_}, first, last, across_node_);
+      for (std::size_t i = first; i <= last; ++i)
+        if (across_node_[i] != kNone && next_.columns[i].existing == kNone) lead_across(i);
       place(first, last);
     }
     close();
@@ -161,6 +166,27 @@ class LineMaker {
     for (std::size_t i = last; i-- > first;) height_[i] = std::min(height_[i], kEvenly * height_[i + 1]);
   }
 
+  /// Whole rows up to nodes straight across; the last one ends there.
+  void lead_across(std::size_t i) {
+    NextLine::Column& c = next_.columns[i];
+    const MeshNode &a = node(i), &b = w_.mesh.nodes[across_node_[i]];
+    const double n_rows = std::max(1.0, std::round(distance(a.x, b.x) / height_[i]));
+    if (line_.has_arrived(i) || n_rows == 1) {
+      c.existing = across_node_[i];
+      c.node = b;
+      c.is_across = true;
+      return;
+    }
+    c.node.p = a.p + 1 / n_rows * (b.p - a.p);
+    w_.evaluate(c.node);
+    w_.ask_sizes(c.node);
+    height_[i] = distance(a.x, c.node.x);
+    c.is_placed =
+        dot(c.node.normal, a.normal) > std::cos(w_.max_turning) && is_free(w_.mesh.seen_from(line_.nodes[i], c.node.p));
+  }
+  /// Do both columns lead to nodes across?
+  bool leads_across(std::size_t i) const { return across_node_[i] != kNone && across_node_[i + 1] != kNone; }
+
   void place(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i <= last; ++i) {
       NextLine::Column& c = next_.columns[i];
@@ -168,6 +194,7 @@ class LineMaker {
         c.is_placed = true;
         continue;
       }
+      if (across_node_[i] != kNone) continue;
       if (!step_on_surface(w_, node(i), across_[i], height_[i], c.node)) continue;
       w_.ask_sizes(c.node);
       if (is_over_crest(i)) continue;
@@ -211,8 +238,22 @@ class LineMaker {
   bool is_good(std::size_t i) const {
     const NextLine::Column &c = next_.columns[i], &d = next_.columns[i + 1];
     if (!c.is_placed || !d.is_placed) return false;
+    if (leads_across(i)) return is_good_across(i);
+    if (c.is_across || d.is_across) return false;
     if (!is_upright(node(i), node(i + 1), d.node, c.node)) return false;
     return aspect(i) > kTooSquare && is_as_asked(i) && is_free_between(i);
+  }
+
+  /// Likewise where both columns lead to nodes across. A column that is there makes a triangle with the other's last.
+  bool is_good_across(std::size_t i) const {
+    const NextLine::Column &c = next_.columns[i], &d = next_.columns[i + 1];
+    const bool is_last = c.is_across && d.is_across;
+    if (is_last && !w_.mesh.is_fixed(c.existing, d.existing)) return false;
+    if (line_.has_arrived(i) || line_.has_arrived(i + 1))
+      return is_last && line_.has_arrived(i) != line_.has_arrived(i + 1);
+    const Vec3 along = d.node.x - c.node.x, middle = 0.5 * (c.node.x + d.node.x);
+    return is_upright(node(i), node(i + 1), d.node, c.node) && aspect(i) > kTooSquare &&
+           !is_oblique(*w_.field, w_.field->local_on(middle, c.node.normal, w_.hint), along, c.node.x - node(i).x);
   }
 
   /// Not too long for the sizes at its far side, nor oblique.
@@ -256,7 +297,9 @@ class LineMaker {
       over = runs.front().second - runs.front().first + runs.back().second - runs.back().first;
     for (const auto& [first, last] : runs) {
       const bool is_over = over >= kLeastRun && (first == 0 || last + 1 == n());
-      if (last - first < kLeastRun && !is_over)
+      bool is_across = false;
+      for (std::size_t i = first; i < last; ++i) is_across |= leads_across(i);
+      if (last - first < kLeastRun && !is_over && !is_across)
         std::fill_n(next_.joined.begin() + static_cast<std::ptrdiff_t>(first), last - first, 0);
     }
   }
@@ -267,6 +310,7 @@ class LineMaker {
   NextLine next_;
   std::vector<Vec3> along_, across_;
   std::vector<double> height_;
+  std::vector<std::int32_t> across_node_;  // [columns] to which rows lead, kNone: they go on as the sizes ask for
 };
 
 }  // namespace
@@ -279,14 +323,18 @@ void open_at_gap(RowLine& line) {
     line.nodes.front() = line.nodes.back();
     line.lowest.front() = line.lowest.back();
     line.highest.front() = line.highest.back();
+    if (!line.arrived.empty()) line.arrived.front() = line.arrived.back();
   }
   line.nodes.pop_back();
+  if (!line.arrived.empty()) line.arrived.pop_back();
   line.lowest.pop_back();
   line.highest.pop_back();
   const auto begin_at = [n = gap - line.joined.begin() + 1](auto& of_columns) {
-    std::rotate(of_columns.begin(), of_columns.begin() + n % std::ssize(of_columns), of_columns.end());
+    if (!of_columns.empty())
+      std::rotate(of_columns.begin(), of_columns.begin() + n % std::ssize(of_columns), of_columns.end());
   };
   begin_at(line.nodes);
+  begin_at(line.arrived);
   begin_at(line.lowest);
   begin_at(line.highest);
   begin_at(line.joined);

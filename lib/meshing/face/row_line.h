@@ -15,6 +15,9 @@ struct RowLine {
   std::vector<double> highest;      ///< [nodes] greatest height of a column since then, that is after its least
   std::vector<char> joined;         ///< [nodes - 1] does the next row go on between columns i and i+1?
   bool is_closed = false;           ///< the last column is the first, and all are joined
+  std::vector<char> arrived = {};   ///< [nodes] does the column end at a node across? Empty: none
+
+  bool has_arrived(std::size_t i) const { return !arrived.empty() && arrived[i]; }
 };
 
 /// A closed line that is no longer joined all around becomes an open one, which begins and ends at a gap.
@@ -31,6 +34,7 @@ struct NextLine {
     MeshNode node;
     std::int32_t existing = kNone;
     bool is_placed = false;
+    bool is_across = false;  ///< the existing node is one of what lies across: the column ends there
   };
   std::vector<Column> columns;
   std::vector<char> joined;  ///< which quadrilaterals are good
@@ -38,7 +42,8 @@ struct NextLine {
 
 /// Its heights are those of the sizes, smoothed along the line; its columns are square to the line, and turn towards
 /// the sides near these. A quadrilateral is left out where it would be about as high as long, folded or askew, a column
-/// where less than most of a row is free beyond.
+/// where less than most of a row is free beyond. Where a node of a loop or of other rows lies straight across, a few
+/// rows away, whole rows lead to it.
 NextLine next_line(FaceWork& work, const RowLine& line, const RowSides& sides);
 
 /// Is a quadrilateral, counter-clockwise, convex in the plane and near to a rectangle in space?

@@ -111,13 +111,24 @@ std::int32_t Triangulation::seen_left_of(std::int32_t a, std::int32_t b, Vec2 fr
   return go_straight(from, p, t, is_apex_left ? kNext[k] : kPrev[k]);
 }
 
-/// From triangle t on, which the way leaves across its edge `exit`, if it does.
-std::int32_t Triangulation::go_straight(Vec2 from, Vec2 p, std::int32_t t, int exit) const {
+std::pair<std::int32_t, std::int32_t> Triangulation::side_met(std::int32_t node, Vec2 p) const {
+  std::pair<std::int32_t, std::int32_t> met{kNone, kNone};
+  const std::int32_t t = triangle_towards(node, p);
+  if (t != kNone) go_straight(nodes[node].p, p, t, kNext[index_of(t, node)], &met);
+  return met;
+}
+
+/// From triangle t on, which the way leaves across its edge `exit`, if it does; `met`: the edge that must stay there.
+std::int32_t Triangulation::go_straight(Vec2 from, Vec2 p, std::int32_t t, int exit,
+                                        std::pair<std::int32_t, std::int32_t>* met) const {
   for (std::size_t step = 0; step < triangles.size(); ++step) {
     const PlaneTriangle& r = triangles[t];
     if (orient2d(nodes[r.v[exit]].p, nodes[r.v[kNext[exit]]].p, p) >= 0) return t;
     const std::int32_t o = r.n[exit];
-    if ((r.constrained >> exit & 1) || o == kNone) return kNone;
+    if ((r.constrained >> exit & 1) || o == kNone) {
+      if (met) *met = {r.v[exit], r.v[kNext[exit]]};
+      return kNone;
+    }
     const int entry = neighbour_index(o, t);
     t = o;
     exit = orient2d(from, p, nodes[triangles[o].v[kPrev[entry]]].p) > 0 ? kNext[entry] : kPrev[entry];

@@ -85,6 +85,8 @@ class Triangulation {
   std::int32_t seen_from(std::int32_t node, Vec2 p) const;
   /// Likewise from a point of edge a -> b to its left.
   std::int32_t seen_left_of(std::int32_t a, std::int32_t b, Vec2 from, Vec2 p) const;
+  /// The first edge that must stay on the straight way from a node to p; kNone: there is none.
+  std::pair<std::int32_t, std::int32_t> side_met(std::int32_t node, Vec2 p) const;
 
   /// The triangle at `node` in which the way to p begins, whatever must stay; kNone: there is none.
   std::int32_t triangle_towards(std::int32_t node, Vec2 p) const;
@@ -133,7 +135,8 @@ class Triangulation {
   std::optional<LoopConflict> force_edge(std::int32_t a, std::int32_t b);
   void mark(std::int32_t t, int k);
   void classify();
-  std::int32_t go_straight(Vec2 from, Vec2 p, std::int32_t t, int exit) const;
+  std::int32_t go_straight(Vec2 from, Vec2 p, std::int32_t t, int exit,
+                           std::pair<std::int32_t, std::int32_t>* met = nullptr) const;
   std::int32_t find_edge(std::int32_t a, std::int32_t b, int& k) const;
   int neighbour_index(std::int32_t t, std::int32_t of) const {
     const PlaneTriangle& r = triangles[t];

@@ -117,6 +117,18 @@ double largest_view_of_rows(const Triangulation& m) {
   return degrees(largest);
 }
 
+/// With pointed ends, and nodes in step on both sides: two rows at the left, six at the right.
+TEST(RowBlocks, end_one_by_one_at_nodes_across_in_a_wedge) {
+  const WallField field(0.1, 0, 1);
+  std::vector<Vec2> loop{{-1, 0.1}};
+  for (int i = 0; i <= 20; ++i) loop.push_back({static_cast<double>(i), 0});
+  loop.push_back({21, 0.3});
+  for (int i = 20; i >= 0; --i) loop.push_back({static_cast<double>(i), 0.2 + 0.02 * i});
+  RowCase face({loop}, field);
+  lay_row_blocks(face.work);
+  EXPECT_GT(face.laid_area(), 20 * 0.4 - 0.4) << "no gap where they meet, but for the last column";
+}
+
 TEST(RowBlocks, are_seen_by_new_nodes_under_no_obtuse_angle) {
   for (const int n : {7, 8, 10, 13, 16, 20}) {
     const WallField field(0.1, 0, 10.0 / n);

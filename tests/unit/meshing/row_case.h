@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "meshing/face/front.h"
+#include "meshing/face/row_line.h"
 #include "meshing/face/stretch.h"
 #include "unit/meshing/faces.h"
 
@@ -67,6 +68,16 @@ struct RowCase {
     return sum;
   }
 };
+
+/// The first nodes of a loop.
+inline RowLine line_of(std::int32_t n) {
+  RowLine line;
+  for (std::int32_t i = 0; i < n; ++i) line.nodes.push_back(i);
+  line.joined.assign(n - 1, 1);
+  line.lowest.assign(n, 0);
+  line.highest.assign(n, 0);
+  return line;
+}
 
 /// Counter-clockwise from (0,0): bottom and top in `n` parts, the sides at `left` and `right` heights between 0 and the
 /// last of them.

@@ -10,15 +10,6 @@
 namespace st::test {
 namespace {
 
-RowLine line_of(std::int32_t n) {
-  RowLine line;
-  for (std::int32_t i = 0; i < n; ++i) line.nodes.push_back(i);
-  line.joined.assign(n - 1, 1);
-  line.lowest.assign(n, 0);
-  line.highest.assign(n, 0);
-  return line;
-}
-
 TEST(NextLine, is_as_high_as_the_sizes_say_and_square_to_the_line) {
   const WallField field(0.1, 0.2, 1);
   RowCase face({band(10, 10, {5}, {5})}, field);
