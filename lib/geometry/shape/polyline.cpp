@@ -1,6 +1,7 @@
 #include "geometry/shape/polyline.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "base/assert.h"
@@ -23,35 +24,63 @@ constexpr int kPasses = 3;  // in which tangents see those beside them
 /// As an arc begins whose chord and tangent at its other end these are.
 Vec3 mirrored(Vec3 tangent, Vec3 chord) { return 2 * dot(tangent, chord) * chord - tangent; }
 
-/// Of the curve that the segments stand for. Each is that of the circle through three points, or, where an arc ends at
-/// a line, more that of the longer segment: whichever makes arcs of the segments beside it.
-std::vector<Vec3> smooth_tangents(const std::vector<Vec3>& points) {
-  const std::size_t n = points.size();
-  std::vector<Vec3> direction, tangent(n), round, straight;
-  for (std::size_t i = 0; i + 1 < n; ++i) direction.push_back(normalized(points[i + 1] - points[i]));
-  if (n == 2) return {direction[0], direction[0]};
-  for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double before = distance(points[i - 1], points[i]), after = distance(points[i], points[i + 1]);
-    round.push_back(normalized(after * direction[i - 1] + before * direction[i]));
-    straight.push_back(normalized(before * direction[i - 1] + after * direction[i]));
-    tangent[i] = round.back();
-  }
-  const auto set_ends = [&] {
-    tangent.front() = mirrored(tangent[1], direction.front());
-    tangent.back() = mirrored(tangent[n - 2], direction.back());
-  };
-  const auto misfit = [&](std::size_t segment, Vec3 a, Vec3 b) { return norm2(cross(direction[segment], a + b)); };
-  set_ends();
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const std::vector<Vec3> last = tangent;
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-      const auto sum = [&](Vec3 own) { return misfit(i - 1, last[i - 1], own) + misfit(i, own, last[i + 1]); };
-      tangent[i] = sum(straight[i - 1]) < sum(round[i - 1]) ? straight[i - 1] : round[i - 1];
+/// Tangents of the curve that segments stand for.
+class SmoothTangents {
+ public:
+  explicit SmoothTangents(const std::vector<Vec3>& points) : n_(points.size()), tangent_(n_), way_(n_, 0), ways_(n_) {
+    for (std::size_t i = 0; i + 1 < n_; ++i) {
+      length_.push_back(distance(points[i], points[i + 1]));
+      direction_.push_back(normalized(points[i + 1] - points[i]));
     }
-    set_ends();
   }
-  return tangent;
-}
+
+  std::vector<Vec3> run() {
+    if (n_ == 2) return {direction_[0], direction_[0]};
+    for (std::size_t i = 1; i + 1 < n_; ++i) {
+      const Vec3 a = direction_[i - 1], b = direction_[i];
+      const double before = length_[i - 1], after = length_[i];
+      ways_[i] = {normalized(after * a + before * b), normalized(a + b), normalized(before * a + after * b)};
+      tangent_[i] = ways_[i][0];
+    }
+    for (int pass = 0; pass < kPasses; ++pass) choose();
+    tangent_.front() = at_end(1, 2, 0, 1);
+    tangent_.back() = at_end(n_ - 2, n_ - 3, n_ - 2, n_ - 3);
+    return std::move(tangent_);
+  }
+
+ private:
+  /// That of the circle through three points, halfway between the segments, as where an end cuts one off, or leaning to
+  /// the longer one, as where an arc ends at a line: whichever makes arcs of the segments beside it.
+  void choose() {
+    const std::vector<Vec3> last = tangent_;
+    for (std::size_t i = 1; i + 1 < n_; ++i) {
+      const auto misfit = [&](Vec3 own) { return misfit_of(i - 1, last[i - 1], own) + misfit_of(i, own, last[i + 1]); };
+      for (std::size_t way = 0; way < 3; ++way)
+        if (misfit(ways_[i][way]) < misfit(ways_[i][way_[i]])) way_[i] = way;
+      tangent_[i] = ways_[i][way_[i]];
+    }
+  }
+
+  /// Those at the ends fit whatever is beside them.
+  double misfit_of(std::size_t segment, Vec3 a, Vec3 b) const {
+    return segment == 0 || segment + 2 == n_ ? 0.0 : norm2(cross(direction_[segment], a + b));
+  }
+
+  /// By the point beside the end and the one before it, and the segments at the former. One that is cut off turns as
+  /// fast as the one before.
+  Vec3 at_end(std::size_t beside, std::size_t before, std::size_t own, std::size_t other) const {
+    const Vec3 tangent = tangent_[beside];
+    if (way_[beside] != kHalfway || length_[own] >= length_[other]) return mirrored(tangent, direction_[own]);
+    return normalized(tangent + length_[own] / length_[other] * (tangent - tangent_[before]));
+  }
+
+  static constexpr std::size_t kHalfway = 1;  // of ways_
+  std::size_t n_;
+  std::vector<Vec3> direction_, tangent_;
+  std::vector<double> length_;    // of segments
+  std::vector<std::size_t> way_;  // that was chosen
+  std::vector<std::array<Vec3, 3>> ways_;
+};
 
 }  // namespace
 
@@ -69,7 +98,7 @@ PolylineCurve::PolylineCurve(std::vector<Vec3> points)
   const auto direction = [&](std::size_t i) { return normalized(points_[i + 1] - points_[i]); };
   for (std::size_t i = 1; i + 1 < n; ++i)
     if (t_[i + 1] > t_[i - 1]) bend_[i] = (direction(i) - direction(i - 1)) / (0.5 * (t_[i + 1] - t_[i - 1]));
-  tangent_ = smooth_tangents(points_);
+  tangent_ = SmoothTangents(points_).run();
   if (n == 2) return;
   bend_.front() = bend_[1];
   bend_.back() = bend_[n - 2];

@@ -42,6 +42,14 @@ TEST(PolylineCurve, turns_evenly_along_segments_of_an_arc) {
     EXPECT_NEAR(turn_per_length(curve, s * curve.t_max(), (s + 0.05) * curve.t_max()), 0.5, 0.02) << s;
 }
 
+TEST(PolylineCurve, turns_evenly_where_an_end_cuts_a_segment_off) {
+  std::vector<Vec3> points = circle_points(2, 10);
+  points.back() = 0.9 * points[9] + 0.1 * points.back();
+  const PolylineCurve curve(points);
+  EXPECT_NEAR(turn_per_length(curve, 0.8 * curve.t_max(), 0.9 * curve.t_max()), 0.5, 0.02);
+  EXPECT_NEAR(turn_per_length(curve, 0.995 * curve.t_max(), curve.t_max()), 0.5, 0.02);
+}
+
 TEST(PolylineCurve, is_straight_where_a_line_ends_at_an_arc) {
   std::vector<Vec3> points{{-6, 2, 0}, {-3, 2, 0}};
   for (const double a : {0.0, 0.4, 0.8, 1.2}) points.push_back({2 * std::sin(a), 2 * std::cos(a), 0});
