@@ -95,7 +95,7 @@ def main():
     print("| model | triangles | nodes, % | sides within 1.2, % | sides, median |\n|---|--:|--:|--:|--:|")
     for model in arguments.models:
         with tempfile.TemporaryDirectory() as folder:
-            report = check_mesh(arguments.bin_dir, model, arguments.preset, Path(folder))
+            report = check_mesh(arguments.bin_dir, model, arguments.preset, Path(folder), "--max-aspect", "1")
             xyz, triangles, face = read_mesh(Path(folder) / "mesh.hdf")
             factors = np.array(side_factors(Path(folder) / "sizing.hdf", xyz, triangles, face))
         sides = f"{100 * np.mean(factors <= SIDE_FACTOR):.1f} | {np.median(factors):.3f}" if len(factors) else "- | -"

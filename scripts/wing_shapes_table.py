@@ -5,6 +5,7 @@ usage: scripts/wing_shapes_table.py BIN_DIR WING_MODELS [MODEL...] [--presets eu
 
 WING_MODELS is the program tests/support/wing_models of the build. `held` is the least of the surfaces' shares of the
 span with at most 1.3 times what was asked for at nose and trailing edge; lengths are the largest of all stations.
+`flat` is the number of angles above 150 degrees, `others` the mean quality of triangles that are in no row.
 """
 import argparse
 import subprocess
@@ -26,11 +27,14 @@ def least_bases(wings):
 
 def row(name, preset, report):
     wings = report.get("lifting_surfaces", [])
+    rows = report.get("rows", {})
+    mean = rows["others_mean"] if rows else report["quality"]["mean"]
+    shapes = f"| {report['quality']['above_150_deg']} | {mean:.3f}"
     if not wings:
-        return f"| {name} | {preset} | {report['triangles']:,} | 0 | - | - | - | - | - |"
+        return f"| {name} | {preset} | {report['triangles']:,} | 0 | - | - | - | - | - {shapes} |"
     return (f"| {name} | {preset} | {report['triangles']:,}{'' if report['passes'] else ' (fails)'} | {len(wings)} "
             f"| {100 * min(w['covered'] for w in wings):.0f} | {100 * min(w['held'] for w in wings):.0f} "
-            f"| {worst(wings, 'nose')} | {worst(wings, 'trailing')} | {least_bases(wings)} |")
+            f"| {worst(wings, 'nose')} | {worst(wings, 'trailing')} | {least_bases(wings)} {shapes} |")
 
 
 def main():
@@ -40,8 +44,9 @@ def main():
     parser.add_argument("models", nargs="*")
     parser.add_argument("--presets", nargs="+", default=["euler", "rans"])
     arguments = parser.parse_args()
-    print("| model | preset | triangles | surfaces | covered, % | held, % | nose | trailing edge | base |\n"
-          "|---|---|--:|--:|--:|--:|--:|--:|--:|")
+    print("| model | preset | triangles | surfaces | covered, % | held, % "
+          "| nose | trailing edge | base | flat | others |\n"
+          "|---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
     listed = subprocess.run([arguments.wing_models], check=True, capture_output=True, text=True).stdout.split()
     for name in arguments.models or [n for n in listed if not n.startswith(("part_", "vane_passage"))]:
         with tempfile.TemporaryDirectory() as folder:

@@ -34,6 +34,7 @@ edge-size = "0.1%chord"
 base-cells = 4
 chord-cells = 40
 gap-cells = 8
+max-aspect = 100
 [st-prolong]
 slope = 0.15
 )"},
@@ -45,6 +46,7 @@ edge-size = "0.07%chord"
 base-cells = 6
 chord-cells = 60
 gap-cells = 8
+max-aspect = 100
 [st-prolong]
 slope = 0.12
 )"},
