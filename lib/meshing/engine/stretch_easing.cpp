@@ -43,7 +43,7 @@ void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) 
     n_again_ += n_triangles(mesh_again_(shorter, "where stretched triangles are obtuse or too large"));
     take_back_spoiling(first);
     flaws_ = find_flaws(i + 1);
-    n_without = keep_if_better(shortens) ? 0 : n_without + 1;
+    n_without = keep_if_better() ? 0 : n_without + 1;
   }
 }
 
@@ -97,11 +97,10 @@ StretchEasing::Count StretchEasing::count_flaws() const {
   return {n_bad, n_far, n_unheld, n_obtuse, n_large};
 }
 
-/// Sets is_best_. Lengths along make no more triangles than a mesh without stretch has: any number is worth it.
-bool StretchEasing::keep_if_better(Shortens shortens) {
+/// Sets is_best_.
+bool StretchEasing::keep_if_better() {
   const Count n_flaws = count_flaws();
-  is_best_ = n_flaws < best_.n_flaws &&
-             (shortens == Shortens::kAlong || Policy::is_worth_easing(n_first_, n_triangles(all_faces())));
+  is_best_ = n_flaws < best_.n_flaws && Policy::is_worth_easing(n_first_, n_triangles(all_faces()));
   const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
   if (is_best_) best_ = {n_flaws, has_obtuse, faces_.state(), refinements_.all()};
   std::vector<FacePlace> others;

@@ -60,7 +60,7 @@ class StretchEasing {
   std::size_t n_worst() const { return std::get<1>(best_.n_flaws) + std::get<2>(best_.n_flaws); }
   std::size_t n_obtuse() const { return std::get<3>(best_.n_flaws); }
   void run_rounds(Places StretchFlaws::*places, Shortens shortens);
-  bool keep_if_better(Shortens shortens);
+  bool keep_if_better();
   std::vector<Refinement> shorten(const Places& places, Shortens shortens);
   void take_back_spoiling(std::size_t first);
   void go_back();
