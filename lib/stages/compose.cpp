@@ -185,11 +185,12 @@ void keep_strips(const ModelTables& t, JoinRequest& request) {
   }
 }
 
-/// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each refused union is
-/// logged.
-std::string said(const GeometryArtifact& geometry, const std::vector<std::string>& refused) {
+/// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each union that was divided
+/// or refused is logged.
+std::string said(const GeometryArtifact& geometry, const FoundComposites& found) {
   std::map<std::string, int> reasons;
-  for (const std::string& why : refused) {
+  for (const std::string& why : found.divided) log_info("  divided: " + why);
+  for (const std::string& why : found.refused) {
     log_info("  not joined: " + why);
     ++reasons[why.substr(std::min(why.size(), why.find("): ") + 3))];
   }
@@ -248,7 +249,7 @@ std::string compose(GeometryArtifact& geometry, bool is_harm_only) {
     ModelTables joined = join_tables(geometry.tables, geometry.composites).tables;
     geometry.cad = std::exchange(geometry.tables, std::move(joined));
   }
-  return said(geometry, found.refused);
+  return said(geometry, found);
 }
 
 }  // namespace st

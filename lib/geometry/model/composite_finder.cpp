@@ -20,9 +20,9 @@
 namespace st {
 namespace {
 
-constexpr std::size_t kMostFacets = 20000;  // of a chart: flatten() takes no more
+constexpr std::size_t kMostFacets = 20000;  // of a chart: flatten_whole() takes no more
 constexpr double kMostBulge = 0.5;          // of its chord: how far a trimming curve leaves a chart's rim
-constexpr double kOffRim = 1e-2;            // of its chord: how far a trimming curve's place may be off its edge
+constexpr double kOffRim = 1e-2;            // of its chord: how far a chart may be off an edge, more than its face
 
 /// Facets of a union of faces, with nodes of their own.
 struct Union {
@@ -55,11 +55,13 @@ class CompositeFinder {
     while (!work.empty()) {
       const std::vector<FaceId> faces = std::move(work.back());
       work.pop_back();
-      if (accept(faces)) continue;
+      const std::string why = accept(faces);
+      if (why.empty()) continue;
       const std::vector<EdgeId> inside = dissolve(faces);
-      if (faces.size() < 3) continue;
       grow(inside, static_cast<std::int32_t>((faces.size() + 1) / 2));
-      for (auto& part : whole_parts(inside)) work.push_back(std::move(part));
+      std::vector<std::vector<FaceId>> parts = whole_parts(inside);
+      (parts.empty() ? found_.refused : found_.divided).push_back(named(faces) + ": " + why);
+      for (auto& part : parts) work.push_back(std::move(part));
     }
     finish();
     return std::move(found_);
@@ -236,28 +238,25 @@ class CompositeFinder {
            !u.topology.loops.empty() && is_shallow(u.x, u.corners, u.topology);
   }
 
-  /// Always false.
-  bool refuse(const std::vector<FaceId>& faces, const std::string& why) {
-    std::string ids;
+  /// "7 faces (1, 2, 3, 4, 5 ...)".
+  static std::string named(const std::vector<FaceId>& faces) {
+    std::string ids = fmt::format("{} faces ({}", faces.size(), faces[0] + 1);
     constexpr std::size_t kNamed = 5;
-    for (std::size_t i = 0; i < std::min(faces.size(), kNamed); ++i)
-      ids += fmt::format("{}{}", i > 0 ? ", " : "", faces[i] + 1);
-    found_.refused.push_back(
-        fmt::format("{} faces ({}{}): {}", faces.size(), ids, faces.size() > kNamed ? " ..." : "", why));
-    return false;
+    for (std::size_t i = 1; i < std::min(faces.size(), kNamed); ++i) ids += fmt::format(", {}", faces[i] + 1);
+    return ids + (faces.size() > kNamed ? " ...)" : ")");
   }
 
-  bool accept(const std::vector<FaceId>& faces) {
+  /// Why these faces cannot be one, empty where they are from here on.
+  std::string accept(const std::vector<FaceId>& faces) {
     const Union u = unite(faces);
-    auto uv = flatten(u.x, u.corners, u.topology);
-    if (uv) align_chart(cad_, facets_, u.triangles, u.x, u.corners, *uv);
-    if (!uv) return refuse(faces, "they cannot be laid into a plane");
+    auto uv = flatten_whole(u.x, u.corners, u.topology);
+    if (!uv) return "they cannot be laid into a plane";
+    align_chart(cad_, facets_, u.triangles, u.x, u.corners, *uv);
     Chart chart{u.x, std::vector<Vec3>(u.x.size(), Vec3{0, 0, 1}), *uv, u.corners};
     Rims rims = rims_of(faces, u);
     const std::string why = fault(faces, u, chart, rims);
-    if (!why.empty()) return refuse(faces, why);
-    record(faces, u, chart, rims);
-    return true;
+    if (why.empty()) record(faces, u, chart, rims);
+    return why;
   }
 
   struct Rim {
@@ -312,6 +311,7 @@ class CompositeFinder {
 
   bool follows(const CompositeSurface& surface, const Union& u, const Chart& chart, const Rim& rim) {
     const EdgeId e = t_.coedge_edge[rim.coedge];
+    const auto face = cad_.surface(face_of_coedge_[rim.coedge]);
     const auto pcurve = cad_.pcurve(face_of_coedge_[rim.coedge], rim.coedge);
     const auto curve = cad_.curve(e);
     const std::vector<double>& t = facets_.rim_t[rim.coedge];
@@ -329,7 +329,8 @@ class CompositeFinder {
         bounds_.add(p);
         const double most =
             std::max(kOffRim * distance(chart.x[rim.node[i]], chart.x[rim.node[i + 1]]), 2 * t_.edge_tolerance[e]);
-        if (!(distance(surface.point(p), curve->point(at)) <= most)) return false;
+        const Vec3 edge = curve->point(at);
+        if (!(distance(surface.point(p), edge) <= most + distance(face->point(pcurve->point(at)), edge))) return false;
       }
     }
     return true;

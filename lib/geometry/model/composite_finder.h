@@ -21,7 +21,8 @@ struct JoinRequest {
 
 struct FoundComposites {
   Composites composites;
-  std::vector<std::string> refused;  ///< what was not joined, and why
+  std::vector<std::string> divided;  ///< unions of which smaller ones were tried, and why
+  std::vector<std::string> refused;  ///< faces that stay apart, and why
 };
 
 /// Unions of faces, edge by edge, while they are discs with holes that can be laid into a plane; one that cannot is

@@ -23,6 +23,8 @@ constexpr double kMostDepth = 0.35;         // area over squared length of the r
 constexpr double kTubeRim = 0.5;            // of the outer rim: a hole so long makes a tube of the patch
 constexpr double kMostTube = 1;             // logarithm of a tube's stretch when it is made a ring
 constexpr std::size_t kMostSolved = 20000;  // triangles
+constexpr double kMostTurn = 0.9;           // of a round, of the triangles around a rim node
+constexpr double kMostWholeTurn = 0.98;     // the same of a patch that is not to be cut: notches at wing roots
 constexpr double kProximal = 1e-6;          // weight of the places before a step: two translations and a turn are free
 
 using Places = std::vector<Vec2>;
@@ -128,17 +130,15 @@ bool rim_pinches(std::span<const Vec3> x, const PatchTopology& topology, std::sp
 
 double angle_between(Vec2 a, Vec2 b) { return std::atan2(std::abs(cross(a, b)), dot(a, b)); }
 
-/// Whether the triangles around a rim node leave less than a tenth of a turn between its two rim sides: these would
-/// fold over each other next. `p`: places in the plane or in space.
-template <class Place>
-bool rim_folds(std::span<const Corners> corners, const PatchTopology& topology, std::span<const Place> p) {
-  constexpr double kMostTurn = 0.9 * 2 * kPi;
+/// Whether the triangles around a rim node turn by more than `most` of a round: its two rim sides would fold over each
+/// other next.
+bool rim_folds(std::span<const Corners> corners, const PatchTopology& topology, std::span<const Vec2> p, double most) {
   std::vector<double> turn(p.size(), 0);
   for (const Corners& c : corners)
     for (int k = 0; k < 3; ++k) turn[c[k]] += angle_between(p[c[(k + 1) % 3]] - p[c[k]], p[c[(k + 2) % 3]] - p[c[k]]);
   for (const auto& loop : topology.loops)
     for (const std::int32_t n : loop)
-      if (turn[n] > kMostTurn) return true;
+      if (turn[n] > most * 2 * kPi) return true;
   return false;
 }
 
@@ -149,6 +149,12 @@ bool is_like(std::span<const Vec3> x, std::span<const Vec2> p, const Corners& c)
   for (int k = 0; k < 3; ++k)
     if (!is_near(distance(x[c[k]], x[c[(k + 1) % 3]]), norm(p[c[k]] - p[c[(k + 1) % 3]]))) return false;
   return is_near(norm(cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]])), cross(p[c[1]] - p[c[0]], p[c[2]] - p[c[0]]));
+}
+
+bool is_clear_up_to(double most_turn, std::span<const Vec3> x, std::span<const Corners> corners,
+                    const PatchTopology& topology, std::span<const Vec2> p) {
+  return !has_flips(corners, p) && !rim_folds(corners, topology, p, most_turn) && !rim_crosses(topology, p) &&
+         !rim_pinches(x, topology, p);
 }
 
 std::optional<Places> project(std::span<const Vec3> x, std::span<const Corners> corners,
@@ -436,13 +442,14 @@ class Relaxation {
   SymmetricSolver solver_;
 };
 
-void relax(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology, Places& p) {
+template <class IsAllowed>
+void relax(std::span<const Vec3> x, std::span<const Corners> corners, Places& p, const IsAllowed& is_allowed) {
   Relaxation relaxation(x, corners);
   const double scale = std::sqrt(relaxation.area() / kPi);
   for (Vec2& q : p) q = scale * q;
   double energy = relaxation.energy(p);
   for (int i = 0; i < kMostSteps; ++i) {
-    auto next = relaxation.step(p, energy, [&](const Places& q) { return is_clear(x, corners, topology, q); });
+    auto next = relaxation.step(p, energy, is_allowed);
     if (!next) return;
     p = std::move(*next);
     const double before = std::exchange(energy, relaxation.energy(p));
@@ -458,8 +465,7 @@ bool is_disc_with_holes(const PatchTopology& t) {
 
 bool is_clear(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology,
               std::span<const Vec2> p) {
-  return !has_flips(corners, p) && !rim_folds(corners, topology, p) && !rim_crosses(topology, p) &&
-         !rim_pinches(x, topology, p);
+  return is_clear_up_to(kMostTurn, x, corners, topology, p);
 }
 
 // On a circle the inside of what is deep, and the end of a tube, shrink to nothing.
@@ -503,16 +509,35 @@ std::optional<std::vector<Vec2>> unroll(std::span<const Vec3> x, std::span<const
   return unfold(x, corners, topology);
 }
 
+namespace {
+
+/// Steps that `is_allowed` refuses are not taken; the last places have to be clear.
+template <class IsAllowed>
+std::optional<Places> solve(std::span<const Vec3> x, std::span<const Corners> corners, const PatchTopology& topology,
+                            double most_turn, const IsAllowed& is_allowed) {
+  if (corners.size() > kMostSolved || !is_shallow(x, corners, topology)) return std::nullopt;
+  auto p = map_to_circle(x, corners, topology);
+  if (!p) return std::nullopt;
+  relax(x, corners, *p, is_allowed);
+  if (!(largest_stretch(x, corners, *p) <= kMostStretch) || !is_clear_up_to(most_turn, x, corners, topology, *p))
+    return std::nullopt;
+  return p;
+}
+
+}  // namespace
+
 std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<const Corners> corners,
                                          const PatchTopology& topology) {
   if (!is_disc_with_holes(topology)) return std::nullopt;
   if (auto p = unroll(x, corners, topology)) return p;
-  if (corners.size() > kMostSolved || !is_shallow(x, corners, topology)) return std::nullopt;
-  auto p = map_to_circle(x, corners, topology);
-  if (!p) return std::nullopt;
-  relax(x, corners, topology, *p);
-  if (!(largest_stretch(x, corners, *p) <= kMostStretch) || !is_clear(x, corners, topology, *p)) return std::nullopt;
-  return p;
+  return solve(x, corners, topology, kMostTurn, [&](const Places& q) { return is_clear(x, corners, topology, q); });
+}
+
+std::optional<std::vector<Vec2>> flatten_whole(std::span<const Vec3> x, std::span<const Corners> corners,
+                                               const PatchTopology& topology) {
+  if (auto p = flatten(x, corners, topology)) return p;
+  if (!is_disc_with_holes(topology)) return std::nullopt;
+  return solve(x, corners, topology, kMostWholeTurn, [](const Places&) { return true; });
 }
 
 }  // namespace st

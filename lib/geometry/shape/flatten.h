@@ -25,6 +25,12 @@ inline constexpr double kMostStretch = 10;
 std::optional<std::vector<Vec2>> flatten(std::span<const Vec3> x, std::span<const Corners> corners,
                                          const PatchTopology& topology);
 
+/// flatten(), for a patch that is not to be cut. Where that finds no places, the energy is lowered once more with a rim
+/// that may cross itself on the way, as a wide patch does that a circle has bent; at the end it is clear, but for
+/// notches, which may leave a fiftieth of a round. Cost: up to twice that of flatten().
+std::optional<std::vector<Vec2>> flatten_whole(std::span<const Vec3> x, std::span<const Corners> corners,
+                                               const PatchTopology& topology);
+
 /// A triangle alone, as it is; flatter than 1e-3 of its longest side it is taken to be so high.
 std::array<Vec2, 3> lay_triangle(Vec3 a, Vec3 b, Vec3 c);
 

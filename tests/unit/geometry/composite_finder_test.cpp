@@ -64,6 +64,18 @@ TEST(FindComposites, refuses_what_does_not_follow_the_cad) {
     r.facets = {.deflection = m.tables().reference_diagonal(), .angle = radians(170), .is_exact = false};
   });
   EXPECT_FALSE(coarse.refused.empty());
+  EXPECT_TRUE(coarse.divided.empty());  // of two faces
+}
+
+TEST(FindComposites, tells_what_is_divided_from_what_stays_apart) {
+  const FoundComposites coarse = found("wing_of_200", [](const Model& m, JoinRequest& r) {
+    r.facets = {.deflection = m.tables().reference_diagonal(), .angle = radians(170), .is_exact = false};
+  });
+  EXPECT_FALSE(coarse.divided.empty());
+  EXPECT_FALSE(coarse.refused.empty());
+  const auto is_of_two = [](const std::string& said) { return said.starts_with("2 faces ("); };
+  EXPECT_TRUE(std::ranges::none_of(coarse.divided, is_of_two));
+  EXPECT_TRUE(std::ranges::all_of(coarse.refused, is_of_two));
 }
 
 TEST(FindComposites, is_the_same_each_time) {

@@ -60,6 +60,24 @@ TEST(Flatten, leaves_holes_open) {
   EXPECT_LE(stretch_of(p), kMostStretch);
 }
 
+/// A bent disc with a hole like a rhombus, `width` times as wide as long.
+test::ChartPatch disc_with_sharp_hole(double width) {
+  constexpr int kAround = 48;
+  const auto ring = test::grid_patch(kAround, 6, [&](double s, double t) {
+    const double a = -2 * kPi * s, c = std::cos(a), hole = std::copysign(width * (1 - std::abs(c)), std::sin(a));
+    const double x = (1 + t) * c, y = (1 - t) * hole + 2 * t * std::sin(a);
+    return std::pair(Vec3{x, y, -0.1 * (x * x + y * y)}, Vec3{0, 0, 1});
+  });
+  return test::as_tube(ring, kAround);
+}
+
+TEST(Flatten, keeps_whole_what_has_a_narrow_notch) {
+  const test::ChartPatch p = disc_with_sharp_hole(0.1), slit = disc_with_sharp_hole(0.01);
+  EXPECT_FALSE(flat(p));
+  EXPECT_TRUE(flatten_whole(p.x, p.corners, find_topology(p.x, p.corners)));
+  EXPECT_FALSE(flatten_whole(slit.x, slit.corners, find_topology(slit.x, slit.corners)));
+}
+
 TEST(Flatten, refuses_what_must_be_cut) {
   EXPECT_FALSE(flat(test::as_tube(test::cylinder_patch(1, 6, 2 * kPi, 40, 20), 40))) << "a tube";
   const test::ChartPatch deep = test::grid_patch(40, 20, [](double s, double t) {  // a cup, open at its end
