@@ -99,12 +99,8 @@ double area_beside_merged(const ModelTables& tables, const SurfaceMesh& mesh, Ed
                                                                                  : 0.0;
 }
 
-void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
+void add_edges(const Model& model, const SurfaceMesh& mesh, const std::vector<double>& face_size, ChordError& error) {
   const ModelTables& tables = model.tables();
-  std::vector<double> face_size(tables.n_faces(), 0);  // largest of its nodes
-  for (TriangleId i = 0; i < mesh.n_triangles(); ++i)
-    for (const NodeId n : mesh.triangles[i].n)
-      face_size[mesh.triangle_face[i]] = std::max(face_size[mesh.triangle_face[i]], mesh.node_size[n]);
   const std::vector<std::vector<EdgeNode>> nodes = edge_nodes(tables, mesh);
   parallel_for(face_size.size(), 1, [&](std::size_t i, std::size_t) {
     const auto f = static_cast<FaceId>(i);
@@ -121,12 +117,7 @@ void add_edges(const Model& model, const SurfaceMesh& mesh, ChordError& error) {
 
 double area_of(Vec3 a, Vec3 b, Vec3 c) { return 0.5 * norm(cross(b - a, c - a)); }
 
-/// What some triangles of one face add, see ChordError.
-struct FacePart {
-  double area = 0, found_area = 0, volume = 0, moved_volume = 0, flat = 0, size = 0;  // size: times the flat area
-  double distance = 0, node_distance = 0, off_surface = 0, stray = 0;
-  Vec3 node_place, off_place, stray_place;
-};
+using FacePart = ChordParts::Part;
 
 /// Distance of a node from the surface: `d`, at its (u,v), or less where the projection from there ends.
 double distance_to_surface(const Surface& surface, Vec2 uv, double d, Vec3 node, double size) {
@@ -245,16 +236,18 @@ TriangleOnSurface triangle_of(const SurfaceMesh& mesh, std::size_t t, const Surf
   return r;
 }
 
-void add_triangles(const Model& model, const SurfaceMesh& mesh, DeviationSum* deviation, ChordError& error) {
+/// Sums of each piece by face.
+std::vector<FacePart> measure_triangles(const Model& model, const SurfaceMesh& mesh, const OwnTriangles& own,
+                                        DeviationSum* deviation) {
   using Parts = std::map<FaceId, FacePart>;
-  const auto n_triangles = static_cast<std::size_t>(mesh.n_triangles());
-  std::vector<Parts> pieces((n_triangles + kTrianglesPerPiece - 1) / kTrianglesPerPiece);
-  parallel_for(n_triangles, kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
+  std::vector<Parts> pieces(own.n_pieces());
+  parallel_for(own.size(), kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
     FaceSurface faces(model);
     CornerPoints points;
     Parts& parts = pieces[begin / kTrianglesPerPiece];
     auto at = parts.end();
-    for (std::size_t t = begin; t < end; ++t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t t = static_cast<std::size_t>(own.begin) + i;
       const FaceId f = mesh.triangle_face[t];
       const Surface& surface = faces.of(f);
       if (at == parts.end() || at->first != f) at = parts.try_emplace(f).first;  // triangles come face by face
@@ -265,15 +258,34 @@ void add_triangles(const Model& model, const SurfaceMesh& mesh, DeviationSum* de
       if (deviation) deviation->add(static_cast<TriangleId>(t), surface);
     }
   });
-  for (const Parts& parts : pieces)
-    for (const auto& [f, part] : parts) add_part(part, f, error);
-  for (std::size_t f = 0; f < error.size.size(); ++f)
-    if (error.flat[f] > 0) error.size[f] /= error.flat[f];
+  std::vector<FacePart> all;
+  for (Parts& parts : pieces)
+    for (auto& [f, part] : parts) part.face = f, all.push_back(part);
+  return all;
 }
 
 }  // namespace
 
-ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh, DeviationSum* deviation) {
+void ChordParts::add(const ChordParts& next) {
+  parts.insert(parts.end(), next.parts.begin(), next.parts.end());
+  face_size.resize(std::max(face_size.size(), next.face_size.size()), 0);
+  for (std::size_t f = 0; f < next.face_size.size(); ++f) face_size[f] = std::max(face_size[f], next.face_size[f]);
+}
+
+ChordParts estimate_chord_error(const Model& model, const SurfaceMesh& mesh, const OwnTriangles& own,
+                                DeviationSum* deviation) {
+  ChordParts result;
+  result.face_size.assign(model.tables().n_faces(), 0);
+  for (TriangleId i = own.begin; i < own.end; ++i)
+    for (const NodeId n : mesh.triangles[i].n) {
+      double& largest = result.face_size[mesh.triangle_face[i]];
+      largest = std::max(largest, mesh.node_size[n]);
+    }
+  result.parts = measure_triangles(model, mesh, own, deviation);
+  return result;
+}
+
+ChordError report_chords(const Model& model, const SurfaceMesh& mesh, const ChordParts& parts) {
   ChordError error;
   const auto n_faces = static_cast<std::size_t>(model.tables().n_faces());
   for (auto* values : {&error.area, &error.found_area, &error.volume, &error.moved_volume, &error.flat, &error.size,
@@ -282,9 +294,15 @@ ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh, Dev
   error.node_place.resize(n_faces);
   error.off_place.resize(n_faces);
   error.stray_place.resize(n_faces);
-  add_edges(model, mesh, error);
-  add_triangles(model, mesh, deviation, error);
+  add_edges(model, mesh, parts.face_size, error);
+  for (const FacePart& part : parts.parts) add_part(part, part.face, error);
+  for (std::size_t f = 0; f < n_faces; ++f)
+    if (error.flat[f] > 0) error.size[f] /= error.flat[f];
   return error;
+}
+
+ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh, DeviationSum* deviation) {
+  return report_chords(model, mesh, estimate_chord_error(model, mesh, OwnTriangles::all(mesh), deviation));
 }
 
 }  // namespace st

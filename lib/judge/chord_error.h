@@ -1,10 +1,13 @@
 // How far a mesh of chords may differ from the CAD it was made on.
 #pragma once
 
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "geometry/model/model.h"
 #include "judge/surface_deviation.h"
+#include "mesh/own_triangles.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -41,5 +44,26 @@ struct ChordError {
 /// Precondition: `mesh` was made on `model`. Local; some four surface evaluations per triangle.
 /// Each triangle is added to `deviation` as well, unless null: surfaces are made once for both.
 ChordError estimate_chord_error(const Model& model, const SurfaceMesh& mesh, DeviationSum* deviation = nullptr);
+
+/// What shares of a mesh add to a ChordError inside faces.
+struct ChordParts {
+  /// What some triangles of one face add.
+  struct Part {
+    FaceId face = kNone;
+    double area = 0, found_area = 0, volume = 0, moved_volume = 0, flat = 0, size = 0;  ///< size: times the flat area
+    double distance = 0, node_distance = 0, off_surface = 0, stray = 0;
+    Vec3 node_place, off_place, stray_place;
+  };
+  std::vector<Part> parts;        ///< by piece and face
+  std::vector<double> face_size;  ///< [n_faces] largest requested length of the face's nodes
+
+  /// Those of the next share.
+  void add(const ChordParts& next);
+  static auto fields(auto& p) { return std::tie(p.parts, p.face_size); }
+};
+ChordParts estimate_chord_error(const Model& model, const SurfaceMesh& mesh, const OwnTriangles& own,
+                                DeviationSum* deviation);
+/// Of all parts, and along edges. `mesh`: its nodes on edges and vertices, at least, and its merged features.
+ChordError report_chords(const Model& model, const SurfaceMesh& mesh, const ChordParts& parts);
 
 }  // namespace st

@@ -1,16 +1,11 @@
 // The surface of the face at hand.
 #pragma once
 
-#include <cstddef>
 #include <memory>
 
 #include "geometry/model/model.h"
 
 namespace st {
-
-/// Triangles that one thread takes at a time. What is found for them depends on no other piece, so the number of
-/// threads does not show.
-inline constexpr std::size_t kTrianglesPerPiece = 16'384;
 
 /// Makes a surface when the face changes: triangles come face by face. One per thread.
 class FaceSurface {

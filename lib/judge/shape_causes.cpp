@@ -241,6 +241,26 @@ CauseList gather(std::vector<CausePlace> places, const IsWorse& is_worse) {
   return list;
 }
 
+/// Those of both, likewise.
+template <class IsWorse>
+void add(const CauseList& other, const IsWorse& is_worse, CauseList& all) {
+  for (std::size_t k = 0; k < kNShapeCauses; ++k) {
+    all.count[k] += other.count[k];
+    std::vector<CausePlace>& worst = all.worst[k];
+    worst.insert(worst.end(), other.worst[k].begin(), other.worst[k].end());
+    std::sort(worst.begin(), worst.end(), [](const CausePlace& a, const CausePlace& b) { return a.order < b.order; });
+    std::stable_sort(worst.begin(), worst.end(), is_worse);
+    if (worst.size() > CauseList::kMaxPlaces) worst.resize(CauseList::kMaxPlaces);
+  }
+}
+
+bool is_lower(const CausePlace& a, const CausePlace& b) { return a.value < b.value; }
+bool is_higher(const CausePlace& a, const CausePlace& b) { return a.value > b.value; }
+bool is_more_off(const CausePlace& a, const CausePlace& b) {
+  const auto off = [](double ratio) { return std::max(ratio, 1 / std::max(ratio, 1e-300)); };
+  return off(a.value) > off(b.value);
+}
+
 }  // namespace
 
 const char* cause_name(ShapeCause cause) {
@@ -265,23 +285,38 @@ std::int64_t CauseList::total() const {
   return n;
 }
 
+void ShapeCauses::add(const ShapeCauses& other) {
+  st::add(other.sharp, is_lower, sharp);
+  st::add(other.growth, is_higher, growth);
+  st::add(other.lengths, is_more_off, lengths);
+}
+
+ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners,
+                              const ShapesToExplain& shapes, const OwnTriangles& own) {
+  Causes causes(model, mesh, corners, shapes.angle_deg);
+  std::vector<CausePlace> sharp, growth, lengths;
+  const auto take = [](CausePlace place, std::int64_t order, std::vector<CausePlace>& list) {
+    place.order = order;
+    list.push_back(place);
+  };
+  for (TriangleId t = own.begin; t < own.end; ++t)
+    if (const auto place = causes.of_angle(t)) take(*place, own.number(t), sharp);
+  for (const QualityReport::LargeJump& jump : shapes.jumps)
+    take(causes.of_growth(jump), own.order(jump.low, jump.high), growth);
+  for (const ConformityReport::OutsideEdge& e : shapes.edges) take(causes.of_length(e), own.order(e.a, e.b), lengths);
+  ShapeCauses result;
+  result.angle_deg = shapes.angle_deg;
+  result.sharp = gather(std::move(sharp), is_lower);
+  result.growth = gather(std::move(growth), is_higher);
+  result.lengths = gather(std::move(lengths), is_more_off);
+  return result;
+}
+
 ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners,
                               const QualityReport& quality, const ConformityReport* conformity, double angle_deg) {
-  Causes causes(model, mesh, corners, angle_deg);
-  std::vector<CausePlace> sharp, growth, lengths;
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
-    if (const auto place = causes.of_angle(t)) sharp.push_back(*place);
-  for (const QualityReport::LargeJump& jump : quality.large_jumps) growth.push_back(causes.of_growth(jump));
-  if (conformity)
-    for (const ConformityReport::OutsideEdge& e : conformity->outside) lengths.push_back(causes.of_length(e));
-  const auto off = [](double ratio) { return std::max(ratio, 1 / std::max(ratio, 1e-300)); };
-  ShapeCauses result;
-  result.angle_deg = angle_deg;
-  result.sharp = gather(std::move(sharp), [](const CausePlace& a, const CausePlace& b) { return a.value < b.value; });
-  result.growth = gather(std::move(growth), [](const CausePlace& a, const CausePlace& b) { return a.value > b.value; });
-  result.lengths =
-      gather(std::move(lengths), [&](const CausePlace& a, const CausePlace& b) { return off(a.value) > off(b.value); });
-  return result;
+  ShapesToExplain shapes{quality.large_jumps, {}, angle_deg};
+  if (conformity) shapes.edges = conformity->outside;
+  return find_shape_causes(model, mesh, corners, shapes, OwnTriangles::all(mesh));
 }
 
 }  // namespace st

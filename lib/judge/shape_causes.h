@@ -4,9 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "geometry/model/model.h"
+#include "mesh/conformity.h"
+#include "mesh/own_triangles.h"
 #include "mesh/quality.h"
 #include "mesh/surface_mesh.h"
 
@@ -33,6 +37,7 @@ struct CausePlace {
   VertexId vertex = kNone;  ///< the CAD vertex of a corner
   double value = 0;         ///< angle in degrees, ratio of areas' roots, length over request
   Vec3 xyz;                 ///< model unit
+  std::int64_t order = 0;   ///< in the mesh
 };
 
 /// What was found by cause, and the worst places.
@@ -42,7 +47,9 @@ struct CauseList {
   std::array<std::vector<CausePlace>, kNShapeCauses> worst;  ///< at most kMaxPlaces each, the worst first
   std::int64_t total() const;
   std::int64_t free() const { return count[static_cast<std::size_t>(ShapeCause::kFree)]; }
+  static auto fields(auto& l) { return std::tie(l.count, l.worst[0], l.worst[1], l.worst[2], l.worst[3], l.worst[4]); }
 };
+static_assert(kNShapeCauses == 5, "CauseList::fields() names each");
 
 struct ShapeCauses {
   double angle_deg = 10;  ///< what counts as sharp
@@ -50,10 +57,24 @@ struct ShapeCauses {
   CauseList growth;       ///< neighbours that grow by more than kLargeGrowth; value: the growth
   CauseList lengths;  ///< edges outside 0.7 to 1.4 of the requested length beyond those of ConformityReport::forced;
                       ///< value: the ratio
+
+  /// Those of another share of the mesh.
+  void add(const ShapeCauses& other);
+  static auto fields(auto& c) { return std::tie(c.angle_deg, c.sharp, c.growth, c.lengths); }
 };
 
-/// `conformity` may be null. Local, linear in the mesh; the CAD is asked at the places found only. Precondition: `mesh`
-/// was made on `model`. Angles are those of `corners`.
+/// What of a share is to be explained.
+struct ShapesToExplain {
+  std::span<const QualityReport::LargeJump> jumps;
+  std::span<const ConformityReport::OutsideEdge> edges;
+  double angle_deg = 10;
+};
+
+/// Local, linear in the mesh; the CAD is asked at the places found only. Precondition: `mesh` was made on `model`, and
+/// has all its nodes on edges and vertices. Angles are those of `corners`.
+ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners,
+                              const ShapesToExplain& shapes, const OwnTriangles& own);
+/// Of a whole mesh. `conformity` may be null.
 ShapeCauses find_shape_causes(const Model& model, const SurfaceMesh& mesh, const TriangleCorners& corners,
                               const QualityReport& quality, const ConformityReport* conformity, double angle_deg);
 

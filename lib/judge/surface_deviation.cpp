@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "base/threads.h"
 #include "geometry/shape/projection.h"
@@ -119,19 +120,24 @@ void add_triangle(const Surface& surface, const SurfaceMesh& mesh, TriangleId t,
   stats.add(middle, b.distance, degrees(std::sqrt(squared)));
 }
 
-/// +1 for faces whose triangles run counter-clockwise in (u,v), -1 for those turned at output: by the sum of their
-/// areas there.
-std::vector<double> sides_of_faces(const SurfaceMesh& mesh, std::int32_t n_faces) {
-  std::vector<double> side(n_faces, 0);
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    const Vec2* uv = &mesh.corner_uv[3 * static_cast<std::size_t>(t)];
-    side[mesh.triangle_face[t]] += cross(uv[1] - uv[0], uv[2] - uv[0]);
+}  // namespace
+
+std::vector<SidePart> side_parts(std::span<const Vec2> corner_uv, std::span<const FaceId> face) {
+  std::vector<SidePart> parts;
+  for (std::size_t t = 0; t < face.size(); ++t) {
+    if (t % kTrianglesPerPiece == 0 || parts.back().face != face[t]) parts.push_back({face[t], 0});
+    const Vec2* uv = &corner_uv[3 * t];
+    parts.back().area += cross(uv[1] - uv[0], uv[2] - uv[0]);
   }
+  return parts;
+}
+
+std::vector<double> sides_of_faces(std::span<const SidePart> parts, std::int32_t n_faces) {
+  std::vector<double> side(n_faces, 0);
+  for (const SidePart& part : parts) side[part.face] += part.area;
   for (double& s : side) s = s < 0 ? -1 : 1;
   return side;
 }
-
-}  // namespace
 
 struct DeviationSum::Piece {
   std::map<FaceId, DeviationStats> faces;
@@ -139,25 +145,32 @@ struct DeviationSum::Piece {
 };
 
 DeviationSum::DeviationSum(const Model& model, const SurfaceMesh& mesh)
-    : model_(model),
-      mesh_(mesh),
-      side_(sides_of_faces(mesh, model.tables().n_faces())),
-      pieces_((mesh.triangles.size() + kTrianglesPerPiece - 1) / kTrianglesPerPiece) {}
+    : DeviationSum(mesh, OwnTriangles::all(mesh),
+                   sides_of_faces(side_parts(mesh.corner_uv, mesh.triangle_face), model.tables().n_faces())) {}
+
+DeviationSum::DeviationSum(const SurfaceMesh& mesh, const OwnTriangles& own, std::vector<double> side)
+    : mesh_(mesh), own_(own), side_(std::move(side)), pieces_(own.n_pieces()) {}
 
 DeviationSum::~DeviationSum() = default;
 
 void DeviationSum::add(TriangleId triangle, const Surface& surface) {
   const FaceId f = mesh_.triangle_face[triangle];
-  Piece& piece = pieces_[static_cast<std::size_t>(triangle) / kTrianglesPerPiece];
+  Piece& piece = pieces_[own_.piece(triangle)];
   add_triangle(surface, mesh_, triangle, side_[f], piece.finder, piece.faces[f]);
 }
 
-SurfaceDeviation DeviationSum::deviation() const {
-  SurfaceDeviation deviation;
-  deviation.faces.resize(model_.tables().n_faces());
+std::vector<DeviationSum::Part> DeviationSum::parts() const {
+  std::vector<Part> all;
   for (const Piece& piece : pieces_)
-    for (const auto& [f, part] : piece.faces) deviation.faces[f].add(part);
-  for (FaceId f = 0; f < model_.tables().n_faces(); ++f) {
+    for (const auto& [f, part] : piece.faces) all.push_back({f, part});
+  return all;
+}
+
+SurfaceDeviation report_deviation(std::span<const DeviationSum::Part> parts, std::int32_t n_faces) {
+  SurfaceDeviation deviation;
+  deviation.faces.resize(n_faces);
+  for (const DeviationSum::Part& part : parts) deviation.faces[part.face].add(part.stats);
+  for (FaceId f = 0; f < n_faces; ++f) {
     if (deviation.faces[f].max_distance > deviation.model.max_distance) deviation.worst_distance = f;
     if (deviation.faces[f].max_angle_deg > deviation.model.max_angle_deg) deviation.worst_angle = f;
     deviation.model.add(deviation.faces[f]);

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/assert.h"
-#include "base/disjoint_sets.h"
 #include "base/limits.h"
 #include "base/threads.h"
 
@@ -69,23 +68,30 @@ void EdgeTable::sort_buckets(std::size_t first, std::size_t last) {
   }
 }
 
+void ComponentFinder::add(std::span<const Triangle> triangles) {
+  ST_ASSERT(are_nodes_below(triangles, static_cast<std::int64_t>(component_.size())));
+  for (const Triangle& t : triangles) {
+    sets_.join(t.n[0], t.n[1]);
+    sets_.join(t.n[1], t.n[2]);
+    for (const NodeId n : t.n) component_[n] = 0;
+  }
+}
+
+std::vector<std::int32_t> ComponentFinder::components(std::int32_t& n_components) {
+  n_components = 0;
+  for (std::size_t n = 0; n < component_.size(); ++n) {
+    if (component_[n] == kNone) continue;
+    const std::int32_t root = sets_.find(static_cast<std::int32_t>(n));
+    component_[n] = root == static_cast<std::int32_t>(n) ? n_components++ : component_[root];
+  }
+  return std::move(component_);
+}
+
 std::vector<std::int32_t> node_components(std::span<const Triangle> triangles, std::int64_t n_nodes,
                                           std::int32_t& n_components) {
-  ST_ASSERT(are_nodes_below(triangles, n_nodes));
-  DisjointSets sets(n_nodes);
-  std::vector<std::int32_t> component(n_nodes, kNone);
-  for (const Triangle& t : triangles) {
-    sets.join(t.n[0], t.n[1]);
-    sets.join(t.n[1], t.n[2]);
-    for (const NodeId n : t.n) component[n] = 0;
-  }
-  n_components = 0;
-  for (std::int64_t n = 0; n < n_nodes; ++n) {
-    if (component[n] == kNone) continue;
-    const std::int32_t root = sets.find(static_cast<std::int32_t>(n));
-    component[n] = root == n ? n_components++ : component[root];
-  }
-  return component;
+  ComponentFinder finder(n_nodes);
+  finder.add(triangles);
+  return finder.components(n_components);
 }
 
 }  // namespace st

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/ids.h"
 #include "mesh/surface_mesh.h"
 
@@ -54,6 +55,19 @@ inline NodeId side_start(std::span<const Triangle> triangles, SideId side) { ret
 inline bool run_alike(std::span<const Triangle> triangles, SideId a, SideId b) {
   return side_start(triangles, a) == side_start(triangles, b);
 }
+
+/// Finds connected components of a mesh whose triangles come in pieces.
+class ComponentFinder {
+ public:
+  explicit ComponentFinder(std::int64_t n_nodes) : sets_(n_nodes), component_(n_nodes, kNone) {}
+  void add(std::span<const Triangle> triangles);
+  /// As node_components(), of all that came. Once.
+  std::vector<std::int32_t> components(std::int32_t& n_components);
+
+ private:
+  DisjointSets sets_;
+  std::vector<std::int32_t> component_;
+};
 
 /// Connected component of each node, kNone for nodes without a triangle; triangles connect their nodes. Components are
 /// numbered by their lowest node. `n_components` is set.

@@ -24,9 +24,8 @@ Vec3 centroid(const SurfaceMesh& mesh, TriangleId t) {
   return (corner(mesh, t, 0) + corner(mesh, t, 1) + corner(mesh, t, 2)) / 3;
 }
 
-DefectPlace at_edge(const SurfaceMesh& mesh, NodeId a, NodeId b, std::span<const SideId> sides) {
-  return {0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3],
-          sides.size() > 1 ? mesh.triangle_face[sides[1] / 3] : kNone};
+DefectPlace at_triangle(const SurfaceMesh& mesh, TriangleId t, const OwnTriangles& own) {
+  return {centroid(mesh, t), mesh.triangle_face[t], kNone, own.number(t)};
 }
 
 /// Finds the CAD edges that a mesh edge lies on, to see what the CAD allows there.
@@ -58,15 +57,16 @@ class CadEdgeLookup {
 /// The node of a side's triangle that is not on the side.
 NodeId opposite(const SurfaceMesh& mesh, SideId side) { return mesh.triangles[side / 3].n[(side % 3 + 2) % 3]; }
 
-/// Duplicates among the triangles on the edge between their two lowest nodes.
-void find_duplicates(const SurfaceMesh& mesh, NodeId high, std::span<const SideId> sides, Defects& duplicates) {
+/// Duplicates among the triangles on the edge between their two lowest nodes. `order`: of the edge.
+void find_duplicates(const SurfaceMesh& mesh, NodeId high, std::span<const SideId> sides, std::int64_t order,
+                     Defects& duplicates) {
   if (sides.size() < 2) return;
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const NodeId third = opposite(mesh, sides[i]);
     if (third < high) continue;
     const bool is_repeated =
         std::any_of(sides.begin(), sides.begin() + i, [&](SideId s) { return opposite(mesh, s) == third; });
-    if (is_repeated) duplicates.add({centroid(mesh, sides[i] / 3), mesh.triangle_face[sides[i] / 3], kNone});
+    if (is_repeated) duplicates.add({centroid(mesh, sides[i] / 3), mesh.triangle_face[sides[i] / 3], kNone, order});
   }
 }
 
@@ -81,67 +81,120 @@ void join_fans(const SurfaceMesh& mesh, std::span<const SideId> sides, DisjointS
   }
 }
 
-void find_pinched_nodes(const SurfaceMesh& mesh, DisjointSets& corners, Defects& pinched) {
+void find_pinched_nodes(const SurfaceMesh& mesh, const OwnTriangles& own, DisjointSets& corners, Defects& pinched) {
   std::vector<std::uint8_t> n_fans(mesh.n_nodes(), 0);
   for (std::int32_t c = 0; c < 3 * static_cast<std::int32_t>(mesh.n_triangles()); ++c) {
     const Triangle& t = mesh.triangles[c / 3];
     if (has_repeated_node(t) || corners.find(c) != c) continue;
-    if (++n_fans[t.n[c % 3]] == 2) pinched.add({mesh.node_xyz[t.n[c % 3]], mesh.triangle_face[c / 3], kNone});
+    if (++n_fans[t.n[c % 3]] == 2 && own.has(c / 3))
+      pinched.add(
+          {mesh.node_xyz[t.n[c % 3]], mesh.triangle_face[c / 3], kNone, 3 * std::int64_t{own.number(c / 3)} + c % 3});
     n_fans[t.n[c % 3]] = std::min<std::uint8_t>(n_fans[t.n[c % 3]], 3);
   }
 }
 
 }  // namespace
 
+void Defects::merge(const Defects& other) {
+  count += other.count;
+  first.insert(first.end(), other.first.begin(), other.first.end());
+  std::stable_sort(first.begin(), first.end(),
+                   [](const DefectPlace& a, const DefectPlace& b) { return a.order < b.order; });
+  if (first.size() > kMaxPlaces) first.resize(kMaxPlaces);
+}
+
+MeshParts count_parts(std::span<const Triangle> triangles, std::int64_t n_nodes) {
+  MeshParts parts;
+  const std::vector<std::int32_t> component = node_components(triangles, n_nodes, parts.n_components);
+  parts.n_used_nodes = n_nodes - std::count(component.begin(), component.end(), kNone);
+  return parts;
+}
+
+void TopologyReport::add(const TopologyReport& other) {
+  n_edges += other.n_edges;
+  n_cad_boundary_edges += other.n_cad_boundary_edges;
+  n_cad_nonmanifold_edges += other.n_cad_nonmanifold_edges;
+  for (Defects TopologyReport::*list :
+       {&TopologyReport::boundary_edges, &TopologyReport::nonmanifold_edges, &TopologyReport::misoriented_edges,
+        &TopologyReport::repeated_nodes, &TopologyReport::duplicate_triangles, &TopologyReport::pinched_nodes})
+    (this->*list).merge(other.*list);
+}
+
+void TopologyReport::set_parts(const MeshParts& parts, std::int64_t n_triangles) {
+  n_components = parts.n_components;
+  n_used_nodes = parts.n_used_nodes;
+  euler = n_used_nodes - n_edges + n_triangles - repeated_nodes.count;
+  genus = n_components - euler / 2;
+}
+
 TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad) {
+  return check_topology(mesh, edges, cad, OwnTriangles::all(mesh));
+}
+
+TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad,
+                              const OwnTriangles& own) {
   TopologyReport r;
   const CadEdgeLookup lookup(mesh, cad);
   DisjointSets corners(3 * mesh.n_triangles());
+  const auto at_edge = [&](NodeId a, NodeId b, std::span<const SideId> sides) {
+    return DefectPlace{0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3],
+                       sides.size() > 1 ? mesh.triangle_face[sides[1] / 3] : kNone, own.order(a, b)};
+  };
   edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+    join_fans(mesh, sides, corners);
+    if (!own.has_side(sides[0])) return;
     ++r.n_edges;
     if (sides.size() == 1) {
       if (lookup.is_allowed(cad.may_be_open, a, b))
         ++r.n_cad_boundary_edges;
       else
-        r.boundary_edges.add(at_edge(mesh, a, b, sides));
+        r.boundary_edges.add(at_edge(a, b, sides));
     } else if (sides.size() > 2) {
       if (lookup.is_allowed(cad.may_be_nonmanifold, a, b))
         ++r.n_cad_nonmanifold_edges;
       else
-        r.nonmanifold_edges.add(at_edge(mesh, a, b, sides));
+        r.nonmanifold_edges.add(at_edge(a, b, sides));
     } else if (run_alike(mesh.triangles, sides[0], sides[1])) {
-      r.misoriented_edges.add(at_edge(mesh, a, b, sides));
+      r.misoriented_edges.add(at_edge(a, b, sides));
     }
-    find_duplicates(mesh, b, sides, r.duplicate_triangles);
-    join_fans(mesh, sides, corners);
+    find_duplicates(mesh, b, sides, own.order(a, b), r.duplicate_triangles);
   });
-  std::int64_t n_repeated = 0;
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
-    if (has_repeated_node(mesh.triangles[t]))
-      ++n_repeated, r.repeated_nodes.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
-  find_pinched_nodes(mesh, corners, r.pinched_nodes);
-  const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), r.n_components);
-  r.n_used_nodes = mesh.n_nodes() - std::count(component.begin(), component.end(), kNone);
-  r.euler = r.n_used_nodes - r.n_edges + mesh.n_triangles() - n_repeated;
-  r.genus = r.n_components - r.euler / 2;
+  for (TriangleId t = own.begin; t < own.end; ++t)
+    if (has_repeated_node(mesh.triangles[t])) r.repeated_nodes.add(at_triangle(mesh, t, own));
+  find_pinched_nodes(mesh, own, corners, r.pinched_nodes);
+  if (own.is_all(mesh)) r.set_parts(count_parts(mesh.triangles, mesh.n_nodes()), mesh.n_triangles());
+  return r;
+}
+
+std::vector<MeasurePart> measure_mesh(const SurfaceMesh& mesh, Vec3 origin, const OwnTriangles& own) {
+  std::vector<MeasurePart> parts;
+  for (TriangleId t = own.begin; t < own.end; ++t) {
+    const bool is_new = static_cast<std::size_t>(t - own.begin) % kTrianglesPerPiece == 0;
+    if (is_new || parts.back().face != mesh.triangle_face[t]) parts.push_back({mesh.triangle_face[t]});
+    const Vec3 v = area_vector(mesh, t);
+    parts.back().area += 0.5 * norm(v);
+    parts.back().volume += dot(corner(mesh, t, 0) - origin, v) / 6;
+  }
+  return parts;
+}
+
+MeshMeasure measure_of(std::span<const MeasurePart> parts, std::size_t n_faces) {
+  MeshMeasure r;
+  r.face_area.assign(n_faces, 0);
+  for (const MeasurePart& part : parts) {
+    const auto face = static_cast<std::size_t>(part.face);
+    if (face >= r.face_area.size()) r.face_area.resize(face + 1, 0);
+    r.face_area[face] += part.area;
+    r.volume += part.volume;
+  }
+  for (const double a : r.face_area) r.area += a;
   return r;
 }
 
 MeshMeasure measure_mesh(const SurfaceMesh& mesh) {
-  MeshMeasure r;
-  r.face_area.assign(mesh.labels.face_name.size(), 0);
   Box3 box;
   for (const Vec3 p : mesh.node_xyz) box.add(p);
-  const Vec3 origin = box.center();
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    const Vec3 v = area_vector(mesh, t);
-    const auto face = static_cast<std::size_t>(mesh.triangle_face[t]);
-    if (face >= r.face_area.size()) r.face_area.resize(face + 1, 0);
-    r.face_area[face] += 0.5 * norm(v);
-    r.volume += dot(corner(mesh, t, 0) - origin, v) / 6;
-  }
-  for (const double a : r.face_area) r.area += a;
-  return r;
+  return measure_of(measure_mesh(mesh, box.center(), OwnTriangles::all(mesh)), mesh.labels.face_name.size());
 }
 
 namespace {
@@ -159,8 +212,9 @@ bool is_seam(const SurfaceMesh& mesh, NodeId a, NodeId b, TriangleId s, Triangle
   return norm(da) > 0 || norm(db) > 0;
 }
 
-void find_folds(const SurfaceMesh& mesh, const EdgeTable& edges, Defects& folds) {
+void find_folds(const SurfaceMesh& mesh, const EdgeTable& edges, const OwnTriangles& own, Defects& folds) {
   edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+    if (!own.has_side(sides[0])) return;
     for (std::size_t i = 1; i < sides.size(); ++i) {
       const TriangleId s = sides[0] / 3, t = sides[i] / 3;
       if (mesh.triangle_face[s] != mesh.triangle_face[t] || is_seam(mesh, a, b, s, t)) continue;
@@ -170,7 +224,7 @@ void find_folds(const SurfaceMesh& mesh, const EdgeTable& edges, Defects& folds)
                                                                                                        // fold
       const double cosine = is_misoriented ? -dot(ns, nt) : dot(ns, nt);
       if (cosine < 0 && cosine < kFoldCosine * norm(ns) * norm(nt))
-        folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone});
+        folds.add({0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[s], kNone, own.order(a, b)});
     }
   });
 }
@@ -222,8 +276,11 @@ bool has_equal_places(std::span<const Vec3> xyz) {
   return false;
 }
 
-void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
-  if (!has_equal_places(mesh.node_xyz)) return;
+}  // namespace
+
+Defects find_duplicate_nodes(const SurfaceMesh& mesh) {
+  Defects duplicates;
+  if (!has_equal_places(mesh.node_xyz)) return duplicates;
   std::int32_t n_components = 0;
   const std::vector<std::int32_t> component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   const auto is_vertex = [&](NodeId n) {
@@ -238,27 +295,41 @@ void find_duplicate_nodes(const SurfaceMesh& mesh, Defects& duplicates) {
   }
   for (std::size_t i = 0; i < found.size(); ++i)
     duplicates.add({mesh.node_xyz[found[i]], i < Defects::kMaxPlaces ? face_of(mesh, found[i]) : kNone, kNone});
+  return duplicates;
 }
 
-}  // namespace
+void ShapeReport::add(const ShapeReport& other) {
+  zero_area.merge(other.zero_area);
+  duplicate_nodes.merge(other.duplicate_nodes);
+  folds.merge(other.folds);
+}
 
 ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges) {
+  return check_shape(mesh, edges, OwnTriangles::all(mesh));
+}
+
+ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges, const OwnTriangles& own) {
   ShapeReport r;
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
+  for (TriangleId t = own.begin; t < own.end; ++t)
     if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t]))
-      r.zero_area.add({centroid(mesh, t), mesh.triangle_face[t], kNone});
-  find_duplicate_nodes(mesh, r.duplicate_nodes);
-  find_folds(mesh, edges, r.folds);
+      r.zero_area.add(at_triangle(mesh, t, own));
+  if (own.is_all(mesh)) r.duplicate_nodes = find_duplicate_nodes(mesh);
+  find_folds(mesh, edges, own, r.folds);
   return r;
 }
 
 CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad) {
-  CrossingReport r;
   bool was_ended = false;
   const std::vector<TrianglePair> pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended);
   std::int32_t n_components = 0;
   std::vector<std::int32_t> component;
   if (!pairs.empty()) component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
+  return check_crossings(mesh, pairs, component, was_ended, cad);
+}
+
+CrossingReport check_crossings(const SurfaceMesh& mesh, std::span<const TrianglePair> pairs,
+                               std::span<const std::int32_t> component, bool was_ended, const CadOfPairs& cad) {
+  CrossingReport r;
   for (const TrianglePair& p : pairs) {
     const bool is_between = component[mesh.triangles[p.a].n[0]] != component[mesh.triangles[p.b].n[0]];
     const bool is_contact = is_between && !(cad.is_one_body && cad.is_one_body(p));

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "mesh/adjacency.h"
 #include "mesh/crossing.h"
+#include "mesh/own_triangles.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -16,6 +18,7 @@ namespace st {
 struct DefectPlace {
   Vec3 xyz;                               ///< model unit
   FaceId face_a = kNone, face_b = kNone;  ///< 0-based CAD faces, kNone when there is no second one
+  std::int64_t order = 0;                 ///< among the defects of its kind, in the order of the mesh
 };
 
 /// Defects of one kind: how many, and where the first of them are.
@@ -28,6 +31,10 @@ struct Defects {
     ++count;
     if (first.size() < kMaxPlaces) first.push_back(place);
   }
+  /// Those of another share of the mesh.
+  void merge(const Defects& other);
+
+  static auto fields(auto& d) { return std::tie(d.count, d.first); }
 };
 
 /// Where the CAD itself is open or non-manifold. Empty spans: nowhere.
@@ -36,6 +43,13 @@ struct CadEdges {
   std::span<const std::uint8_t> may_be_open;         ///< [n_edges] 1: used by one face only
   std::span<const std::uint8_t> may_be_nonmanifold;  ///< [n_edges] 1: used by more than two faces
 };
+
+/// What hangs together.
+struct MeshParts {
+  std::int64_t n_used_nodes = 0;
+  std::int32_t n_components = 0;  ///< connected by common nodes
+};
+MeshParts count_parts(std::span<const Triangle> triangles, std::int64_t n_nodes);
 
 /// How triangles meet.
 struct TopologyReport {
@@ -58,10 +72,22 @@ struct TopologyReport {
   bool passes() const {
     return is_closed() && misoriented_edges.count == 0 && repeated_nodes.count == 0 && duplicate_triangles.count == 0;
   }
+  /// Those of another share of the mesh.
+  void add(const TopologyReport& other);
+  /// Sets what follows from the parts of the whole mesh.
+  void set_parts(const MeshParts& parts, std::int64_t n_triangles);
+
+  static auto fields(auto& r) {
+    return std::tie(r.n_edges, r.boundary_edges, r.nonmanifold_edges, r.misoriented_edges, r.repeated_nodes,
+                    r.duplicate_triangles, r.pinched_nodes, r.n_cad_boundary_edges, r.n_cad_nonmanifold_edges);
+  }
 };
 
 /// Local, linear. `edges`: edges_of(mesh). Precondition: node ids within the mesh.
 TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad = {});
+/// Of a share; what set_parts() sets of a whole mesh only.
+TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad,
+                              const OwnTriangles& own);
 
 /// Neighbours of one CAD face whose normals differ by more than this are a fold: cos(148.2 deg).
 inline constexpr double kFoldCosine = -0.85;
@@ -76,16 +102,35 @@ struct MeshMeasure {
 /// Local, linear.
 MeshMeasure measure_mesh(const SurfaceMesh& mesh);
 
+/// What the triangles of one face in one piece add to it (kTrianglesPerPiece).
+struct MeasurePart {
+  FaceId face = kNone;
+  double area = 0, volume = 0;
+};
+/// Of a share, in order; volumes are cones from `origin`, for a closed mesh any point.
+std::vector<MeasurePart> measure_mesh(const SurfaceMesh& mesh, Vec3 origin, const OwnTriangles& own);
+/// Of all shares, in order.
+MeshMeasure measure_of(std::span<const MeasurePart> parts, std::size_t n_faces);
+
 /// Where nodes and triangles lie.
 struct ShapeReport {
   Defects zero_area;        ///< three different nodes exactly on a line
   Defects duplicate_nodes;  ///< nodes of one component at the coordinates of an earlier one, CAD vertices both apart
   Defects folds;            ///< edges between triangles of one CAD face that turn back on each other (kFoldCosine)
   bool passes() const { return zero_area.count == 0 && duplicate_nodes.count == 0 && folds.count == 0; }
+  /// Those of another share of the mesh.
+  void add(const ShapeReport& other);
+
+  static auto fields(auto& r) { return std::tie(r.zero_area, r.duplicate_nodes, r.folds); }
 };
 
 /// Local, n log n. `edges`: edges_of(mesh).
 ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges);
+/// Of a share; duplicate nodes of a whole mesh only.
+ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges, const OwnTriangles& own);
+
+/// Of a whole mesh.
+Defects find_duplicate_nodes(const SurfaceMesh& mesh);
 
 /// Which triangles meet where they should not. Exact.
 struct CrossingReport {
@@ -110,5 +155,9 @@ struct CadOfPairs {
 
 /// Local, n log n; a second per million triangles.
 CrossingReport check_crossings(const SurfaceMesh& mesh, const CadOfPairs& cad = {});
+/// The same of pairs that were found, sorted by (a, b). `component`: [n_nodes] as node_components() has it, or empty
+/// where there is no pair; `was_ended`: see find_crossing_triangles().
+CrossingReport check_crossings(const SurfaceMesh& mesh, std::span<const TrianglePair> pairs,
+                               std::span<const std::int32_t> component, bool was_ended, const CadOfPairs& cad);
 
 }  // namespace st

@@ -218,9 +218,9 @@ std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, 
 }
 
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                                  bool& was_ended) {
+                                                  bool& was_ended, std::int64_t* n_compared) {
   const std::int32_t begin[] = {0, static_cast<std::int32_t>(triangles.size())};
-  return find_pairs({points, triangles, begin}, WithinGroup::kAll, {{0, 0}}, was_ended);
+  return find_pairs({points, triangles, begin}, WithinGroup::kAll, {{0, 0}}, was_ended, n_compared);
 }
 
 }  // namespace st

@@ -23,9 +23,9 @@ struct TrianglePair {
 /// million triangles of a clean mesh take a second or two.
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles);
 /// The same, but where triangles lie in each other without end the search is ended (most_comparisons()). `was_ended` is
-/// set then, and these are not all pairs.
+/// set then, and these are not all pairs. `n_compared` gets how many comparisons it took, unless null.
 std::vector<TrianglePair> find_crossing_triangles(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                                  bool& was_ended);
+                                                  bool& was_ended, std::int64_t* n_compared = nullptr);
 
 /// The exact test of one pair; `n_shared` as above. Precondition: neither triangle is degenerate.
 bool triangles_cross(std::span<const Vec3> points, const Triangle& a, const Triangle& b, int& n_shared);

@@ -308,7 +308,7 @@ class OrderFinder {
     });
   }
 
-  /// In the order of the triangles, as orient_outward() and measure_mesh() do.
+  /// In the order of the triangles, as orient_outward() does.
   void measure() {
     const Vec3 origin = box_.center();
     for (FaceComponent& c : components_) c.volume = 0;

@@ -6,7 +6,7 @@
 
 #include "base/local_size.h"
 #include "base/threads.h"
-#include "mesh/quality.h"
+#include "mesh/conformity.h"
 
 namespace st {
 

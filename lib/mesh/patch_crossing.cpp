@@ -46,12 +46,12 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh, bool
 }
 
 std::vector<TrianglePair> find_crossings_between(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                                 std::int32_t n_first, bool& was_ended) {
+                                                 std::int32_t n_first, bool& was_ended, std::int64_t* n_compared) {
   const std::int32_t begin[] = {0, n_first, static_cast<std::int32_t>(triangles.size())};
   ST_ASSERT(0 <= n_first && n_first <= begin[2]);
   was_ended = false;
   if (n_first == 0 || n_first == begin[2]) return {};
-  return find_pairs({points, triangles, begin}, WithinGroup::kAll, {{0, 1}}, was_ended);
+  return find_pairs({points, triangles, begin}, WithinGroup::kAll, {{0, 1}}, was_ended, n_compared);
 }
 
 }  // namespace st

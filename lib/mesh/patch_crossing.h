@@ -46,6 +46,7 @@ std::vector<TrianglePair> find_crossing_patches(const PatchTriangles& mesh);
 
 /// Likewise the pairs of two faces alone: triangles [0, n_first) are of one, the others of the other.
 std::vector<TrianglePair> find_crossings_between(std::span<const Vec3> points, std::span<const Triangle> triangles,
-                                                 std::int32_t n_first, bool& was_ended);
+                                                 std::int32_t n_first, bool& was_ended,
+                                                 std::int64_t* n_compared = nullptr);
 
 }  // namespace st

@@ -7,25 +7,15 @@
 #include <tuple>
 #include <utility>
 
+#include "base/local_size.h"
 #include "base/threads.h"
-#include "mesh/node_sizes.h"
 
 namespace st {
 
 namespace {
 
-constexpr std::size_t kPerPiece = 16'384;  // triangles or nodes
-
 /// `squares`: sum of the squared lengths of the sides.
 double quality_of(double area, double squares) { return squares > 0 ? 4 * std::sqrt(3.0) * area / squares : 0; }
-
-/// The bin of a value among bins of one width from `first`, the last without end.
-template <std::size_t n>
-std::int64_t& bin_of(std::array<std::int64_t, n>& histogram, double value, double first, double width) {
-  const double bin = (value - first) / width;
-  if (!(bin > 0)) return histogram[0];  // NaN, too: of coordinates that overflow
-  return histogram[static_cast<std::size_t>(std::min(bin, static_cast<double>(n - 1)))];
-}
 
 /// Statistics of some triangles of a face. Angles are counted by their cosines, and worked out where one is smaller or
 /// larger than those before.
@@ -93,18 +83,10 @@ void add_largest_angle(const std::array<Vec3, 3>& x, const std::array<double, 3>
   largest = std::max(largest, std::ranges::max(triangle_angles_deg(x[0], x[1], x[2])));
 }
 
-/// The k-th smallest value. Reorders `values`.
-double nth_smallest(std::vector<double>& values, std::size_t k) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
-  return values[k];
-}
+/// Of `n` values those up to the first percentile.
+std::size_t n_to_first_percentile(std::int64_t n) { return static_cast<std::size_t>(n) / 100 + 1; }
 
-/// The value with `share` of the others below it. Reorders `values`.
-double percentile(std::vector<double>& values, double share) {
-  return nth_smallest(values, static_cast<std::size_t>(share * static_cast<double>(values.size() - 1)));
-}
-
-/// Statistics of parts: `mean` is the sum until finish(), `p1` is set by set_percentiles().
+/// Statistics of parts: `mean` is the sum until finish(), `p1` is set by report_quality().
 TriangleShape add_triangle(const SurfaceMesh& mesh, const TriangleCorners& corners, TriangleId t, ShapeSum& sum) {
   const std::array<Vec3, 3> x = corners(t);
   const TriangleShape shape = shape_of(x);
@@ -114,7 +96,7 @@ TriangleShape add_triangle(const SurfaceMesh& mesh, const TriangleCorners& corne
   s.mean += quality;
   s.n_below_03 += quality < 0.3;
   ++s.histogram[std::clamp(static_cast<int>(10 * quality), 0, 9)];
-  if (quality < s.min) s.min = quality, s.worst = t;
+  if (quality < s.min) s.min = quality, s.worst.triangle = t;
   add_angles(x, shape.cosine, sum);
   if (corners.is_stretched()) {
     const std::array<Vec3, 3> in_space = TriangleCorners(mesh)(t);
@@ -152,67 +134,101 @@ Stats& at(std::vector<Stats>& list, std::int32_t i) {
   return list[i];
 }
 
-/// Model, groups and faces but for the percentiles: each piece of the mesh has its own sums, added up in order.
-void add_shapes(const SurfaceMesh& mesh, const TriangleCorners& corners, std::span<double> quality,
-                std::span<double> area, QualityReport& report) {
+/// Sums of each piece by face and group. `quality`: of own triangles, `area`: of all.
+std::vector<QualityParts::Part> measure_shapes(const SurfaceMesh& mesh, const TriangleCorners& corners,
+                                               const OwnTriangles& own, std::span<double> quality,
+                                               std::span<double> area) {
   using Parts = std::map<std::pair<FaceId, std::int32_t>, ShapeSum>;
-  std::vector<Parts> pieces((quality.size() + kPerPiece - 1) / kPerPiece);
-  parallel_for(quality.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-    Parts& parts = pieces[begin / kPerPiece];
+  std::vector<Parts> pieces(own.n_pieces());
+  parallel_for(own.size(), kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
+    Parts& parts = pieces[begin / kTrianglesPerPiece];
     std::pair<FaceId, std::int32_t> last{kNone, kNone};
     ShapeSum* part = nullptr;  // triangles come face by face
-    for (std::size_t t = begin; t < end; ++t) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto t = static_cast<TriangleId>(own.begin + static_cast<TriangleId>(i));
       const std::pair key(mesh.triangle_face[t], mesh.triangle_group[t]);
       if (!part || key != last) part = &parts[last = key];
-      const TriangleShape shape = add_triangle(mesh, corners, static_cast<TriangleId>(t), *part);
-      quality[t] = shape.quality;
+      const TriangleShape shape = add_triangle(mesh, corners, t, *part);
+      quality[i] = shape.quality;
       area[t] = shape.area;
     }
   });
+  for (TriangleId t = 0; t < mesh.n_triangles(); ++t)
+    if (t == own.begin && own.size() > 0)
+      t = own.end - 1;
+    else
+      area[t] = shape_of(corners(t)).area;
+  std::vector<QualityParts::Part> all;
   for (const Parts& parts : pieces)
     for (const auto& [key, part] : parts) {
-      add_part(part.stats, report.model);
-      add_part(part.stats, at(report.faces, key.first));
-      add_part(part.stats, at(report.groups, key.second));
+      all.push_back({key.first, key.second, part.stats});
+      QualityStats& s = all.back().stats;
+      const TriangleId worst = s.worst.triangle;
+      if (worst == kNone) continue;
+      const auto& n = mesh.triangles[worst].n;
+      s.worst = {own.number(worst), mesh.triangle_face[worst],
+                 (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3};
     }
-  finish(report.model);
-  for (auto* list : {&report.faces, &report.groups})
-    for (QualityStats& s : *list) finish(s);
+  return all;
 }
 
-/// First percentiles by key (face or group).
-void set_percentiles(std::span<const std::int32_t> key, std::span<const double> quality,
-                     std::vector<QualityStats>& stats) {
-  std::vector<std::vector<double>> of_key(stats.size());
-  for (std::size_t k = 0; k < stats.size(); ++k) of_key[k].reserve(static_cast<std::size_t>(stats[k].n_triangles));
-  for (std::size_t t = 0; t < key.size(); ++t) of_key[key[t]].push_back(quality[t]);
+/// The lowest values by key (face or group). `counts`: of the whole mesh.
+std::vector<KeptValues> lowest_by(std::span<const std::int32_t> key, std::span<const double> quality,
+                                  const std::vector<std::int64_t>& counts) {
+  std::vector<std::size_t> n_own(counts.size(), 0);
+  for (const std::int32_t k : key) ++n_own[k];
+  std::vector<KeptValues> of_key(counts.size());
+  for (std::size_t k = 0; k < counts.size(); ++k) of_key[k].values.reserve(n_own[k]);
+  for (std::size_t t = 0; t < key.size(); ++t) of_key[key[t]].values.push_back(quality[t]);
   parallel_for(of_key.size(), 1, [&](std::size_t k, std::size_t) {
-    if (!of_key[k].empty()) stats[k].p1 = nth_smallest(of_key[k], of_key[k].size() / 100);
+    keep_lowest(of_key[k].values, n_to_first_percentile(counts[k]));
+    of_key[k].values.shrink_to_fit();
   });
+  return of_key;
 }
 
 /// `area`: of the triangles.
 void measure_jumps(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const double> area,
-                   QualityReport& report) {
-  std::vector<double> jumps;
-  jumps.reserve(area.size() / 2 * 3);  // of a closed mesh
-  report.group_jumps.resize(report.groups.size());
-  report.face_jumps.resize(report.faces.size());
-  edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
+                   const OwnTriangles& own, const TriangleCounts& counts, QualityParts& parts) {
+  std::vector<double>& jumps = parts.highest_jumps.values;
+  jumps.reserve(own.size() / 2 * 3);  // of a closed mesh
+  parts.group_jumps.resize(counts.groups.size());
+  parts.face_jumps.resize(counts.faces.size());
+  edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
+    if (!own.has_side(sides[0])) return;
+    const TriangleId t = sides[0] / 3;
     for (std::size_t i = 1; i < sides.size(); ++i) {
-      const TriangleId t = sides[0] / 3;
       const auto [low, high] = std::minmax({area[t], area[sides[i] / 3]});
       if (!(low > 0)) continue;
       jumps.push_back(std::sqrt(high / low));
-      if (jumps.back() > kLargeGrowth) report.large_jumps.push_back({t, sides[i] / 3, jumps.back()});
+      if (jumps.back() > kLargeGrowth) parts.large_jumps.push_back({t, sides[i] / 3, a, b, jumps.back()});
       for (JumpStats* stats :
-           {&report.jumps, &report.group_jumps[mesh.triangle_group[t]], &report.face_jumps[mesh.triangle_face[t]]})
+           {&parts.jumps, &parts.group_jumps[mesh.triangle_group[t]], &parts.face_jumps[mesh.triangle_face[t]]})
         stats->add(jumps.back());
     }
   });
-  if (jumps.empty()) return;
-  report.jump_p999 = percentile(jumps, 0.999);
-  report.jump_max = report.jumps.max;
+  keep_highest(jumps, n_kept(most_sides(counts.model), 0.001));
+  jumps.shrink_to_fit();
+}
+
+/// Adds lists element by element.
+void add_lowest(std::vector<KeptValues>& all, const std::vector<KeptValues>& next,
+                const std::vector<std::int64_t>& counts) {
+  all.resize(std::max(all.size(), next.size()));
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    std::vector<double>& values = all[k].values;
+    values.insert(values.end(), next[k].values.begin(), next[k].values.end());
+    keep_lowest(values, n_to_first_percentile(counts[k]));
+  }
+}
+void add_jumps(std::vector<JumpStats>& all, const std::vector<JumpStats>& next) {
+  all.resize(std::max(all.size(), next.size()));
+  for (std::size_t k = 0; k < next.size(); ++k) all[k].add(next[k]);
+}
+
+void set_percentiles(const std::vector<KeptValues>& lowest, std::vector<QualityStats>& stats) {
+  for (std::size_t k = 0; k < lowest.size(); ++k)
+    if (!lowest[k].values.empty()) stats[k].p1 = std::ranges::max(lowest[k].values);
 }
 
 }  // namespace
@@ -229,6 +245,12 @@ void JumpStats::add(double ratio) {
   ++n_pairs;
   max = std::max(max, ratio);
   ++bin_of(histogram, ratio, 1, kBinWidth);
+}
+
+void JumpStats::add(const JumpStats& other) {
+  n_pairs += other.n_pairs;
+  max = std::max(max, other.max);
+  for (std::size_t k = 0; k < histogram.size(); ++k) histogram[k] += other.histogram[k];
 }
 
 double triangle_quality(Vec3 a, Vec3 b, Vec3 c) {
@@ -252,148 +274,75 @@ QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges) {
 }
 
 QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners) {
-  std::vector<double> quality(mesh.triangles.size()), area(mesh.triangles.size());
-  QualityReport report;
-  report.groups.resize(mesh.labels.group_name.size());
-  report.faces.resize(mesh.labels.face_name.size());
-  add_shapes(mesh, corners, quality, area, report);
-  set_percentiles(mesh.triangle_group, quality, report.groups);
-  set_percentiles(mesh.triangle_face, quality, report.faces);
-  if (corners.is_stretched()) report.rows = measure_rows(mesh, edges, quality);
-  if (!quality.empty()) report.model.p1 = nth_smallest(quality, quality.size() / 100);
+  const TriangleCounts counts = TriangleCounts::of(mesh);
+  return report_quality(measure_quality(mesh, edges, corners, OwnTriangles::all(mesh), counts), counts);
+}
+
+TriangleCounts TriangleCounts::of(const SurfaceMesh& mesh) {
+  TriangleCounts counts;
+  counts.model = mesh.n_triangles();
+  counts.groups.resize(mesh.labels.group_name.size());
+  counts.faces.resize(mesh.labels.face_name.size());
+  for (const std::int32_t g : mesh.triangle_group) ++at(counts.groups, g);
+  for (const FaceId f : mesh.triangle_face) ++at(counts.faces, f);
+  return counts;
+}
+
+QualityParts measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners,
+                             const OwnTriangles& own, const TriangleCounts& counts) {
+  std::vector<double> quality(own.size()), area(mesh.triangles.size());
+  QualityParts parts;
+  parts.shapes = measure_shapes(mesh, corners, own, quality, area);
+  parts.group_lowest = lowest_by(std::span(mesh.triangle_group).subspan(own.begin, own.size()), quality, counts.groups);
+  parts.face_lowest = lowest_by(std::span(mesh.triangle_face).subspan(own.begin, own.size()), quality, counts.faces);
+  if (corners.is_stretched()) parts.rows = measure_rows(mesh, edges, quality);
+  keep_lowest(quality, n_to_first_percentile(counts.model));
+  parts.lowest.values.assign(quality.begin(), quality.end());
   std::vector<double>().swap(quality);
-  measure_jumps(mesh, edges, area, report);
-  return report;
+  measure_jumps(mesh, edges, area, own, counts, parts);
+  return parts;
 }
 
-void ConformityStats::add(double ratio) {
-  min = n_edges ? std::min(min, ratio) : ratio;
-  max = n_edges ? std::max(max, ratio) : ratio;
-  ++n_edges;
-  n_within += ratio >= kConformityMin && ratio <= kConformityMax;
-  sum += ratio;
-  ++bin_of(histogram, ratio, 0, kBinWidth);
+void QualityParts::add(const QualityParts& next, const TriangleCounts& counts) {
+  shapes.insert(shapes.end(), next.shapes.begin(), next.shapes.end());
+  lowest.values.insert(lowest.values.end(), next.lowest.values.begin(), next.lowest.values.end());
+  keep_lowest(lowest.values, n_to_first_percentile(counts.model));
+  add_lowest(group_lowest, next.group_lowest, counts.groups);
+  add_lowest(face_lowest, next.face_lowest, counts.faces);
+  jumps.add(next.jumps);
+  add_jumps(group_jumps, next.group_jumps);
+  add_jumps(face_jumps, next.face_jumps);
+  std::vector<double>& highest = highest_jumps.values;
+  highest.insert(highest.end(), next.highest_jumps.values.begin(), next.highest_jumps.values.end());
+  keep_highest(highest, n_kept(most_sides(counts.model), 0.001));
 }
 
-void ConformityStats::add(const ConformityStats& other) {
-  if (other.n_edges == 0) return;
-  min = n_edges ? std::min(min, other.min) : other.min;
-  max = n_edges ? std::max(max, other.max) : other.max;
-  n_edges += other.n_edges;
-  n_within += other.n_within;
-  sum += other.sum;
-  for (std::size_t k = 0; k < histogram.size(); ++k) histogram[k] += other.histogram[k];
-}
-
-namespace {
-
-/// Tells which short edges the CAD forces, and gathers them by place.
-class ForcedEdges {
- public:
-  explicit ForcedEdges(const SurfaceMesh& mesh) : mesh_(mesh) {
-    for (std::int64_t n = 0; n < mesh.n_nodes(); ++n)
-      if (dim(n) == EntityDim::kEdge) ++n_inside_[mesh.node_entity[n]];
+QualityReport report_quality(QualityParts&& parts, const TriangleCounts& counts) {
+  QualityReport report;
+  report.groups.resize(counts.groups.size());
+  report.faces.resize(counts.faces.size());
+  for (const QualityParts::Part& part : parts.shapes) {
+    add_part(part.stats, report.model);
+    add_part(part.stats, report.faces[part.face]);
+    add_part(part.stats, report.groups[part.group]);
   }
-
-  /// Takes the edge (a, b) when it is forced. `sides`: its triangles.
-  bool take(NodeId a, NodeId b, std::span<const SideId> sides, double ratio) {
-    if (ratio >= kConformityMin || dim(a) == EntityDim::kFace || dim(b) == EntityDim::kFace) return false;
-    ForcedPlace place{ForcedPlace::Kind::kShortEdge, kNone, 0, ratio, 0.5 * (mesh_.node_xyz[a] + mesh_.node_xyz[b])};
-    Key key{place.kind, kNone, a, b};
-    if (is_across(a, b, sides)) {
-      place.kind = ForcedPlace::Kind::kStrip;
-      place.entity = mesh_.triangle_face[sides[0] / 3];
-      key = {place.kind, place.entity, kNone, kNone};
-    } else if (dim(a) == EntityDim::kEdge || dim(b) == EntityDim::kEdge) {
-      place.entity = mesh_.node_entity[dim(a) == EntityDim::kEdge ? a : b];
-      if (n_inside_.at(place.entity) >= kMostSegments) return false;
-      key = {place.kind, place.entity, kNone, kNone};
-    }
-    ForcedPlace& known = places_.try_emplace(key, place).first->second;
-    if (ratio < known.min_ratio) known.min_ratio = ratio, known.xyz = place.xyz;
-    ++known.n_edges;
-    return true;
-  }
-
-  std::vector<ForcedPlace> places() const {
-    std::vector<ForcedPlace> list;
-    for (const auto& entry : places_) list.push_back(entry.second);
-    return list;
-  }
-
- private:
-  using Key = std::tuple<ForcedPlace::Kind, std::int32_t, NodeId, NodeId>;
-  static constexpr int kMostSegments = 3;  ///< what a loop of one edge needs
-
-  EntityDim dim(NodeId n) const { return static_cast<EntityDim>(mesh_.node_entity_dim[n]); }
-  Vec2 uv_at(SideId side, NodeId n) const {
-    const SideId next = side / 3 * 3 + (side % 3 + 1) % 3;
-    return mesh_.corner_uv[mesh_.triangles[side / 3].n[side % 3] == n ? side : next];
-  }
-  /// Inside one face, not along its boundary: a seam's two sides have different (u,v).
-  bool is_across(NodeId a, NodeId b, std::span<const SideId> sides) const {
-    if (sides.size() != 2 || mesh_.triangle_face[sides[0] / 3] != mesh_.triangle_face[sides[1] / 3]) return false;
-    return uv_at(sides[0], a) == uv_at(sides[1], a) && uv_at(sides[0], b) == uv_at(sides[1], b);
-  }
-
-  const SurfaceMesh& mesh_;
-  std::map<EdgeId, std::int64_t> n_inside_;  ///< nodes inside each CAD edge
-  std::map<Key, ForcedPlace> places_;
-};
-
-/// Length over requested length of every edge, in the order of the table.
-std::vector<double> length_ratios(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested,
-                                  const RequestedLength& along) {
-  const auto n_nodes = static_cast<std::size_t>(mesh.n_nodes());
-  const NodeSizes asked(mesh.node_xyz, requested, along);
-  std::vector<std::size_t> first((n_nodes + kPerPiece - 1) / kPerPiece, 0);  // edge of each piece
-  parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
-    edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
-                        [&](NodeId, NodeId, std::span<const SideId>) { ++first[begin / kPerPiece]; });
-  });
-  std::size_t n_edges = 0;
-  for (std::size_t& f : first) n_edges += std::exchange(f, n_edges);
-  std::vector<double> ratios(n_edges);
-  parallel_for(n_nodes, kPerPiece, [&](std::size_t begin, std::size_t end) {
-    int hint = 0;
-    double* ratio = ratios.data() + first[begin / kPerPiece];
-    edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
-                        [&](NodeId a, NodeId b, std::span<const SideId>) {
-                          const Vec3 p = mesh.node_xyz[a], q = mesh.node_xyz[b];
-                          const auto inverse = [&](NodeId n) { return 1 / asked.length(n, q - p, hint); };
-                          const double middle = asked.length(0.5 * (p + q), q - p, hint);
-                          *ratio++ = distance(p, q) * (inverse(a) + 4 / middle + inverse(b)) / 6;
-                        });
-  });
-  return ratios;
-}
-
-}  // namespace
-
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested,
-                                    const RequestedLength& along) {
-  ConformityReport report;
-  report.groups.resize(mesh.labels.group_name.size());
-  report.faces.resize(mesh.labels.face_name.size());
-  std::vector<double> ratios = length_ratios(mesh, edges, requested, along);
-  ForcedEdges forced(mesh);
-  std::size_t n_seen = 0;
-  edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
-    const double ratio = ratios[n_seen++];
-    if (!forced.take(a, b, sides, ratio)) {
-      report.free.add(ratio);
-      if (ratio < kConformityMin || ratio > kConformityMax)
-        report.outside.push_back({a, b, sides[0] / 3, sides.size() > 1 ? sides[1] / 3 : kNone, ratio});
-    }
-    const auto face_dim = static_cast<std::uint8_t>(EntityDim::kFace);
-    if (mesh.node_entity_dim[a] == face_dim || mesh.node_entity_dim[b] == face_dim) report.inner.add(ratio);
-    at(report.groups, mesh.triangle_group[sides[0] / 3]).add(ratio);
-    at(report.faces, mesh.triangle_face[sides[0] / 3]).add(ratio);
-  });
-  for (const ConformityStats& face : report.faces) report.model.add(face);
-  report.forced = forced.places();
-  if (ratios.empty()) return report;
-  report.p1 = percentile(ratios, 0.01), report.p99 = percentile(ratios, 0.99);
+  finish(report.model);
+  for (auto* list : {&report.faces, &report.groups})
+    for (QualityStats& s : *list) finish(s);
+  set_percentiles(parts.group_lowest, report.groups);
+  set_percentiles(parts.face_lowest, report.faces);
+  if (!parts.lowest.values.empty()) report.model.p1 = std::ranges::max(parts.lowest.values);
+  report.jumps = parts.jumps;
+  report.group_jumps = std::move(parts.group_jumps);
+  report.face_jumps = std::move(parts.face_jumps);
+  report.group_jumps.resize(report.groups.size());
+  report.face_jumps.resize(report.faces.size());
+  report.large_jumps = std::move(parts.large_jumps);
+  report.rows = parts.rows;
+  if (parts.highest_jumps.values.empty()) return report;
+  report.jump_p999 =
+      percentile_of_highest(parts.highest_jumps.values, static_cast<std::size_t>(report.jumps.n_pairs), 0.999);
+  report.jump_max = report.jumps.max;
   return report;
 }
 

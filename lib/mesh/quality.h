@@ -1,15 +1,15 @@
-// How good is a mesh: shapes of triangles, growth between neighbours, lengths against the requested sizes
-// (docs/checks.md).
+// How good is a mesh: shapes of triangles, growth between neighbours (docs/checks.md).
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
+#include <tuple>
 #include <vector>
 
-#include "base/local_size.h"
 #include "mesh/adjacency.h"
+#include "mesh/kept_values.h"
+#include "mesh/own_triangles.h"
 #include "mesh/row_quality.h"
 #include "mesh/surface_mesh.h"
 
@@ -49,7 +49,13 @@ struct QualityStats {
   std::int64_t n_below_20_deg = 0, n_below_10_deg = 0, n_below_5_deg = 0;  ///< triangles by their smallest angle
   std::int64_t n_above_150_deg = 0;                ///< triangles by their largest angle in space
   std::array<std::int64_t, 18> angle_histogram{};  ///< angles (three per triangle) in [10 k, 10 k + 10) degrees
-  TriangleId worst = kNone;                        ///< the (first) triangle of least quality
+  /// The (first) triangle of least quality.
+  struct Worst {
+    TriangleId triangle = kNone;  ///< number in the whole mesh
+    FaceId face = kNone;
+    Vec3 place = {};  ///< its middle
+  };
+  Worst worst = {};
 };
 
 /// Growth between neighbours: square root of the ratio of their areas, at least 1.
@@ -59,6 +65,7 @@ struct JumpStats {
   double max = 1;
   std::array<std::int64_t, 20> histogram{};  ///< pairs by ratio in [1 + 0.1 k, 1.1 + 0.1 k), the last without end
   void add(double ratio);
+  void add(const JumpStats& other);
 };
 
 /// Neighbours that grow more than this are listed.
@@ -67,7 +74,8 @@ inline constexpr double kLargeGrowth = 1.6;
 struct QualityReport {
   struct LargeJump {
     TriangleId a, b;
-    double ratio;  ///< above kLargeGrowth
+    NodeId low, high;  ///< of their common edge
+    double ratio;      ///< above kLargeGrowth
   };
   QualityStats model;
   std::vector<QualityStats> groups;    ///< [n_groups]
@@ -85,59 +93,42 @@ struct QualityReport {
 QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners);
 QualityReport measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges);
 
-/// Lengths of mesh edges over the requested lengths.
-struct ConformityStats {
-  static constexpr double kBinWidth = 0.1;
-  std::int64_t n_edges = 0, n_within = 0;    ///< within [kConformityMin, kConformityMax]
-  double min = 0, max = 0, sum = 0;          ///< of the ratio
-  std::array<std::int64_t, 21> histogram{};  ///< edges by ratio in [0.1 k, 0.1 k + 0.1), the last without end
-  double share() const { return n_edges ? static_cast<double>(n_within) / static_cast<double>(n_edges) : 1.0; }
-  double mean() const { return n_edges ? sum / static_cast<double>(n_edges) : 1.0; }
-  void add(double ratio);
-  void add(const ConformityStats& other);
+/// Triangles of a whole mesh, and of its groups and faces: which values of a share percentiles may need.
+struct TriangleCounts {
+  std::int64_t model = 0;
+  std::vector<std::int64_t> groups, faces;
+
+  static TriangleCounts of(const SurfaceMesh& mesh);
+  static auto fields(auto& c) { return std::tie(c.model, c.groups, c.faces); }
 };
 
-inline constexpr double kConformityMin = 0.7, kConformityMax = 1.4;
-
-/// Mesh edges shorter than kConformityMin because the CAD leaves no choice.
-struct ForcedPlace {
-  enum class Kind : std::uint8_t {
-    kShortEdge,  ///< along a CAD edge of at most three segments: it is shorter than its sizes, or a loop that needs its
-                 ///< three sides
-    kStrip       ///< across a face, from boundary to boundary: a strip or corner thinner than its sizes
+/// What shares of a mesh add to a QualityReport.
+struct QualityParts {
+  struct Part {
+    FaceId face;
+    std::int32_t group;
+    QualityStats stats;  ///< `mean`: the sum
   };
-  Kind kind = Kind::kShortEdge;
-  std::int32_t entity = kNone;  ///< CAD edge (kNone: between two vertices) or, for a strip, CAD face
-  std::int64_t n_edges = 0;     ///< mesh edges there
-  double min_ratio = 0;         ///< the shortest of them over its requested length
-  Vec3 xyz;                     ///< the middle of that one, model unit
+  std::vector<Part> shapes;  ///< by piece, face and group
+  KeptValues lowest;         ///< of the quality: as many as the first percentile needs
+  std::vector<KeptValues> group_lowest, face_lowest;
+  JumpStats jumps;
+  std::vector<JumpStats> group_jumps, face_jumps;
+  KeptValues highest_jumps;                           ///< likewise
+  std::vector<QualityReport::LargeJump> large_jumps;  ///< of this share, which has its triangles
+  RowStats rows;                                      ///< of a whole mesh
+
+  /// Those of the next share, but for its large jumps.
+  void add(const QualityParts& next, const TriangleCounts& counts);
+  static auto fields(auto& p) {
+    return std::tie(p.shapes, p.lowest, p.group_lowest, p.face_lowest, p.jumps, p.group_jumps, p.face_jumps,
+                    p.highest_jumps);
+  }
 };
-
-struct ConformityReport {
-  struct OutsideEdge {
-    NodeId a, b;
-    TriangleId triangle, other;  ///< the first two at the edge; `other` kNone at a rim
-    double ratio;
-  };
-  ConformityStats model;
-  ConformityStats free;             ///< all edges but those of `forced`
-  std::vector<ForcedPlace> forced;  ///< by kind and entity; between two vertices: one each
-  ConformityStats inner;            ///< edges with a node inside a face: nothing of the CAD forces their length
-  std::vector<ConformityStats> groups, faces;  ///< an edge counts for the face of its first triangle
-  std::vector<OutsideEdge> outside;  ///< edges of `free` outside [kConformityMin, kConformityMax], by their nodes
-  double p1 = 1, p99 = 1;            ///< percentiles of the ratio
-};
-
-/// As SizeField::local; may be called on several threads.
-using RequestedSize = std::function<LocalSize(Vec3, int& hint)>;
-/// As SizeField::length_along; likewise.
-using RequestedLength = std::function<double(Vec3, Vec3 way, int& hint)>;
-
-/// Ratio of an edge: its length times the mean of 1/requested over it (Simpson's rule on its ends and middle).
-/// `requested_length(xyz) > 0` in model units. Forced is an edge below kConformityMin with both ends on the boundary of
-/// faces that lies on a CAD edge of at most three segments, between two CAD vertices, or across a face. `along`: asked
-/// for each edge instead, where planes matter. Local, linear.
-ConformityReport measure_conformity(const SurfaceMesh& mesh, const EdgeTable& edges, const RequestedSize& requested,
-                                    const RequestedLength& along = {});
+/// `counts`: of the whole mesh. Rows are measured where `own` is all of it.
+QualityParts measure_quality(const SurfaceMesh& mesh, const EdgeTable& edges, const TriangleCorners& corners,
+                             const OwnTriangles& own, const TriangleCounts& counts);
+/// Of all parts.
+QualityReport report_quality(QualityParts&& parts, const TriangleCounts& counts);
 
 }  // namespace st

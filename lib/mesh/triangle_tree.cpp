@@ -348,7 +348,8 @@ class TriangleTrees {
 /// each should end when it is_over(). What counts are the first searches that are enough for that, so the result does
 /// not depend on the number of threads: their pairs, sorted by (a, b).
 template <class Search>
-std::vector<TrianglePair> find_bounded(std::size_t n, std::int64_t most, bool& was_ended, const Search& search) {
+std::vector<TrianglePair> find_bounded(std::size_t n, std::int64_t most, bool& was_ended, std::int64_t& n_compared,
+                                       const Search& search) {
   std::vector<PairSearch> parts(n, PairSearch(most));
   std::vector<char> is_done(n, 0);
   std::atomic<std::int64_t> sum = 0;
@@ -359,7 +360,7 @@ std::vector<TrianglePair> find_bounded(std::size_t n, std::int64_t most, bool& w
     sum += parts[i].n_compared();
   });
   std::vector<TrianglePair> pairs;
-  std::int64_t n_compared = 0;
+  n_compared = 0;
   for (std::size_t i = 0; i < n && n_compared <= most; ++i) {
     if (!is_done[i]) search(i, parts[i]);  // one that a later one overtook
     n_compared += parts[i].n_compared();
@@ -374,9 +375,12 @@ std::vector<TrianglePair> find_bounded(std::size_t n, std::int64_t most, bool& w
 }  // namespace
 
 std::vector<TrianglePair> find_pairs(const TriangleGroups& groups, WithinGroup rule,
-                                     std::vector<std::pair<std::int32_t, std::int32_t>> searches, bool& was_ended) {
+                                     std::vector<std::pair<std::int32_t, std::int32_t>> searches, bool& was_ended,
+                                     std::int64_t* n_compared) {
   constexpr std::size_t kJobsPerPiece = 4;
   was_ended = false;
+  std::int64_t n_own = 0;
+  std::int64_t& n_all = n_compared ? *n_compared : n_own;
   if (rule == WithinGroup::kUnlessAlike && searches.size() == 1 && searches[0].first == searches[0].second &&
       are_alike(groups, searches[0].first))
     return {};
@@ -385,7 +389,7 @@ std::vector<TrianglePair> find_pairs(const TriangleGroups& groups, WithinGroup r
   TriangleTrees trees(groups, rule, is_wanted);
   const std::vector<TriangleTrees::Job> jobs = trees.split_jobs(std::move(searches));
   const std::size_t n_pieces = (jobs.size() + kJobsPerPiece - 1) / kJobsPerPiece;
-  return find_bounded(n_pieces, most_comparisons(groups.triangles.size()), was_ended,
+  return find_bounded(n_pieces, most_comparisons(groups.triangles.size()), was_ended, n_all,
                       [&](std::size_t piece, PairSearch& found) {
                         const std::size_t begin = piece * kJobsPerPiece;
                         for (std::size_t i = begin; i < std::min(begin + kJobsPerPiece, jobs.size()); ++i)

@@ -36,7 +36,9 @@ constexpr std::int64_t most_comparisons(std::size_t n_triangles) {
 /// The pairs of triangles_cross() within a group (twice the same number) or between two, for each of `searches`, sorted
 /// by (a, b). Triangles of no area are in none. A tree is only built as deep as it is descended. The search is ended
 /// after most_comparisons(): then `was_ended` is set, and these are not all pairs. The same at any number of threads.
+/// `n_compared` gets the number of comparisons, unless null.
 std::vector<TrianglePair> find_pairs(const TriangleGroups& groups, WithinGroup rule,
-                                     std::vector<std::pair<std::int32_t, std::int32_t>> searches, bool& was_ended);
+                                     std::vector<std::pair<std::int32_t, std::int32_t>> searches, bool& was_ended,
+                                     std::int64_t* n_compared = nullptr);
 
 }  // namespace st

@@ -15,27 +15,16 @@
 namespace st {
 namespace {
 
-/// Middle of the first triangle of each face.
-std::vector<Vec3> face_places(const SurfaceMesh& mesh, std::size_t n_faces) {
-  std::vector<Vec3> place(n_faces);
-  for (TriangleId t = static_cast<TriangleId>(mesh.n_triangles()) - 1; t >= 0; --t) {
-    if (t > 0 && mesh.triangle_face[t - 1] == mesh.triangle_face[t]) continue;
-    const auto& n = mesh.triangles[t].n;
-    if (static_cast<std::size_t>(mesh.triangle_face[t]) < n_faces)
-      place[mesh.triangle_face[t]] = (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3;
-  }
-  return place;
-}
-
 /// Faces of the CAD without a triangle; faces of no area need none.
-Check check_faces(const SurfaceMesh& mesh, const ModelTables& tables) {
+Check check_faces(const FacesOfMesh& mesh, const ModelTables& tables) {
   constexpr double kNoArea = 1e-12;  // of the model's area
   Check c{"faces", "CAD faces without a triangle", {}, true, ""};
   double total = 0;
   for (const double a : tables.face_area) total += a;
   std::vector<std::uint8_t> has_triangle(tables.n_faces(), 0);
-  for (const FaceId f : mesh.triangle_face) has_triangle[f] = 1;
-  for (const FaceId f : mesh.merged.strip_face) has_triangle[f] = 1;
+  for (std::size_t f = 0; f < std::min(has_triangle.size(), mesh.n_triangles.size()); ++f)
+    has_triangle[f] = mesh.n_triangles[f] > 0;
+  for (const FaceId f : mesh.labels.merged.strip_face) has_triangle[f] = 1;
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (!has_triangle[f] && tables.face_area[f] > kNoArea * total)
       c.defects.add({tables.face_box[f].center(), f, kNone});
@@ -52,29 +41,18 @@ double slack_area(const ModelTables& tables, FaceId f) {
 }
 
 /// Width of each face however it is turned: of the rectangle with the same area and moment of inertia about its long
-/// axis, as the mesh has it. So a cylinder is about as wide as its diameter. `origin` [n_faces]: near each face.
-/// Returns [n_faces] model unit.
-std::vector<double> face_extents(const SurfaceMesh& mesh, std::span<const Vec3> origin) {
-  struct Moments {
-    double area = 0;
-    Vec3 first, squares, products;  // products: y z, z x, x y
-  };
-  std::vector<Moments> faces(origin.size());
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    const FaceId f = mesh.triangle_face[t];
-    std::array<Vec3, 3> x;
-    for (int k = 0; k < 3; ++k) x[k] = mesh.node_xyz[mesh.triangles[t].n[k]] - origin[f];
-    const double area = 0.5 * norm(cross(x[1] - x[0], x[2] - x[0]));
-    const Vec3 sum = x[0] + x[1] + x[2];
-    faces[f].area += area;
-    faces[f].first = faces[f].first + area / 3 * sum;
-    for (const Vec3& p : {x[0], x[1], x[2], sum}) {
-      faces[f].squares += area / 12 * Vec3{p.x * p.x, p.y * p.y, p.z * p.z};
-      faces[f].products += area / 12 * Vec3{p.y * p.z, p.z * p.x, p.x * p.y};
-    }
+/// axis, as the mesh has it. So a cylinder is about as wide as its diameter. Returns [n_faces] model unit.
+std::vector<double> face_extents(std::span<const FaceMoments> parts, std::size_t n_faces) {
+  std::vector<FaceMoments> faces(n_faces);
+  for (const FaceMoments& part : parts) {
+    FaceMoments& face = faces[part.face];
+    face.area += part.area;
+    face.first += part.first;
+    face.squares += part.squares;
+    face.products += part.products;
   }
   std::vector<double> width;
-  for (const Moments& m : faces) {
+  for (const FaceMoments& m : faces) {
     const double area = std::max(m.area, 1e-300);
     const Eigen::Vector3d middle = to_eigen(m.first) / area;
     Eigen::Matrix3d second = to_eigen(m.squares).asDiagonal();
@@ -107,12 +85,12 @@ struct AreaChecks {
 /// two requested lengths only chords of the requested length explain anything: no more than kMostOff of its area, or
 /// what a hemisphere lacks of a face that is less than six lengths wide and a small part of the whole. Others beyond
 /// kMostOff are below the sizes: they look as the sizes make them, and a negligible part of the whole may be missing.
-AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, const ModelTables& tables,
+AreaChecks check_areas(const FacesOfMesh& faces, const MeshMeasure& measure, const ModelTables& tables,
                        const ChordError& chords, double tolerance) {
   constexpr double kWide = 2;  // requested lengths
   AreaChecks c;
-  const std::vector<Vec3> place = face_places(mesh, tables.n_faces());
-  const std::vector<double> extent = face_extents(mesh, place);
+  const SurfaceMesh& mesh = faces.labels;
+  const std::vector<double> extent = face_extents(faces.moments, tables.n_faces());
   const double whole = std::accumulate(tables.face_area.begin(), tables.face_area.end(), 0.0);
   double largest = 0;
   FaceId worst = kNone;
@@ -128,9 +106,9 @@ AreaChecks check_areas(const SurfaceMesh& mesh, const MeshMeasure& measure, cons
     allowed =
         is_wide ? std::min(allowed, std::max({kMostOff, tolerance, round}) * cad) : std::max(allowed, kNothing * whole);
     if (difference > allowed && measure.face_area[f] > 0)
-      c.areas.defects.add({place[f], f, kNone});
+      c.areas.defects.add({faces.place[f], f, kNone});
     else if (difference > kMostOff * cad && measure.face_area[f] > 0)
-      c.below.defects.add({place[f], f, kNone});
+      c.below.defects.add({faces.place[f], f, kNone});
     if (cad > 0 && difference / cad > largest) largest = difference / cad, worst = f;
   }
   if (worst != kNone)
@@ -218,31 +196,31 @@ Check check_off_surface(const ModelTables& tables, const ChordError& chords, con
   return c;
 }
 
-/// What closed strips may change of the volume: their width times the area of the triangles at their common nodes.
-double volume_at_strips(const SurfaceMesh& mesh, const ModelTables& tables) {
-  std::vector<double> edge_width(tables.n_edges(), 0), vertex_width(tables.n_vertices(), 0);
-  for (std::size_t i = 0; i < mesh.merged.strip_face.size(); ++i)
-    for (const EdgeId e : {mesh.merged.strip_kept[i], mesh.merged.strip_closed[i]}) {
-      edge_width[e] = tables.face_area[mesh.merged.strip_face[i]] / std::max(tables.edge_length[e], 1e-300);
-      for (int k = 0; k < 2; ++k) {
-        double& width = vertex_width[tables.edge_vertices[2 * e + k]];
-        width = std::max(width, edge_width[e]);
+/// How wide closed strips are at nodes.
+class StripWidths {
+ public:
+  StripWidths(const SurfaceMesh& mesh, const ModelTables& tables)
+      : mesh_(mesh), edge_width_(tables.n_edges(), 0), vertex_width_(tables.n_vertices(), 0) {
+    for (std::size_t i = 0; i < mesh.merged.strip_face.size(); ++i)
+      for (const EdgeId e : {mesh.merged.strip_kept[i], mesh.merged.strip_closed[i]}) {
+        edge_width_[e] = tables.face_area[mesh.merged.strip_face[i]] / std::max(tables.edge_length[e], 1e-300);
+        for (int k = 0; k < 2; ++k) {
+          double& width = vertex_width_[tables.edge_vertices[2 * e + k]];
+          width = std::max(width, edge_width_[e]);
+        }
       }
-    }
-  const auto width_at = [&](NodeId n) {
-    const std::int32_t entity = mesh.node_entity[n];
-    return mesh.node_entity_dim[n] == 0   ? vertex_width[entity]
-           : mesh.node_entity_dim[n] == 1 ? edge_width[entity]
-                                          : 0.0;
-  };
-  double volume = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const double width = std::max({width_at(t.n[0]), width_at(t.n[1]), width_at(t.n[2])});
-    const Vec3 a = mesh.node_xyz[t.n[0]], b = mesh.node_xyz[t.n[1]], c = mesh.node_xyz[t.n[2]];
-    if (width > 0) volume += width * 0.5 * norm(cross(b - a, c - a));
   }
-  return volume;
-}
+  double at(NodeId n) const {
+    const std::int32_t entity = mesh_.node_entity[n];
+    return mesh_.node_entity_dim[n] == 0   ? vertex_width_[entity]
+           : mesh_.node_entity_dim[n] == 1 ? edge_width_[entity]
+                                           : 0.0;
+  }
+
+ private:
+  const SurfaceMesh& mesh_;
+  std::vector<double> edge_width_, vertex_width_;
+};
 
 /// What nodes off their surfaces change of the volume, as far as tolerances allow them to be there: sewing and merging
 /// may each take them once.
@@ -293,7 +271,7 @@ Check check_cad_area(const Findings& f, bool has_all_faces, double tolerance) {
 
 /// The volume enclosed against the CAD's: beyond the tolerance there is what chords of the requested length cut off,
 /// what tolerances move, and what gaps that were sewn leave open.
-Check check_cad_volume(const SurfaceMesh& mesh, const ModelTables& tables, const std::vector<double>& given,
+Check check_cad_volume(const FacesOfMesh& mesh, const ModelTables& tables, const std::vector<double>& given,
                        const Findings& f) {
   constexpr double kTolerance = 0.005;  // relative
   Check c{"cad-volume", "closed meshes whose volume differs from the CAD's", {}, true, ""};
@@ -302,8 +280,8 @@ Check check_cad_volume(const SurfaceMesh& mesh, const ModelTables& tables, const
     return c;
   }
   const ChordError& chords = *f.chords;
-  double explained =
-      volume_at_strips(mesh, tables) + volume_of_tolerances(tables, chords, given) + volume_of_gaps(tables, given);
+  double explained = volume_of_tolerances(tables, chords, given) + volume_of_gaps(tables, given);
+  for (const FaceMoments& part : mesh.moments) explained += part.strip_volume;
   for (const double volume : chords.volume) explained += volume;
   explained /= std::fabs(*tables.volume);
   if (std::fabs(*f.volume_difference) > kTolerance + explained) c.defects.add({});
@@ -317,7 +295,44 @@ Check check_cad_volume(const SurfaceMesh& mesh, const ModelTables& tables, const
 
 double group_tolerance(const std::vector<double>& of_face, FaceId f) { return of_face.empty() ? 0 : of_face[f]; }
 
-void check_against_cad(const SurfaceMesh& mesh, const ModelTables& tables, double sewing, double area_tolerance,
+std::vector<Vec3> face_places(const SurfaceMesh& mesh, std::size_t n_faces) {
+  std::vector<Vec3> place(n_faces);
+  for (TriangleId t = static_cast<TriangleId>(mesh.n_triangles()) - 1; t >= 0; --t) {
+    if (t > 0 && mesh.triangle_face[t - 1] == mesh.triangle_face[t]) continue;
+    const auto& n = mesh.triangles[t].n;
+    if (static_cast<std::size_t>(mesh.triangle_face[t]) < n_faces)
+      place[mesh.triangle_face[t]] = (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3;
+  }
+  return place;
+}
+
+std::vector<FaceMoments> measure_faces(const SurfaceMesh& mesh, const OwnTriangles& own, std::span<const Vec3> place,
+                                       const ModelTables& tables) {
+  std::vector<FaceMoments> parts;
+  const bool has_strips = !mesh.merged.strip_face.empty();
+  const StripWidths width(mesh, tables);
+  for (TriangleId t = own.begin; t < own.end; ++t) {
+    const FaceId f = mesh.triangle_face[t];
+    const auto& n = mesh.triangles[t].n;
+    if (static_cast<std::size_t>(t - own.begin) % kTrianglesPerPiece == 0 || parts.back().face != f)
+      parts.emplace_back().face = f;
+    FaceMoments& m = parts.back();
+    std::array<Vec3, 3> x;
+    for (int k = 0; k < 3; ++k) x[k] = mesh.node_xyz[n[k]] - place[f];
+    const double area = 0.5 * norm(cross(x[1] - x[0], x[2] - x[0]));
+    const Vec3 sum = x[0] + x[1] + x[2];
+    m.area += area;
+    m.first = m.first + area / 3 * sum;
+    for (const Vec3& p : {x[0], x[1], x[2], sum}) {
+      m.squares += area / 12 * Vec3{p.x * p.x, p.y * p.y, p.z * p.z};
+      m.products += area / 12 * Vec3{p.y * p.z, p.z * p.x, p.x * p.y};
+    }
+    if (has_strips) m.strip_volume += std::max({width.at(n[0]), width.at(n[1]), width.at(n[2])}) * area;
+  }
+  return parts;
+}
+
+void check_against_cad(const FacesOfMesh& mesh, const ModelTables& tables, double sewing, double area_tolerance,
                        Findings& f) {
   f.measure.face_area.resize(tables.n_faces(), 0);
   f.cad_area = tables.face_area;

@@ -100,7 +100,7 @@ std::string rows_line(const RowStats& r) {
 
 std::string quality_lines(const SurfaceMesh& mesh, const QualityReport& q, bool is_stretched) {
   const std::string worst =
-      q.model.worst == kNone ? "" : fmt::format(" in {}", face_label(mesh, mesh.triangle_face[q.model.worst]));
+      q.model.worst.triangle == kNone ? "" : fmt::format(" in {}", face_label(mesh, q.model.worst.face));
   return fmt::format(
              "  {:<20} mean {:.4f}, 1st percentile {:.4f}, least {:.4f}{}; {} below 0.3; angles {:.2f} to {:.2f} deg; "
              "growth "
@@ -208,7 +208,7 @@ std::string fault_of_model(const Findings& f) {
 
 std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
   const std::string genus = f.genus() ? fmt::format(", genus {}", *f.genus()) : "";
-  return fmt::format("{}: {}; {}, {}, {}{}, {:.1f} s", path, verdict(mesh, f), counted(mesh.n_triangles(), "triangle"),
+  return fmt::format("{}: {}; {}, {}, {}{}, {:.1f} s", path, verdict(mesh, f), counted(f.n_triangles, "triangle"),
                      counted(f.topology.n_used_nodes, "node"), counted(f.topology.n_components, "part"), genus,
                      seconds);
 }
@@ -274,11 +274,7 @@ std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, c
   }
   const QualityStats& q = f.quality.model;
   std::string worst;
-  if (q.worst != kNone) {
-    const auto& n = mesh.triangles[q.worst].n;
-    const Vec3 middle = (mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3;
-    worst = " at " + place_text(mesh, {middle, mesh.triangle_face[q.worst], kNone});
-  }
+  if (q.worst.triangle != kNone) worst = " at " + place_text(mesh, {q.worst.place, q.worst.face, kNone});
   text += fmt::format("  {:<20} mean {:.4f}, least {:.4f}{}\n", f.is_stretched ? "stretched quality" : "quality",
                       q.mean, q.min, worst);
   text += fmt::format("  {:<20} {:.2f} to {:.2f} deg\n", "angles", q.min_angle_deg, q.max_angle_deg);

@@ -11,6 +11,7 @@
 #include "judge/shape_causes.h"
 #include "judge/surface_deviation.h"
 #include "mesh/checks.h"
+#include "mesh/conformity.h"
 #include "mesh/quality.h"
 #include "stages/check_stage.h"
 #include "stages/wing_measure.h"
@@ -31,6 +32,7 @@ struct Check {
 
 /// Everything that was measured.
 struct Findings {
+  std::int64_t n_triangles = 0;
   TopologyReport topology;
   ShapeReport shape;
   CrossingReport crossings;

@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "base/required_unit.h"
 #include "base/threads.h"
+#include "comm/communicator.h"
 #include "geometry/model/edge_faces.h"
 #include "io/file/text_file.h"
 #include "io/foreign/triangulation_reader.h"
@@ -26,7 +27,9 @@
 #include "mesh/pair_match.h"
 #include "stages/check_cad.h"
 #include "stages/check_json.h"
+#include "stages/check_parts.h"
 #include "stages/check_report.h"
+#include "stages/check_shares.h"
 #include "stages/check_thresholds.h"
 #include "stages/field_on_mesh.h"
 #include "stages/fitting_files.h"
@@ -39,34 +42,10 @@ namespace st {
 
 namespace {
 
-/// What the user let st-import sew by, model unit; 0: its default, far below what is checked.
-double sewing_tolerance(const GeometryArtifact& g) {
-  const auto options = nlohmann::json::parse(g.header.options_json, nullptr, false);
-  if (!options.is_object() || !options.contains("sew") || !options["sew"].is_string()) return 0;
-  return resolve_length(parse_length(options["sew"].get<std::string>(), "--sew"),
-                        {g.tables.reference_diagonal(), g.tables.unit_in_m}, "--sew");
-}
-
-/// The geometry with what the checks need of it.
-struct CadSide {
-  double sewing = 0;  // model unit
-  Model model;
-  std::vector<std::uint8_t> may_be_open, may_be_nonmanifold;
-
-  CadSide(GeometryArtifact&& g, const std::string& path) : sewing(sewing_tolerance(g)), model(stored_model(g, path)) {
-    const EdgeFaces faces_at(model.tables());
-    for (EdgeId e = 0; e < model.tables().n_edges(); ++e) {
-      may_be_open.push_back(faces_at[e].size() == 1);
-      may_be_nonmanifold.push_back(faces_at[e].size() > 2);
-    }
-  }
-  CadEdges edges() const { return {model.tables().edge_vertices, may_be_open, may_be_nonmanifold}; }
-};
-
-Check check_complete(const MeshArtifact& artifact) {
+Check check_complete(const MeshArtifact& artifact, std::int64_t n_triangles) {
   Check c{"complete", "faces flagged as not meshed", {}, true, ""};
   if (!artifact.is_complete) c.defects.add({}), c.note = "merged with --allow-incomplete";
-  if (artifact.mesh.triangles.empty()) c.defects.add({}), c.note = "no triangles";
+  if (n_triangles == 0) c.defects.add({}), c.note = "no triangles";
   return c;
 }
 
@@ -88,11 +67,18 @@ bool has_flow_domain(const SurfaceMesh& mesh) {
   return false;
 }
 
+/// Pairs of triangles that cross, and the components of the nodes.
+struct FoundPairs {
+  std::vector<TrianglePair> pairs;
+  std::vector<std::int32_t> component;  ///< [n_nodes], or empty where there is no pair
+  bool was_ended = false;
+};
+
 /// Crossings, those apart where the CAD touches itself; how many of the others are the CAD's own. The fluid in a flow
 /// domain is one body of the CAD, but the parts of its boundary are bodies that may touch.
-void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, Findings& f) {
+void report_crossings_and_contacts(const SurfaceMesh& mesh, const FoundPairs& found, const CadSide* cad, Findings& f) {
   if (!cad) {
-    f.crossings = check_crossings(mesh);
+    f.crossings = check_crossings(mesh, found.pairs, found.component, found.was_ended, {});
     return;
   }
   CadContacts contacts(cad->model, mesh);
@@ -105,7 +91,7 @@ void check_crossings_and_contacts(const SurfaceMesh& mesh, const CadSide* cad, F
   CadOfPairs pairs{touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); }};
   pairs.is_of_sheet = [&](const TrianglePair& pair) { return walls.are_of_body_and_sheet(pair); };
   if (!has_flow_domain(mesh)) pairs.is_one_body = [&](const TrianglePair& pair) { return walls.are_of_one_body(pair); };
-  f.crossings = check_crossings(mesh, pairs);
+  f.crossings = check_crossings(mesh, found.pairs, found.component, found.was_ended, pairs);
   f.is_of_facets = !cad->model.facets().empty();
 }
 
@@ -120,7 +106,7 @@ std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThr
           : "";
   const auto left_of = [&](std::int64_t n) { return std::max<std::int64_t>(0, allow.max_crossings - n); };
   return {
-      check_complete(artifact),
+      check_complete(artifact, f.n_triangles),
       {"closed", "open edges", f.topology.boundary_edges, true, open},
       {"manifold", "edges with more than two triangles (non-manifold)", f.topology.nonmanifold_edges, true,
        nonmanifold},
@@ -152,46 +138,6 @@ struct CheckedMesh {
   std::unique_ptr<SizeField> field;  ///< null: not given
   std::vector<WingRecord> wings;     ///< lifting surfaces that the sizes know
 };
-
-/// Jobs that do not depend on each other, the longest first; together they are a share of all checks.
-void run_measures(std::vector<std::function<void()>> jobs, double share, Progress& progress) {
-  for (auto& job : jobs)
-    job = [&progress, work = std::move(job), part = share / static_cast<double>(jobs.size())] {
-      work();
-      progress.advance(part);
-    };
-  run_jobs(jobs);
-}
-
-/// Everything that is measured. What needs no table of the edges comes first, without one: it takes the most memory.
-void measure(const CheckedMesh& checked, const TriangleCorners& corners, Progress& progress, Findings& f) {
-  const SurfaceMesh& mesh = checked.artifact.mesh;
-  const CadSide* cad = checked.cad.get();
-  const SizeField* field = checked.field.get();
-  std::vector<std::function<void()>> jobs;
-  jobs.emplace_back([&] { check_crossings_and_contacts(mesh, cad, f); });
-  if (cad)
-    jobs.emplace_back([&] {
-      DeviationSum deviation(cad->model, mesh);
-      f.chords = estimate_chord_error(cad->model, mesh, &deviation);
-      f.deviation = deviation.deviation();
-    });
-  if (!checked.wings.empty()) jobs.emplace_back([&] { f.wings = measure_wings(mesh, checked.wings); });
-  jobs.emplace_back([&] { f.measure = measure_mesh(mesh); });
-  run_measures(std::move(jobs), 0.5, progress);
-  const EdgeTable edges = edges_of(mesh);
-  jobs.clear();
-  jobs.emplace_back([&] { f.quality = measure_quality(mesh, edges, corners); });
-  if (field)
-    jobs.emplace_back([&] {
-      f.conformity = measure_conformity(
-          mesh, edges, [&](Vec3 p, int& hint) { return field->local(p, hint); }, lengths_along(*field));
-    });
-  jobs.emplace_back([&] { f.shape = check_shape(mesh, edges); });
-  jobs.emplace_back([&] { f.topology = check_topology(mesh, edges, cad ? cad->edges() : CadEdges{}); });
-  run_measures(std::move(jobs), 0.3, progress);
-  f.is_stretched = corners.is_stretched();
-}
 
 /// Nodes and triangles of periodic faces that are no images of each other.
 Check check_pairs(const SurfaceMesh& mesh) {
@@ -316,24 +262,108 @@ void check_wings(Findings& f) {
   f.checks.push_back(std::move(c));
 }
 
-/// What the measures mean.
-void judge(const CheckStageOptions& o, const MeshArtifact& artifact, const TriangleCorners& corners, const CadSide* cad,
-           Findings& f) {
-  f.checks = list_mesh_checks(artifact, o.thresholds, has_flow_domain(artifact.mesh), f);
-  if (!artifact.mesh.merged.pairs.empty()) f.checks.push_back(check_pairs(artifact.mesh));
-  if (cad) {
-    run_jobs({[&] {
-                f.causes = find_shape_causes(cad->model, artifact.mesh, corners, f.quality,
-                                             f.conformity ? &*f.conformity : nullptr, o.list_below_deg);
-              },
-              [&] { check_against_cad(artifact.mesh, cad->model.tables(), cad->sewing, o.area_tolerance, f); }});
+/// What the measures mean, and what needs the whole mesh. `parts`: of all of it, or of all shares; `mesh`: it, or its
+/// nodes on edges and vertices, its labels and merged features; `find_causes`: null where they are found.
+void judge(const CheckStageOptions& o, const CheckBasis& basis, const MeshArtifact& artifact, const CheckParts& parts,
+           const std::function<void()>& find_causes, Findings& f) {
+  const SurfaceMesh& mesh = artifact.mesh;
+  f.checks = list_mesh_checks(artifact, o.thresholds, has_flow_domain(mesh), f);
+  if (!mesh.merged.pairs.empty()) f.checks.push_back(check_pairs(mesh));
+  if (const CadSide* cad = basis.cad) {
+    std::vector<std::function<void()>> jobs{[&] {
+      f.chords = report_chords(cad->model, mesh, parts.chords);
+      check_against_cad({mesh, basis.counts.faces, basis.face_place, parts.faces}, cad->model.tables(), cad->sewing,
+                        o.area_tolerance, f);
+    }};
+    if (find_causes) jobs.push_back(find_causes);
+    run_jobs(jobs);
   }
-  check_thresholds(artifact.mesh, corners, o.thresholds, cad ? &cad->model.tables() : nullptr, f);
+  check_thresholds(parts.bad, o.thresholds, basis.cad ? &basis.cad->model.tables() : nullptr, f);
   check_wings(f);
   if (o.layers.empty()) return;
-  const SurfaceMesh& mesh = artifact.mesh;
   for (Check& c : layers_checks(mesh, has_flow_domain(mesh), artifact.header.unit_in_m, parse_layers(o.layers)))
     f.checks.push_back(std::move(c));
+}
+
+/// A mesh in memory, which is returned.
+MeshArtifact check_whole(const CheckStageOptions& o, Progress& progress, Findings& f) {
+  CheckedMesh checked = read_checked_mesh(o);
+  const MeshArtifact& artifact = checked.artifact;
+  const SurfaceMesh& mesh = artifact.mesh;
+  f.unit = artifact.header.unit;
+  const CadSide* cad = checked.cad.get();
+  const std::vector<Vec3> squeeze = squeeze_of_nodes(mesh, checked.field.get());
+  const TriangleCorners corners(mesh, squeeze);
+  f.is_stretched = corners.is_stretched();
+  progress.step("measuring", 0.1);
+  const CheckBasis basis = CheckBasis::of(mesh, cad, checked.field.get(), o);
+  std::vector<std::function<void()>> wings;
+  if (!checked.wings.empty()) wings.emplace_back([&] { f.wings = measure_wings(mesh, checked.wings); });
+  CheckParts parts = measure_share(basis, mesh, corners, OwnTriangles::all(mesh), wings, progress, 0.8);
+  FoundPairs found{std::move(parts.pairs), {}, parts.was_ended};
+  std::int32_t n_components = 0;
+  if (!found.pairs.empty()) found.component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
+  report_crossings_and_contacts(mesh, found, cad, f);
+  report_parts(basis, std::move(parts), mesh.labels, f);
+  if (checked.turned.count > 0) f.topology.misoriented_edges = checked.turned;
+  progress.step("causes", 0.9);
+  add_deviations(checked.wings, f);
+  judge(
+      o, basis, artifact, parts,
+      [&] {
+        f.causes = find_shape_causes(cad->model, mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
+                                     o.list_below_deg);
+      },
+      f);
+  return std::move(checked.artifact);
+}
+
+/// Collective. False: the mesh is to be checked as a whole, by the first rank.
+bool check_in_shares(const CheckStageOptions& o, const Executor& ranks, Progress& progress, MeshArtifact& head,
+                     Findings& f) {
+  if (!is_worth_sharing(o, ranks)) return false;
+  const SharedMesh shared(o);
+  head = shared.file.head();
+  if (!head.mesh.merged.pairs.empty() || (shared.field && shared.field->is_stretched())) return false;
+  CheckBasis given;
+  given.cad = shared.cad.get(), given.field = shared.field.get(), given.options = &o;
+  std::optional<SharedFindings> found = measure_shares(given, shared.file, ranks, progress);
+  if (!found) return false;
+  if (!ranks.is_root()) return true;
+  f.unit = head.header.unit;
+  f.wings = measure_wings(shared);
+  report_crossings_and_contacts(found->crossing.mesh, {found->pairs, found->component, found->was_ended}, given.cad, f);
+  report_parts(found->basis, std::move(found->parts), head.mesh.labels, f);
+  progress.step("causes", 0.9);
+  add_deviations(shared.wings, f);
+  head.mesh = std::move(found->edges.mesh);
+  judge(o, found->basis, head, found->parts, {}, f);
+  return true;
+}
+
+StageSummary check(const CheckStageOptions& options, const Executor& ranks, std::string* report) {
+  options.validate();
+  const Timer timer;
+  Progress progress("checking", 1);
+  progress.step("reading", 0);
+  require_fitting({{options.mesh, "mesh"}, {options.geometry, "geometry"}, {options.sizing, "sizing"}});
+  if (const std::string& bound = options.thresholds.max_deviation; !bound.empty())
+    require_unit(parse_length(bound, "--max-deviation"), read_header(options.geometry).unit_in_m, "--max-deviation");
+  Findings f;
+  MeshArtifact artifact;
+  const bool is_shared = check_in_shares(options, ranks, progress, artifact, f);
+  if (!ranks.is_root()) return {};
+  if (!is_shared) artifact = check_whole(options, progress, f);
+  const double seconds = timer.seconds();
+  std::string full;
+  if (report || !options.reports.empty())
+    full = check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kFull) + "\n";
+  for (const std::string& path : options.reports) write_text_file(path, full);
+  if (report) *report = std::move(full);
+  return {options.text == CheckText::kWhole ? check_report_text(options.mesh, artifact.mesh, f, seconds)
+                                            : check_brief_text(options.mesh, artifact.mesh, f, seconds, options.text),
+          check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kSummary),
+          f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};
 }
 
 }  // namespace
@@ -351,35 +381,11 @@ void CheckStageOptions::validate() const {
 }
 
 StageSummary run_check(const CheckStageOptions& options, std::string* report) {
-  options.validate();
-  const Timer timer;
-  Progress progress("checking", 1);
-  progress.step("reading", 0);
-  require_fitting({{options.mesh, "mesh"}, {options.geometry, "geometry"}, {options.sizing, "sizing"}});
-  if (const std::string& bound = options.thresholds.max_deviation; !bound.empty())
-    require_unit(parse_length(bound, "--max-deviation"), read_header(options.geometry).unit_in_m, "--max-deviation");
-  const CheckedMesh checked = read_checked_mesh(options);
-  const MeshArtifact& artifact = checked.artifact;
-  const std::vector<Vec3> squeeze = squeeze_of_nodes(artifact.mesh, checked.field.get());
-  const TriangleCorners corners(artifact.mesh, squeeze);
-  Findings f;
-  f.unit = artifact.header.unit;
-  progress.step("measuring", 0.1);
-  measure(checked, corners, progress, f);
-  if (checked.turned.count > 0) f.topology.misoriented_edges = checked.turned;
-  progress.step("causes", 0.9);
-  add_deviations(checked.wings, f);
-  judge(options, artifact, corners, checked.cad.get(), f);
-  const double seconds = timer.seconds();
-  std::string full;
-  if (report || !options.reports.empty())
-    full = check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kFull) + "\n";
-  for (const std::string& path : options.reports) write_text_file(path, full);
-  if (report) *report = std::move(full);
-  return {options.text == CheckText::kWhole ? check_report_text(options.mesh, artifact.mesh, f, seconds)
-                                            : check_brief_text(options.mesh, artifact.mesh, f, seconds, options.text),
-          check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kSummary),
-          f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};
+  return check(options, SerialExecutor(), report);
+}
+
+StageSummary run_check(const CheckStageOptions& options, const Communicator& ranks, std::string* report) {
+  return check(options, ranks, report);
 }
 
 }  // namespace st

@@ -10,6 +10,8 @@
 
 namespace st {
 
+class Communicator;
+
 /// What unattended runs ask of a mesh; nothing set: not asked.
 struct CheckThresholds {
   int max_folds = 0;
@@ -81,5 +83,7 @@ struct CheckStageOptions {
 /// Local. Summary code kIncomplete when the mesh does not pass. `report`, where given, gets what options.reports do.
 /// Throws Error.
 StageSummary run_check(const CheckStageOptions& options, std::string* report = nullptr);
+/// Collective: over ranks; the same result, on the first of them.
+StageSummary run_check(const CheckStageOptions& options, const Communicator& ranks, std::string* report = nullptr);
 
 }  // namespace st

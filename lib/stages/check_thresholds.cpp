@@ -17,34 +17,14 @@ Check check_value(const std::string& name, const std::string& what, bool is_good
   return c;
 }
 
-/// Triangles for which `is_bad(corner, corner, corner)`.
-template <class IsBad>
-Check check_triangles(const SurfaceMesh& mesh, const TriangleCorners& corners, const std::string& name,
-                      const std::string& what, const IsBad& is_bad) {
-  Check c{name, what, {}, true, ""};
-  for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
-    const auto& n = mesh.triangles[t].n;
-    const auto [p, q, r] = corners(t);
-    if (is_bad(p, q, r))
-      c.defects.add(
-          {(mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3, mesh.triangle_face[t], kNone});
-  }
-  return c;
-}
-
-void check_quality(const SurfaceMesh& mesh, const TriangleCorners& corners, const CheckThresholds& asked, Findings& f) {
+void check_quality(const BadTriangles& bad, const CheckThresholds& asked, Findings& f) {
   const QualityReport& q = f.quality;
   if (asked.min_quality)
     f.checks.push_back(
-        check_triangles(mesh, corners, "min-quality", fmt::format("triangles of quality below {}", *asked.min_quality),
-                        [&](Vec3 a, Vec3 b, Vec3 c) { return triangle_quality(a, b, c) < *asked.min_quality; }));
+        {"min-quality", fmt::format("triangles of quality below {}", *asked.min_quality), bad.quality, true, ""});
   if (asked.min_angle_deg)
-    f.checks.push_back(check_triangles(mesh, corners, "min-angle",
-                                       fmt::format("triangles with an angle below {} deg", *asked.min_angle_deg),
-                                       [&](Vec3 a, Vec3 b, Vec3 c) {
-                                         const auto angles = triangle_angles_deg(a, b, c);
-                                         return *std::min_element(angles.begin(), angles.end()) < *asked.min_angle_deg;
-                                       }));
+    f.checks.push_back(
+        {"min-angle", fmt::format("triangles with an angle below {} deg", *asked.min_angle_deg), bad.angle, true, ""});
   if (asked.min_mean_quality)
     f.checks.push_back(check_value("min-mean-quality", fmt::format("mean quality below {}", *asked.min_mean_quality),
                                    q.model.mean >= *asked.min_mean_quality, fmt::format("{:.4f}", q.model.mean)));
@@ -114,9 +94,24 @@ void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Fi
 
 }  // namespace
 
-void check_thresholds(const SurfaceMesh& mesh, const TriangleCorners& corners, const CheckThresholds& asked,
-                      const ModelTables* tables, Findings& f) {
-  check_quality(mesh, corners, asked, f);
+BadTriangles find_bad_triangles(const SurfaceMesh& mesh, const TriangleCorners& corners, const CheckThresholds& asked,
+                                const OwnTriangles& own) {
+  BadTriangles bad;
+  if (!asked.min_quality && !asked.min_angle_deg) return bad;
+  for (TriangleId t = own.begin; t < own.end; ++t) {
+    const auto& n = mesh.triangles[t].n;
+    const auto [a, b, c] = corners(t);
+    const DefectPlace place{(mesh.node_xyz[n[0]] + mesh.node_xyz[n[1]] + mesh.node_xyz[n[2]]) / 3,
+                            mesh.triangle_face[t], kNone, own.number(t)};
+    if (asked.min_quality && triangle_quality(a, b, c) < *asked.min_quality) bad.quality.add(place);
+    if (asked.min_angle_deg && std::ranges::min(triangle_angles_deg(a, b, c)) < *asked.min_angle_deg)
+      bad.angle.add(place);
+  }
+  return bad;
+}
+
+void check_thresholds(const BadTriangles& bad, const CheckThresholds& asked, const ModelTables* tables, Findings& f) {
+  check_quality(bad, asked, f);
   check_causes(asked, f);
   check_sizes(asked, f);
   if (tables) check_deviation(asked, *tables, f);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mesh/quality.h"
+#include "mesh/conformity.h"
 #include "sizing/size_field.h"
 
 namespace st {

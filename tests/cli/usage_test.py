@@ -62,7 +62,7 @@ REFUSED = {
                   "--journal-after": ["-1", "x"]},
     "st-merge": {"--threads": ["0", "x"]},
     "st-check": {
-        "--threads": ["0", "x"],
+        "--threads": ["0", "x"], "--np": ["0"],
         "--area-tolerance": ["0", "1.1"],
         "--max-folds": ["-1", "1.5"],
         "--max-crossings": ["-1", "x"],

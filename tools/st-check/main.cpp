@@ -16,13 +16,12 @@ int main(int argc, char** argv) {
   tool.outputs("--report", o.reports,
                "JSON file to write, with results per model, group and face, and histograms; repeatable");
   st::declare(tool, o);
-  tool.threads();
   tool.main_options({"--geometry", "--sizing", "--report", "--layers", "--min-angle", "--min-quality",
-                     "--min-size-share", "--max-deviation", "--max-free-sharp", "--verbose"});
+                     "--min-size-share", "--max-deviation", "--max-free-sharp", "--np"});
   tool.examples(
       {"st-check mesh.hdf", "st-check mesh.hdf --geometry geometry.hdf --sizing sizing.hdf --report report.json"});
-  return tool.run(argc, argv, [&] {
+  return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) {
     o.text = tool.is_set("--verbose") ? st::CheckText::kWhole : st::CheckText::kBrief;
-    return st::run_check(o);
+    return st::run_check(o, comm);
   });
 }

@@ -8,7 +8,7 @@ namespace st::test {
 inline SurfaceDeviation measure_deviation(const Model& model, const SurfaceMesh& mesh) {
   DeviationSum sum(model, mesh);
   estimate_chord_error(model, mesh, &sum);
-  return sum.deviation();
+  return report_deviation(sum.parts(), model.tables().n_faces());
 }
 
 }  // namespace st::test

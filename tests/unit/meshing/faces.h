@@ -14,6 +14,7 @@
 
 #include "base/predicates.h"
 #include "geometry/shape/analytic.h"
+#include "mesh/conformity.h"
 #include "mesh/quality.h"
 #include "meshing/face/face_boundary.h"
 #include "meshing/face/face_mesher.h"

@@ -13,6 +13,7 @@ using nlohmann::json;
 
 struct CheckedCube {
   CheckedCube() : mesh(shapes::cube(2)) {
+    f.n_triangles = mesh.n_triangles();
     f.topology = check_topology(mesh, edges_of(mesh));
     f.measure = measure_mesh(mesh);
     f.quality = measure_quality(mesh, edges_of(mesh));
