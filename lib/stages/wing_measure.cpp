@@ -261,12 +261,10 @@ class WingMesh {
   double Vec3::*axis_ = &Vec3::x;  // along which the wing is longest
 };
 
-/// Rows run along the span, or along their edge or nose, which leaves it where a strut or fin joins. By another
-/// direction than theirs they are higher.
+/// Rows run along the span, or along their edge or nose. By another direction than theirs they are higher.
 LengthsAt lengths_of(const WingMesh& mesh, const Spanwise& spanwise, std::size_t i, Vec3 WingRecord::Station::*place) {
-  const Vec3 x = spanwise.station[i]->*place, span = spanwise.direction(i, place);
-  const Vec3 edge = spanwise.direction_of_edge(i, place);
-  const LengthsAt by_span = mesh.lengths_at(x, span);
+  const Vec3 x = spanwise.station[i]->*place, edge = spanwise.direction_of_edge(i, place);
+  const LengthsAt by_span = mesh.lengths_at(x, spanwise.direction(i, place));
   if (edge == Vec3{} || !mesh.is_stretched_at(x)) return by_span;
   const LengthsAt by_edge = mesh.lengths_at(x, edge);
   return by_edge.normal < by_span.normal ? by_edge : by_span;
