@@ -20,7 +20,11 @@ concept HasFields = requires(T& x) {
   T::fields(x);
 };
 
-/// Appends values to a byte buffer: plain old data, structs with fields, and vectors of both.
+/// Values of a vector that go one by one: structs with fields, texts and vectors.
+template <class T>
+inline constexpr bool kOneByOne = HasFields<T> || !std::is_trivially_copyable_v<T>;
+
+/// Appends values to a byte buffer: plain old data, texts, structs with fields, and vectors of all these.
 class Packer {
  public:
   /// Room for so many bytes: nothing is moved while they come.
@@ -37,10 +41,9 @@ class Packer {
   template <class T>
   void add(const std::vector<T>& values) {
     add(static_cast<std::uint64_t>(values.size()));
-    if constexpr (HasFields<T>) {
+    if constexpr (kOneByOne<T>) {
       for (const T& value : values) add(value);
     } else {
-      static_assert(std::is_trivially_copyable_v<T>);
       append(values.data(), values.size() * sizeof(T));
     }
   }
@@ -73,12 +76,11 @@ class Unpacker {
   void get(std::vector<T>& values) {
     std::uint64_t n = 0;
     get(n);
-    if (n > (bytes_.size() - position_) / (HasFields<T> ? 1 : sizeof(T))) throw std::runtime_error("message too short");
+    if (n > (bytes_.size() - position_) / (kOneByOne<T> ? 1 : sizeof(T))) throw std::runtime_error("message too short");
     values.resize(n);
-    if constexpr (HasFields<T>) {
+    if constexpr (kOneByOne<T>) {
       for (T& value : values) get(value);
     } else {
-      static_assert(std::is_trivially_copyable_v<T>);
       read(values.data(), n * sizeof(T));
     }
   }
@@ -112,7 +114,7 @@ struct PackedSize {
   template <class T>
   static std::size_t of(const std::vector<T>& values) {
     std::size_t n = sizeof(std::uint64_t);
-    if constexpr (HasFields<T>) {
+    if constexpr (kOneByOne<T>) {
       for (const T& value : values) n += of(value);
     } else {
       n += values.size() * sizeof(T);

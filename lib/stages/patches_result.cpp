@@ -89,8 +89,8 @@ std::vector<PatchCounts> counts_of(const MeshResult& r) {
   for (const FacePatch& p : r.patches)
     if (!p.triangles.empty()) counts.push_back(st::counts_of(p));
   for (std::size_t f = 0; f < r.places.size(); ++f) {
-    if (!r.places[f].is_there()) continue;
-    const PatchPlace& last = r.places[f].sections.back();
+    if (r.places[f].empty()) continue;
+    const PatchPlace& last = r.places[f].back();
     counts.push_back({static_cast<FaceId>(f), last.n_boundary, last.inner_begin + last.n_inner,
                       last.triangle_begin + last.n_triangles, last.own_uv_begin + last.n_own_uv});
   }

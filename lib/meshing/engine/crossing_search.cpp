@@ -55,7 +55,7 @@ std::vector<PatchPlace> CrossingSearch::sections_of(const std::vector<FacePlace>
   std::vector<PatchPlace> sections;
   if (executor_.is_root())
     for (const FacePlace& face : places)
-      for (const PatchPlace& place : face.sections)
+      for (const PatchPlace& place : face)
         if (place.is_there()) sections.push_back(place);
   share(executor_, sections);
   return sections;

@@ -106,7 +106,7 @@ void FaceRounds::mesh_dirty_faces() {
                            time_limit(options_.tile_triangles)),
               made_from(), expected_.empty() ? tables().face_area : expected_, options_, executor_)
       .run(paired_.meshed_of(dirty_faces_));
-  for (const FaceId f : paired_.make_images(dirty_faces_)) hopeless_.add_meshed(f, faces_.place(f).n_triangles());
+  for (const FaceId f : paired_.make_images(dirty_faces_)) hopeless_.add_meshed(f, n_triangles_of(faces_.place(f)));
 }
 
 /// Folds of faces that were given up stay.
@@ -180,7 +180,7 @@ Bytes FaceRounds::restore_whole(Bytes&& whole) {
 void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
   FaceReport report;
   unpack(bytes, report);
-  FacePlace place(report.place);
+  FacePlace place = place_of(report.place);
   take_face(f, std::move(report), std::move(place));
 }
 
@@ -245,7 +245,7 @@ std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<Fac
   for (auto& [f, report] : parted) {
     if (unsound.contains(f)) continue;
     places[f].push_back(report.place);
-    take_face(f, std::move(report), FacePlace(std::move(places[f])));
+    take_face(f, std::move(report), place_of(std::move(places[f])));
   }
   return {unsound.begin(), unsound.end()};
 }
@@ -294,9 +294,10 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
 
 /// Local, on rank 0.
 void FaceRounds::take_face(FaceId f, FaceReport&& report, FacePlace&& place) {
-  require_countable(static_cast<std::uint64_t>(place.n_triangles()), "triangles of a face", kMaxTriangles);
-  n_meshed_ += static_cast<std::uint64_t>(place.n_triangles());
-  hopeless_.add_meshed(f, place.n_triangles());
+  const std::int64_t n_triangles = n_triangles_of(place);
+  require_countable(static_cast<std::uint64_t>(n_triangles), "triangles of a face", kMaxTriangles);
+  n_meshed_ += static_cast<std::uint64_t>(n_triangles);
+  hopeless_.add_meshed(f, n_triangles);
   FaceOutcome o{.cause = report.cause,
                 .error = std::move(report.error),
                 .cause_xyz = report.wanted.empty() ? tables().face_box[f].center() : report.wanted[0].x,

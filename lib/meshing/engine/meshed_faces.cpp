@@ -40,7 +40,7 @@ void MeshedFaces::set(FaceId f, FacePlace place, FaceOutcome outcome) {
 }
 
 void MeshedFaces::put(FaceId f, FacePatch&& patch) {
-  places_[f] = FacePlace(store_.put({std::move(patch)}, 0, --own_version_, edges_, tables_.vertex_xyz));
+  places_[f] = place_of(store_.put({std::move(patch)}, 0, --own_version_, edges_, tables_.vertex_xyz));
   crossings_.renew(f);
 }
 
@@ -95,7 +95,7 @@ MeshedFaces::BadTriangles MeshedFaces::bad_triangles(const Patches& patches) con
 MeshedFaces::Patches MeshedFaces::bring(const std::vector<FaceId>& faces) const {
   std::vector<FacePlace> wanted;
   for (const FaceId f : faces)
-    if (places_[f].is_there()) wanted.push_back(places_[f]);
+    if (!places_[f].empty()) wanted.push_back(places_[f]);
   Patches patches;
   for (FacePatch& p : store_.bring(std::move(wanted))) {
     const FaceId f = p.face;
@@ -139,7 +139,7 @@ void MeshedFaces::go_back(const std::vector<FacePlace>& places, const std::vecto
 void MeshedFaces::keep_only(std::vector<FacePlace> others) {
   others.insert(others.end(), places_.begin(), places_.end());
   std::vector<PatchPlace> live;
-  for (const FacePlace& face : others) live.insert(live.end(), face.sections.begin(), face.sections.end());
+  for (const FacePlace& face : others) live.insert(live.end(), face.begin(), face.end());
   share(executor_, live);
   store_.keep_only(live);
 }
@@ -161,8 +161,8 @@ void MeshedFaces::report(MeshResult& result) const {
 /// Local: a patch that is all here, which is not kept any more.
 FacePatch MeshedFaces::take_whole(FaceId f) {
   std::vector<SectionRows> rows;
-  for (std::size_t s = 0; s < places_[f].sections.size(); ++s)
-    if (places_[f].sections[s].is_there()) rows.push_back(store_.take(places_[f], s));
+  for (std::size_t s = 0; s < places_[f].size(); ++s)
+    if (places_[f][s].is_there()) rows.push_back(store_.take(places_[f], s));
   return join_rows(std::move(rows));
 }
 
@@ -170,8 +170,7 @@ FacePatch MeshedFaces::take_whole(FaceId f) {
 void MeshedFaces::hand_to_root(MeshResult& result) {
   std::vector<FaceId> elsewhere;
   for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    if (std::ranges::any_of(places_[f].sections, [](const PatchPlace& p) { return p.rank > 0; }))
-      elsewhere.push_back(f);
+    if (std::ranges::any_of(places_[f], [](const PatchPlace& p) { return p.rank > 0; })) elsewhere.push_back(f);
   Patches remote = bring(elsewhere);
   result.patches.resize(tables_.n_faces());
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
@@ -193,8 +192,8 @@ void MeshedFaces::hand_over(PatchesGo patches, MeshResult& result) {
   };
   std::vector<OwnSection> own;
   for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    for (std::size_t s = 0; s < places_[f].sections.size(); ++s)
-      if (store_.is_own(places_[f].sections[s])) own.push_back({f, s});
+    for (std::size_t s = 0; s < places_[f].size(); ++s)
+      if (store_.is_own(places_[f][s])) own.push_back({f, s});
   result.rows.resize(own.size());
   parallel_for(own.size(), 1,
                [&](std::size_t i, std::size_t) { result.rows[i] = store_.take(places_[own[i].face], own[i].number); });

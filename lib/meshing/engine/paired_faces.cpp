@@ -88,7 +88,7 @@ void PairedFaces::spread(std::vector<char>& is_chosen) const {
 /// Of both faces of a pair: all sections of a patch have that of their round.
 PairedFaces::Versions PairedFaces::versions(std::size_t pair) const {
   const auto version = [&](FaceId f) {
-    const std::vector<PatchPlace>& sections = faces_.place(f).sections;
+    const std::vector<PatchPlace>& sections = faces_.place(f);
     return sections.empty() ? kNever : sections.back().version;
   };
   return {version(pairs_.pairs()[pair].a), version(pairs_.pairs()[pair].b)};

@@ -9,17 +9,18 @@
 
 namespace st {
 
-FacePlace::FacePlace(std::vector<PatchPlace> all) : sections(std::move(all)) {
+FacePlace place_of(std::vector<PatchPlace> sections) {
   for (std::size_t i = 1; i < sections.size(); ++i) {
     const PatchPlace& before = sections[i - 1];
     sections[i].inner_begin = before.inner_begin + before.n_inner;
     sections[i].triangle_begin = before.triangle_begin + before.n_triangles;
     sections[i].own_uv_begin = before.own_uv_begin + before.n_own_uv;
   }
+  return sections;
 }
 
-std::int64_t FacePlace::n_triangles() const {
-  return sections.empty() ? 0 : sections.back().triangle_begin + sections.back().n_triangles;
+std::int64_t n_triangles_of(const FacePlace& place) {
+  return place.empty() ? 0 : place.back().triangle_begin + place.back().n_triangles;
 }
 
 PatchPlace PatchStore::put(PatchSection&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
@@ -50,10 +51,10 @@ std::shared_ptr<const PatchSection> PatchStore::get(const PatchPlace& place) con
 
 SectionRows PatchStore::take(const FacePlace& place, std::size_t number) {
   std::unique_lock lock(mutex_);
-  auto node = patches_.extract(key(place.sections[number]));
+  auto node = patches_.extract(key(place[number]));
   lock.unlock();
   ST_ASSERT(!node.empty());
-  return rows_of(std::move(*node.mapped()), place.sections, number);
+  return rows_of(std::move(*node.mapped()), place, number);
 }
 
 void PatchStore::keep_only(const std::vector<PatchPlace>& live) {
@@ -71,23 +72,23 @@ std::vector<FacePatch> PatchStore::bring(std::vector<FacePlace> wanted) const {
   std::vector<Section> sections;
   NamedTasks tasks;
   for (std::size_t i = 0; i < wanted.size(); ++i)
-    for (std::size_t s = 0; s < wanted[i].sections.size(); ++s) {
-      if (!wanted[i].sections[s].is_there()) continue;
+    for (std::size_t s = 0; s < wanted[i].size(); ++s) {
+      if (!wanted[i][s].is_there()) continue;
       sections.push_back({i, s});
-      tasks.home.push_back(wanted[i].sections[s].rank);
+      tasks.home.push_back(wanted[i][s].rank);
     }
   if (sections.empty()) return {};
   tasks.order.resize(sections.size());
   std::iota(tasks.order.begin(), tasks.order.end(), 0);
-  tasks.label = [&](std::int32_t task) { return TaskLabel{"bring", wanted[sections[task].face].sections.back().face}; };
+  tasks.label = [&](std::int32_t task) { return TaskLabel{"bring", wanted[sections[task].face].back().face}; };
   std::vector<std::vector<SectionRows>> rows(wanted.size());  // of sections by number
-  for (std::size_t i = 0; i < wanted.size(); ++i) rows[i].resize(wanted[i].sections.size());
+  for (std::size_t i = 0; i < wanted.size(); ++i) rows[i].resize(wanted[i].size());
   executor_.run_named_tasks(
       tasks,
       [&](std::int32_t task) {
         const auto [face, number] = sections[task];
-        PatchSection copy = *get(wanted[face].sections[number]);
-        return packed(rows_of(std::move(copy), wanted[face].sections, number));
+        PatchSection copy = *get(wanted[face][number]);
+        return packed(rows_of(std::move(copy), wanted[face], number));
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, rows[sections[task].face][sections[task].number]); });
   std::vector<FacePatch> patches;

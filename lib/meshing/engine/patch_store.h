@@ -17,22 +17,13 @@
 
 namespace st {
 
-/// Where the patch of a face is.
-struct FacePlace {
-  std::vector<PatchPlace> sections;  ///< by number; the last one has all boundary nodes. None: no triangles
+/// Where the patch of a face is: its sections by number; the last one has all boundary nodes. None: no triangles.
+using FacePlace = std::vector<PatchPlace>;
 
-  FacePlace() = default;
-  explicit FacePlace(const PatchPlace& whole) {
-    if (whole.is_there()) sections.push_back(whole);
-  }
-  /// Sections of one face, whose rows follow each other.
-  explicit FacePlace(std::vector<PatchPlace> sections);
-
-  bool is_there() const { return !sections.empty(); }
-  std::int64_t n_triangles() const;
-
-  static auto fields(auto& p) { return std::tie(p.sections); }
-};
+/// Sections of one face, whose rows follow each other.
+FacePlace place_of(std::vector<PatchPlace> sections);
+inline FacePlace place_of(const PatchPlace& whole) { return whole.is_there() ? FacePlace{whole} : FacePlace(); }
+std::int64_t n_triangles_of(const FacePlace& place);
 
 /// The patches of this rank. All functions but bring() are local and may be called by several threads.
 class PatchStore {

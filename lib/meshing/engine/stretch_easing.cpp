@@ -57,7 +57,7 @@ std::vector<FaceId> StretchEasing::all_faces() const {
 std::int64_t StretchEasing::n_triangles(const std::vector<FaceId>& of) const {
   std::int64_t n = 0;
   for (const FaceId f : of)
-    for (const PatchPlace& section : faces_.places()[f].sections) n += section.n_triangles;
+    for (const PatchPlace& section : faces_.places()[f]) n += section.n_triangles;
   share(executor_, n);
   return n;
 }

@@ -30,7 +30,8 @@ struct Search {
     ++version;
     places.clear();
     for (FacePatch p : patches)
-      places.emplace_back(store.put({std::move(p)}, 0, version, meshed.result.edges, meshed.model.tables().vertex_xyz));
+      places.push_back(
+          place_of(store.put({std::move(p)}, 0, version, meshed.result.edges, meshed.model.tables().vertex_xyz)));
     return run();
   }
   /// Each patch in two sections.
@@ -42,7 +43,7 @@ struct Search {
       for (PatchSection& s : test::in_two(p))
         two.push_back(store.put(std::move(s), static_cast<std::int32_t>(two.size()), version, meshed.result.edges,
                                 meshed.model.tables().vertex_xyz));
-      places.emplace_back(std::move(two));
+      places.push_back(place_of(std::move(two)));
     }
     return run();
   }

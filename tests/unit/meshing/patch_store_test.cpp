@@ -22,11 +22,11 @@ TEST(PatchStore, gives_back_what_was_put_by_face_and_version) {
   EXPECT_EQ(a.n_triangles, static_cast<std::int32_t>(m.result.patches[0].triangles.size()));
   EXPECT_LT(distance(c.box.center(), m.model.tables().face_box[3].center()), 1e-9);
   EXPECT_EQ(packed(store.get(c)->patch), packed(m.result.patches[3]));
-  const std::vector<FacePatch> copies = store.bring({FacePlace(c), FacePlace(b)});
+  const std::vector<FacePatch> copies = store.bring({place_of(c), place_of(b)});
   ASSERT_EQ(copies.size(), 2u);
   EXPECT_EQ(copies[0].face, 3);
   EXPECT_EQ(packed(copies[1]), packed(m.result.patches[0]));
-  EXPECT_EQ(packed(store.take(FacePlace(b), 0).rows), packed(m.result.patches[0]));
+  EXPECT_EQ(packed(store.take(place_of(b), 0).rows), packed(m.result.patches[0]));
 }
 
 TEST(PatchStore, drops_what_is_not_to_be_kept_and_keeps_nothing_of_an_empty_patch) {
@@ -50,15 +50,13 @@ TEST(FacePlace, has_the_rows_of_its_sections_one_after_the_other) {
     p.section = i;
     if (p.is_there()) p.n_inner = 10 + i, p.n_triangles = 100 + i, p.n_own_uv = 1000 + i;
   }
-  const FacePlace place(sections);
-  EXPECT_TRUE(place.is_there());
-  EXPECT_EQ(place.n_triangles(), 100 + 102 + 103);
-  ASSERT_EQ(place.sections.size(), 4u);
-  EXPECT_EQ(place.sections[3].inner_begin, 10 + 12);
-  EXPECT_EQ(place.sections[3].triangle_begin, 100 + 102);
-  EXPECT_EQ(place.sections[3].own_uv_begin, 1000 + 1002);
-  EXPECT_FALSE(FacePlace().is_there());
-  EXPECT_FALSE(FacePlace(PatchPlace()).is_there());
+  const FacePlace place = place_of(sections);
+  EXPECT_EQ(n_triangles_of(place), 100 + 102 + 103);
+  ASSERT_EQ(place.size(), 4u);
+  EXPECT_EQ(place[3].inner_begin, 10 + 12);
+  EXPECT_EQ(place[3].triangle_begin, 100 + 102);
+  EXPECT_EQ(place[3].own_uv_begin, 1000 + 1002);
+  EXPECT_TRUE(place_of(PatchPlace()).empty());
 }
 
 TEST(PatchStore, keeps_sections_of_a_face_apart_and_brings_them_as_one_patch) {
@@ -69,9 +67,9 @@ TEST(PatchStore, keeps_sections_of_a_face_apart_and_brings_them_as_one_patch) {
   for (PatchSection& s : test::in_two(whole))
     places.push_back(store.put(std::move(s), static_cast<std::int32_t>(places.size()), 1, m.result.edges,
                                m.model.tables().vertex_xyz));
-  const FacePlace place(places);
-  EXPECT_EQ(place.n_triangles(), static_cast<std::int64_t>(whole.triangles.size()));
-  EXPECT_EQ(place.sections[1].triangle_begin, static_cast<std::int64_t>(whole.triangles.size() / 2));
+  const FacePlace place = place_of(places);
+  EXPECT_EQ(n_triangles_of(place), static_cast<std::int64_t>(whole.triangles.size()));
+  EXPECT_EQ(place[1].triangle_begin, static_cast<std::int64_t>(whole.triangles.size() / 2));
   EXPECT_EQ(packed(store.bring({place}).at(0)), packed(whole));
 }
 

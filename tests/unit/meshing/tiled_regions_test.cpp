@@ -55,7 +55,7 @@ TEST(TiledFaces, stay_in_sections_whose_rows_are_the_patch) {
   for (SectionRows& rows : apart.rows) by_face[rows.rows.face].push_back(std::move(rows));
   for (std::size_t f = 0; f < whole.patches.size(); ++f) {
     std::vector<SectionRows>& rows = by_face[static_cast<FaceId>(f)];
-    EXPECT_EQ(apart.places[f].n_triangles(), static_cast<std::int64_t>(whole.patches[f].triangles.size()));
+    EXPECT_EQ(n_triangles_of(apart.places[f]), static_cast<std::int64_t>(whole.patches[f].triangles.size()));
     for (std::size_t i = 1; i < rows.size(); ++i)
       EXPECT_EQ(rows[i].place.triangle_begin,
                 rows[i - 1].place.triangle_begin + static_cast<std::int64_t>(rows[i - 1].rows.triangles.size()));
