@@ -22,15 +22,17 @@ std::vector<std::vector<TriangleId>> triangles_by_group(const SurfaceMesh& mesh)
   return of_group;
 }
 
-std::string main_group(const SurfaceMesh& mesh, std::span<const FaceId> faces) {
-  std::vector<std::int64_t> count(mesh.labels.group_name.size());
+void count_groups(const SurfaceMesh& mesh, std::span<const FaceId> faces, std::span<std::int64_t> count) {
   for (std::size_t t = 0; t < mesh.triangle_group.size(); ++t) {
     const auto group = static_cast<std::size_t>(mesh.triangle_group[t]);
     if (group < count.size() && std::ranges::binary_search(faces, mesh.triangle_face[t])) ++count[group];
   }
+}
+
+std::string main_group(const FaceLabels& labels, std::span<const std::int64_t> count) {
   const auto most = std::ranges::max_element(count);
   if (most == count.end() || *most == 0) return "";
-  const std::string& name = mesh.labels.group_name[static_cast<std::size_t>(most - count.begin())];
+  const std::string& name = labels.group_name[static_cast<std::size_t>(most - count.begin())];
   return name == "default" ? "" : name;
 }
 

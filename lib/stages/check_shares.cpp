@@ -283,20 +283,6 @@ SharedMesh::SharedMesh(const CheckStageOptions& o) : file(o.mesh) {
   wings = read_asked_wings(o.sizing);
 }
 
-std::vector<WingMeasure> measure_wings(const SharedMesh& mesh) {
-  std::vector<WingMeasure> all;
-  for (const WingRecord& wing : mesh.wings) {
-    const MeshSelection share = mesh.file.of_faces(
-        [&](FaceId f) {
-          return wing.faces.empty() || std::ranges::binary_search(wing.faces, f) ||
-                 std::ranges::binary_search(wing.bases, f);
-        },
-        MeshFile::Rows::kPlaces);
-    all.push_back(std::move(measure_wings(share.mesh, {&wing, 1})[0]));
-  }
-  return all;
-}
-
 std::optional<SharedFindings> measure_shares(const CheckBasis& given, const MeshFile& file, const Executor& ranks,
                                              Progress& progress, std::int64_t per_share) {
   SharedMeasure measure(given, file, ranks, progress, per_share);

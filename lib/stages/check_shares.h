@@ -8,8 +8,8 @@
 #include "base/executor.h"
 #include "base/progress.h"
 #include "io/hdf5/mesh_file.h"
+#include "sizing/wing_record.h"
 #include "stages/check_parts.h"
-#include "stages/wing_measure.h"
 
 namespace st {
 
@@ -29,9 +29,6 @@ struct SharedMesh {
   std::unique_ptr<SizeField> field;  ///< likewise
   std::vector<WingRecord> wings;     ///< lifting surfaces that the sizes know
 };
-
-/// Lifting surfaces, each with the triangles of its faces alone in memory. Local.
-std::vector<WingMeasure> measure_wings(const SharedMesh& mesh);
 
 /// What was found of all shares.
 struct SharedFindings {

@@ -37,6 +37,7 @@
 #include "stages/layers_check.h"
 #include "stages/stored_model.h"
 #include "stages/wing_table.h"
+#include "stages/wing_triangles.h"
 
 namespace st {
 
@@ -331,7 +332,7 @@ bool check_in_shares(const CheckStageOptions& o, const Executor& ranks, Progress
   if (!found) return false;
   if (!ranks.is_root()) return true;
   f.unit = head.header.unit;
-  f.wings = measure_wings(shared);
+  f.wings = measure_wings(shared.file, shared.wings);
   report_crossings_and_contacts(found->crossing.mesh, {found->pairs, found->component, found->was_ended}, given.cad, f);
   report_parts(found->basis, std::move(found->parts), head.mesh.labels, f);
   progress.step("causes", 0.9);

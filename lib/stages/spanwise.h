@@ -43,6 +43,14 @@ struct Spanwise {
     return static_cast<std::size_t>(i - share.begin());
   }
 
+  /// Those nearest to 10, 30, 50, 70 and 90 per cent of the span, each once; there are stations.
+  std::vector<std::size_t> listed() const {
+    std::vector<std::size_t> chosen;
+    for (const double at : {0.1, 0.3, 0.5, 0.7, 0.9}) chosen.push_back(nearest(at));
+    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
+    return chosen;
+  }
+
   /// The one before or after, around a ring; nothing beyond an end.
   std::optional<std::size_t> beside(std::size_t i, int step) const {
     const std::size_t n = station.size();
@@ -68,6 +76,13 @@ struct Spanwise {
     if (before > kMuchFurther * after && after > 0) a = own->*place;
     if (after > kMuchFurther * before && before > 0) b = own->*place;
     return norm(b - a) > 0 ? normalized(b - a) : Vec3{};
+  }
+
+  /// Of the profile's plane at a station that has a nose.
+  Vec3 profile_normal(std::size_t i) const {
+    const WingRecord::Station& s = *station[i];
+    const Vec3 along = direction(i, &WingRecord::Station::trailing), forward = normalized(s.trailing - s.nose);
+    return normalized(along - dot(along, forward) * forward);
   }
 
   /// The way from the station before it to the one after it, or from or to the end.

@@ -15,14 +15,12 @@
 namespace st {
 namespace {
 
-constexpr std::array<double, 5> kShares = {0.1, 0.3, 0.5, 0.7, 0.9};
 constexpr double kAround = 1.5;      // lengths, or heights, around the nearest triangle: that row, some of the next
 constexpr double kAlongSpan = 2;     // of these along the span: else few segments stand for a station's whole stretch
 constexpr double kUnheldReach = 3;   // lengths around a place that is not held
 constexpr double kAlong = 0.71;      // cosine to the span of a segment along it, at least
 constexpr double kStretched = 2;     // heights of a triangle in its mean side: equilateral ones have 1.15
 constexpr double kBeside = 2;        // radii of the nearest triangle: a place further away is not on the mesh
-constexpr double kNoseReach = 0.02;  // of the chord: where growth and turning are measured
 constexpr double kThick = 0.4;       // of the chord: a profile's points lie no further from it
 constexpr double kHeld = 1.3;        // length over that asked for, at most
 constexpr double kHeldShare = 0.99;  // of the span, at least: issue 36 asks for 0.98 of a mesh
@@ -278,10 +276,9 @@ WingStationMeasure measure_station(const WingMesh& mesh, const WingRecord& wing,
                                    std::size_t i) {
   const WingRecord::Station& s = *spanwise.station[i];
   WingStationMeasure own{.share = spanwise.share[i], .place = s.trailing, .chord = s.chord, .asked = s.asked};
-  const Vec3 along = spanwise.direction(i, &WingRecord::Station::trailing);
   own.trailing = lengths_of(mesh, spanwise, i, &WingRecord::Station::trailing);
   if (!wing.has_noses) return own;
-  const Vec3 forward = normalized(s.trailing - s.nose), normal = normalized(along - dot(along, forward) * forward);
+  const Vec3 normal = spanwise.profile_normal(i);
   own.nose = nose_of(mesh, wing, spanwise, i);
   own.chord_cells = mesh.chord_cells(s, normal);
   const auto [cells, width] = mesh.base_cells(s, normal);
@@ -371,14 +368,14 @@ std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const 
     const WingMesh triangles(mesh, wing);
     const Spanwise spanwise(wing);
     if (!wing.faces.empty()) own.n_triangles = triangles.n_triangles();
-    own.group = main_group(mesh, wing.faces);
-    std::vector<std::size_t> chosen;
+    std::vector<std::int64_t> of_groups(mesh.labels.group_name.size());
+    count_groups(mesh, wing.faces, of_groups);
+    own.group = main_group(mesh.labels, of_groups);
     if (!triangles.is_empty() && !spanwise.station.empty()) {
-      for (const double share : kShares) chosen.push_back(spanwise.nearest(share));
       measure_all_stations(triangles, wing, spanwise, own);
+      for (const std::size_t i : spanwise.listed())
+        own.stations.push_back(measure_station(triangles, wing, spanwise, i));
     }
-    chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
-    for (const std::size_t i : chosen) own.stations.push_back(measure_station(triangles, wing, spanwise, i));
     all.push_back(std::move(own));
   }
   return all;

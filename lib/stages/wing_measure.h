@@ -59,6 +59,9 @@ struct WingMeasure {
 /// their lengths around a place. Local; linear in triangles for each of the five stations.
 std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const WingRecord> wings);
 
+/// Of the chord: where growth and turning are measured, from the nose on.
+inline constexpr double kNoseReach = 0.02;
+
 /// A nose or trailing edge that is coarser than 1.3 times what was asked for, and three of these lengths.
 struct UnheldPlace {
   Vec3 xyz;

@@ -278,18 +278,24 @@ MeshSelection MeshFile::select(std::vector<TriangleId> triangles, Rows rows) con
   return share;
 }
 
-MeshSelection MeshFile::of_faces(const std::function<bool(FaceId)>& is_wanted, Rows rows) const {
+void MeshFile::for_faces(const std::function<bool(FaceId)>& is_wanted,
+                         const std::function<void(const MeshSelection&)>& visit) const {
+  constexpr std::size_t kAtOnce = 500'000;
   std::vector<TriangleId> wanted;
   FaceId last = kNone;
   bool is_last_wanted = false;
+  const auto flush = [&] {
+    if (!wanted.empty()) visit(select(std::exchange(wanted, {}), Rows::kPlaces));
+  };
   in_pieces(0, n_triangles_, [&](std::int64_t begin, std::int64_t end) {
     const std::vector<FaceId> some = faces(begin, end - begin);
     for (std::size_t i = 0; i < some.size(); ++i) {
       if (some[i] != last) is_last_wanted = is_wanted(last = some[i]);
       if (is_last_wanted) wanted.push_back(static_cast<TriangleId>(begin + static_cast<std::int64_t>(i)));
     }
+    if (wanted.size() >= kAtOnce) flush();
   });
-  return select(std::move(wanted), rows);
+  flush();
 }
 
 void MeshFile::read_nodes(Rows rows, MeshSelection& share) const {

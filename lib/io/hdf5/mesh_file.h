@@ -55,8 +55,9 @@ class MeshFile {
   enum class Rows { kPlaces, kAll, kAllWithEdgeNodes };
   /// Triangles, ascending; kAllWithEdgeNodes: also all nodes on edges and vertices.
   MeshSelection select(std::vector<TriangleId> triangles, Rows rows) const;
-  /// All triangles of faces that are wanted, which come face by face.
-  MeshSelection of_faces(const std::function<bool(FaceId)>& is_wanted, Rows rows) const;
+  /// Calls visit(some of them) until it had all triangles of faces that are wanted, in order; kPlaces of them are read.
+  void for_faces(const std::function<bool(FaceId)>& is_wanted,
+                 const std::function<void(const MeshSelection&)>& visit) const;
 
  private:
   std::vector<std::int32_t> ids(const char* name, std::int64_t first, std::int64_t n) const;

@@ -56,8 +56,8 @@ TEST_F(MeshRows, of_a_share_are_its_triangles_and_all_that_touch_them) {
 }
 
 TEST_F(MeshRows, of_faces_come_alone) {
-  const MeshSelection sides =
-      MeshFile(path).of_faces([](FaceId f) { return f == 2 || f == 4; }, MeshFile::Rows::kPlaces);
+  MeshSelection sides;
+  MeshFile(path).for_faces([](FaceId f) { return f == 2 || f == 4; }, [&](const MeshSelection& some) { sides = some; });
   EXPECT_EQ(sides.mesh.n_triangles(), 2 * 512);
   EXPECT_EQ(std::set<FaceId>(sides.mesh.triangle_face.begin(), sides.mesh.triangle_face.end()),
             (std::set<FaceId>{2, 4}));
