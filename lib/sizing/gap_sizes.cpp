@@ -213,11 +213,11 @@ class GapTiler {
 
   /// Speaks for a patch on the other side that is so large that it may not see this one.
   void add_far_box(double s, double t) {
-    const Sight sight = look(s, t);
+    Sight sight = look(s, t);
     if (!sight.other || !cells_to(*sight.other, sight.distance) || !is_large(*sight.other)) return;
-    const double length =
+    sight.length =
         std::max(std::abs(sight.distance) / cells_to(*sight.other, sight.distance), floor_before(*sight.other, patch_));
-    if (length < sight.other->length) add_box(sight.x, length, sight.other->cause, stretch_of(sight));
+    if (sight.length < sight.other->length) add_box(sight.x, sight.length, sight.other->cause, stretch_of(sight));
   }
 
   bool is_large(const GapPatch& other) const { return extent(other) > kLarge * extent(patch_); }

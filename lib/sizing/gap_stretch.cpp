@@ -1,7 +1,9 @@
 #include "sizing/gap_stretch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "sizing/end_stretch.h"
 #include "sizing/line_stretch.h"
@@ -10,6 +12,7 @@ namespace st {
 namespace {
 
 constexpr double kParallel = 0.02;   // sine between both sides: less tells no direction
+constexpr double kWedge = 0.2;       // likewise, 12 degrees: more is a wedge, as wide along its edge alone
 constexpr double kChange = 0.3;      // of the gap's width along one length
 constexpr double kMuchLonger = 1.5;  // than along the patch's own direction: that fits the lengths beside the gap
 
@@ -33,7 +36,9 @@ class GapStretch {
     const Vec3 crossing = cross(place_.normal, opposite_);
     Vec3 direction;
     double along = 0;
-    for (const Vec3 d : {patch_.way, place_.other->way, norm(crossing) > kParallel ? crossing : Vec3{}}) {
+    const std::array directions = {patch_.way, place_.other->way, norm(crossing) > kParallel ? crossing : Vec3{}};
+    const bool is_wedge = norm(crossing) > kWedge;
+    for (const Vec3 d : std::span(directions).subspan(is_wedge ? 2 : 0)) {
       const Vec3 own = across(d, place_.normal);
       if (own == Vec3{}) continue;
       const double longer = along_in(own);

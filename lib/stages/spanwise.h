@@ -85,6 +85,14 @@ struct Spanwise {
     return normalized(along - dot(along, forward) * forward);
   }
 
+  /// From the first trailing edge to the last; around a ring along all. Model unit.
+  double way() const {
+    double sum = distance(station.front()->trailing, station.back()->trailing);
+    for (std::size_t i = 1; is_ring && i < station.size(); ++i)
+      sum += distance(station[i - 1]->trailing, station[i]->trailing);
+    return sum;
+  }
+
   /// The way from the station before it to the one after it, or from or to the end.
   double part(std::size_t i) const {
     const std::size_t a = beside(i, -1).value_or(i), b = beside(i, 1).value_or(i);

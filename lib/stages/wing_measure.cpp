@@ -325,10 +325,7 @@ void add_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& 
 /// Sets `held` and `worst`, from all stations.
 void measure_all_stations(const WingMesh& mesh, const WingRecord& wing, const Spanwise& spanwise, WingMeasure& own) {
   HeldSpan all;
-  const std::vector<const WingRecord::Station*>& stations = spanwise.station;
-  double way = distance(stations.front()->trailing, stations.back()->trailing);
-  for (std::size_t i = 1; spanwise.is_ring && i < stations.size(); ++i)
-    way += distance(stations[i - 1]->trailing, stations[i]->trailing);
+  const double way = spanwise.way();
   add_stations(
       mesh, wing, spanwise, [&](std::size_t i) { return spanwise.share[i]; },
       [&](std::size_t i) { return way * spanwise.part(i); }, all);

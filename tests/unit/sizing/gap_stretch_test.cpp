@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -61,6 +62,35 @@ TEST(GapStretch, follows_the_line_along_which_both_sides_run) {
   const SampleStretch stretch = stretch_below(below, above);
   EXPECT_NEAR(stretch.along, 0.2, 1e-6);
   EXPECT_GT(std::abs(Vec3(stretch.direction).x), 0.99);
+}
+
+/// Whatever the lengths of either side: both are to have the same rows.
+TEST(GapStretch, follows_the_edge_of_a_wedge) {
+  const Vec3 leaning{0, std::sin(radians(14)), -std::cos(radians(14))};
+  GapPatch below = flat_patch({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
+  const GapPatch above = flat_patch({0, 0, 0.04}, leaning, {0, 1, 0});
+  below.end = {0, 1, 0};
+  const SampleStretch stretch = stretch_below(below, above);
+  EXPECT_NEAR(stretch.along, kEndAspect * 0.01, 1e-6);
+  EXPECT_GT(std::abs(Vec3(stretch.direction).x), 0.99);
+}
+
+/// Where the gap asks for less than the least length.
+TEST(GapStretch, of_a_patch_so_large_that_it_does_not_see_the_gap_is_that_of_its_length) {
+  GapPatch wall = flat_patch({0, 0, 0}, {0, 0, 1}, {0, 1, 0}), small = flat_patch({0, 0, 0.04}, {0, 0, -1}, {0, 1, 0});
+  small.s_lo = small.t_lo = -0.1;
+  small.s_hi = small.t_hi = 0.1;
+  wall.cause = 1;
+  for (GapPatch* patch : {&wall, &small}) {
+    patch->length = 1;
+    patch->min_length = 0.05;
+    patch->gap_cells = 8;
+  }
+  const std::vector<GapPatch> patches = {wall, small};
+  std::vector<RasterBox> boxes;
+  GapFinder(patches, 2.5).add_boxes(1, boxes);
+  ASSERT_TRUE(std::ranges::any_of(boxes, [](const RasterBox& b) { return b.cause == 1; }));
+  for (const RasterBox& box : boxes) EXPECT_NEAR(box.stretch.along, 20 * box.length, 1e-4) << box.cause;
 }
 
 TEST(GapStretch, ends_where_one_of_both_sides_bends_along_it) {
