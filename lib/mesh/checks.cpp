@@ -57,16 +57,17 @@ class CadEdgeLookup {
 /// The node of a side's triangle that is not on the side.
 NodeId opposite(const SurfaceMesh& mesh, SideId side) { return mesh.triangles[side / 3].n[(side % 3 + 2) % 3]; }
 
-/// Duplicates among the triangles on the edge between their two lowest nodes. `order`: of the edge.
-void find_duplicates(const SurfaceMesh& mesh, NodeId high, std::span<const SideId> sides, std::int64_t order,
-                     Defects& duplicates) {
+/// Duplicates among the triangles on the edge between their two lowest nodes.
+void find_duplicates(const SurfaceMesh& mesh, NodeId low, NodeId high, std::span<const SideId> sides,
+                     const OwnTriangles& own, Defects& duplicates) {
   if (sides.size() < 2) return;
   for (std::size_t i = 1; i < sides.size(); ++i) {
     const NodeId third = opposite(mesh, sides[i]);
     if (third < high) continue;
     const bool is_repeated =
         std::any_of(sides.begin(), sides.begin() + i, [&](SideId s) { return opposite(mesh, s) == third; });
-    if (is_repeated) duplicates.add({centroid(mesh, sides[i] / 3), mesh.triangle_face[sides[i] / 3], kNone, order});
+    if (is_repeated)
+      duplicates.add({centroid(mesh, sides[i] / 3), mesh.triangle_face[sides[i] / 3], kNone, own.order(low, high)});
   }
 }
 
@@ -157,7 +158,7 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, c
     } else if (run_alike(mesh.triangles, sides[0], sides[1])) {
       r.misoriented_edges.add(at_edge(a, b, sides));
     }
-    find_duplicates(mesh, b, sides, own.order(a, b), r.duplicate_triangles);
+    find_duplicates(mesh, a, b, sides, own, r.duplicate_triangles);
   });
   for (TriangleId t = own.begin; t < own.end; ++t)
     if (has_repeated_node(mesh.triangles[t])) r.repeated_nodes.add(at_triangle(mesh, t, own));

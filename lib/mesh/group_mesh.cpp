@@ -23,9 +23,13 @@ std::vector<std::vector<TriangleId>> triangles_by_group(const SurfaceMesh& mesh)
 }
 
 void count_groups(const SurfaceMesh& mesh, std::span<const FaceId> faces, std::span<std::int64_t> count) {
+  FaceId last = kNone;  // triangles come face by face
+  bool is_counted = false;
   for (std::size_t t = 0; t < mesh.triangle_group.size(); ++t) {
+    if (const FaceId face = mesh.triangle_face[t]; face != last)
+      is_counted = std::ranges::binary_search(faces, last = face);
     const auto group = static_cast<std::size_t>(mesh.triangle_group[t]);
-    if (group < count.size() && std::ranges::binary_search(faces, mesh.triangle_face[t])) ++count[group];
+    if (is_counted && group < count.size()) ++count[group];
   }
 }
 
