@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
                "JSON file to write, with results per model, group and face, and histograms; repeatable");
   st::declare(tool, o);
   tool.main_options({"--geometry", "--sizing", "--report", "--layers", "--min-angle", "--min-quality",
-                     "--min-size-share", "--max-deviation", "--max-free-sharp", "--np"});
+                     "--min-size-share", "--max-deviation", "--verbose", "--np"});
   tool.examples(
       {"st-check mesh.hdf", "st-check mesh.hdf --geometry geometry.hdf --sizing sizing.hdf --report report.json"});
   return tool.run_parallel(argc, argv, [&](const st::Communicator& comm) {
