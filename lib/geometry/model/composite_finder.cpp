@@ -21,7 +21,8 @@ namespace st {
 namespace {
 
 constexpr std::size_t kMostFacets = 20000;  // of a chart: flatten_whole() takes no more
-constexpr double kMostBulge = 0.5;          // of its chord: how far a trimming curve leaves a chart's rim
+constexpr std::size_t kFew = 8;             // faces: a union of so many loses its least urgent one, else half of them
+constexpr double kMostBulge = 0.6;          // of its chord: how far a trimming curve leaves a chart's rim
 constexpr double kOffRim = 1e-2;            // of its chord: how far a chart may be off an edge, more than its face
 
 /// Facets of a union of faces, with nodes of their own.
@@ -58,7 +59,7 @@ class CompositeFinder {
       const std::string why = accept(faces);
       if (why.empty()) continue;
       const std::vector<EdgeId> inside = dissolve(faces);
-      grow(inside, static_cast<std::int32_t>((faces.size() + 1) / 2));
+      grow(inside, static_cast<std::int32_t>(faces.size() <= kFew ? faces.size() - 1 : (faces.size() + 1) / 2));
       std::vector<std::vector<FaceId>> parts = whole_parts(inside);
       (parts.empty() ? found_.refused : found_.divided).push_back(named(faces) + ": " + why);
       for (auto& part : parts) work.push_back(std::move(part));
@@ -393,8 +394,7 @@ class CompositeFinder {
 FoundComposites find_composites(const Model& cad, const JoinRequest& request) {
   bool is_asked = false;
   for (std::size_t e = 0; e < request.may_join.size(); ++e) is_asked |= request.may_join[e] && request.urgency[e] > 0;
-  if (!is_asked) return {};
-  return CompositeFinder(cad, request).run();
+  return is_asked ? CompositeFinder(cad, request).run() : FoundComposites{};
 }
 
 }  // namespace st

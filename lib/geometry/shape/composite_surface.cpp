@@ -10,9 +10,9 @@ namespace st {
 namespace {
 
 constexpr double kLeastCosine = 0.5;          // between the normals of a facet and of its face
-constexpr double kSlender = 0.02;             // height over longest side: chords across a bend turn such a facet,
+constexpr double kSlender = 0.025;            // height over longest side: chords across a bend turn such a facet,
 constexpr double kLeastSlenderCosine = 0.1;   // which may be turned this far
-constexpr double kMostCompositeStretch = 20;  // of (u,v): twice what the chart alone may have
+constexpr double kMostCompositeStretch = 40;  // of (u,v): four times what a chart of facets may have
 
 }  // namespace
 
