@@ -14,6 +14,8 @@
 namespace st {
 namespace {
 
+const GapFinder::MeetingPlace kNoEdges = [](std::int32_t, std::int32_t, Vec3) { return std::nullopt; };
+
 SamplingLimits stretched_limits(double max_length) {
   SamplingLimits result{0.001, max_length, radians(10), 2.5};
   result.gap_cells = 4;
@@ -88,7 +90,7 @@ TEST(GapStretch, of_a_patch_so_large_that_it_does_not_see_the_gap_is_that_of_its
   }
   const std::vector<GapPatch> patches = {wall, small};
   std::vector<RasterBox> boxes;
-  GapFinder(patches, 2.5).add_boxes(1, boxes);
+  GapFinder(patches, 2.5, kNoEdges).add_boxes(1, boxes);
   ASSERT_TRUE(std::ranges::any_of(boxes, [](const RasterBox& b) { return b.cause == 1; }));
   for (const RasterBox& box : boxes) EXPECT_NEAR(box.stretch.along, 20 * box.length, 1e-4) << box.cause;
 }
@@ -134,7 +136,7 @@ TEST(GapStretch, of_a_rod_in_its_bore_is_along_both_on_both_sides) {
     patches.insert(patches.end(), own.begin(), own.end());
   }
   std::vector<RasterBox> boxes;
-  const GapFinder finder(patches, 2.5, [](auto, auto, Vec3) { return std::nullopt; });
+  const GapFinder finder(patches, 2.5, kNoEdges);
   for (std::size_t i = 0; i < patches.size(); ++i) finder.add_boxes(i, boxes);
   ASSERT_FALSE(boxes.empty());
   for (const RasterBox& box : boxes) {
