@@ -71,7 +71,8 @@ class Start(unittest.TestCase):
                                     text=True, check=True).stdout
             self.assertIn("libc.so", listed)
             loaded[tool.name] = "libmpi" in listed
-        self.assertEqual([name for name, has_mpi in loaded.items() if has_mpi], ["st-mesh", "st-raster", "st-remesh"])
+        self.assertEqual([name for name, has_mpi in loaded.items() if has_mpi],
+                         ["st-check", "st-mesh", "st-raster", "st-remesh"])
 
 
 class Meshes(RunTest):
