@@ -163,8 +163,10 @@ void put_on_ridges(const Model& model, LiftingSurface& wing) {
         ChordStation& s = to[e].stations[i];
         if (!s.is_measured) continue;
         const bool is_alone = s.trailing == s.nose;
-        s.is_measured = mover.move(s, is_along_chord(from[e], i));
-        if (is_alone) s.trailing = s.nose;
+        const bool is_nose = mover.move(s, is_along_chord(from[e], i));
+        if (!is_alone) continue;  // what is before a trailing edge stays a nose
+        s.is_measured = is_nose;
+        s.trailing = s.nose;
       }
   };
   if (wing.has_noses) move_all(before.trailing, wing.trailing);
