@@ -42,6 +42,8 @@ struct GapPatch {
   Vec3 point(double s, double t) const { return x + s * axis_s + t * axis_t + height(s, t) * normal; }
   /// Unit normal of the paraboloid, to the same side as `normal`.
   Vec3 normal_at(double s, double t) const;
+  /// Likewise above or below a place.
+  Vec3 normal_beside(Vec3 place) const { return normal_at(dot(place - x, axis_s), dot(place - x, axis_t)); }
   /// Does any of [s0, s1] x [t0, t1] lie inside the loops, by cells?
   bool is_inside(double s0, double s1, double t0, double t1) const;
   /// Box of the paraboloid.

@@ -103,8 +103,7 @@ class GapTiler {
   /// Beyond a sharp edge the patches of its sides cross, and seem to face each other: where the gap closes, this patch
   /// goes on with the other face behind it. In a gap that ends in an edge there is none of this patch beyond.
   bool is_past_crossing(const GapPatch& other, double s, double t, double d) const {
-    const Vec3 n = patch_.normal_at(s, t), to = patch_.point(s, t) + d * n - other.x;
-    const Vec3 opposite = other.normal_at(dot(to, other.axis_s), dot(to, other.axis_t));
+    const Vec3 n = patch_.normal_at(s, t), opposite = other.normal_beside(patch_.point(s, t) + d * n);
     const double along_s = -dot(opposite, patch_.axis_s), along_t = -dot(opposite, patch_.axis_t);
     const double slope = std::hypot(along_s, along_t);
     if (!(slope > 0)) return false;
@@ -126,9 +125,8 @@ class GapTiler {
   bool closes_at_edge(const GapPatch& other, Vec3 x, Vec3 n, double d) const {
     const std::optional<Vec3> edge = meeting_place_(patch_.cause, other.cause, x);
     if (!edge) return false;
-    const Vec3 to = x + d * n - other.x, opposite = other.normal_at(dot(to, other.axis_s), dot(to, other.axis_t));
-    const Vec3 closing = (dot(opposite, n) * n - opposite) / std::abs(dot(opposite, n));  // by its length in each
-                                                                                          // length
+    const Vec3 opposite = other.normal_beside(x + d * n);
+    const Vec3 closing = (dot(opposite, n) * n - opposite) / std::abs(dot(opposite, n));  // the slope, as a vector
     const double at_edge = norm(closing) * distance(*edge, x);  // by how much the gap has closed up there, about
     return dot(*edge - x, closing) > 0 && at_edge > kLeastClosing * d && at_edge < kMostClosing * d;
   }

@@ -27,8 +27,7 @@ double curvature_in(const GapPatch& patch, Vec3 u) {
 class GapStretch {
  public:
   GapStretch(const GapPatch& patch, const GapPlace& place) : patch_(patch), place_(place) {
-    const Vec3 to = place.met - place.other->x;
-    opposite_ = place.other->normal_at(dot(to, place.other->axis_s), dot(to, place.other->axis_t));
+    opposite_ = place.other->normal_beside(place.met);
     width_ = distance(place.x, place.met);
   }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/boxes.h"
 #include "mesh/group_mesh.h"
 #include "stages/spanwise.h"
 
@@ -12,11 +13,6 @@ namespace st {
 namespace {
 
 constexpr std::size_t kTrianglesPerBlock = 256;  // whose box is looked at first
-
-double box_distance(const Box3& box, Vec3 p) {
-  const auto beyond = [](double low, double x, double high) { return std::max({low - x, x - high, 0.0}); };
-  return norm(Vec3{beyond(box.lo.x, p.x, box.hi.x), beyond(box.lo.y, p.y, box.hi.y), beyond(box.lo.z, p.z, box.hi.z)});
-}
 
 struct BlockTriangle {
   TriangleId triangle;
@@ -59,7 +55,7 @@ WingReach::WingReach(const WingRecord& wing) {
 void WingReach::look_at(const SurfaceMesh& mesh) {
   for_each_block(mesh, [&](const Box3& box, std::span<const BlockTriangle> block) {
     for (Place& place : places_) {
-      if (box_distance(box, place.xyz) >= place.nearest) continue;
+      if (distance2(place.xyz, box) >= place.nearest * place.nearest) continue;
       for (const BlockTriangle& b : block)
         if (const double d = distance(b.center, place.xyz); d < place.nearest) place.nearest = d, place.side = b.side;
     }
@@ -73,7 +69,7 @@ std::vector<TriangleId> WingReach::within(const SurfaceMesh& mesh) const {
   for_each_block(mesh, [&](const Box3& box, std::span<const BlockTriangle> block) {
     near.clear();
     for (const Ball& ball : all)
-      if (box_distance(box, ball.center) <= ball.radius) near.push_back(ball);
+      if (distance2(ball.center, box) <= ball.radius * ball.radius) near.push_back(ball);
     for (const BlockTriangle& b : block) {
       const bool is_near =
           std::ranges::any_of(near, [&](const Ball& ball) { return distance(b.center, ball.center) <= ball.radius; });

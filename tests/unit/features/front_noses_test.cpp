@@ -5,18 +5,12 @@
 
 #include <algorithm>
 
-#include "features/strip.h"
-#include "support/shapes.h"
+#include "unit/features/sharp_wing.h"
 
 namespace st {
 namespace {
 
-/// A sharp wing of chord 10 along z, from 0 to 30.
-struct WholeWing {
-  Model model = test::make_model("sharp_wing");
-  FaceRoles roles = face_roles(model.tables());
-  LiftingSurface wing = find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0);
-
+struct WholeWing : test::SharpWing {
   std::vector<ChordStation>& stations() { return wing.trailing.at(0).stations; }
   void follow(std::vector<LiftingSurface> others = {}) {
     others.insert(others.begin(), wing);

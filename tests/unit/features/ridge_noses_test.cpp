@@ -5,19 +5,13 @@
 
 #include <vector>
 
-#include "features/strip.h"
 #include "geometry/shape/projection.h"
-#include "support/shapes.h"
+#include "unit/features/sharp_wing.h"
 
 namespace st {
 namespace {
 
-/// A sharp NACA 0012 of chord 10 along z, from 0 to 30; its nose is round, at x = 0.
-struct RidgeWing {
-  Model model = test::make_model("sharp_wing");
-  FaceRoles roles = face_roles(model.tables());
-  LiftingSurface wing = find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0);
-
+struct RidgeWing : test::SharpWing {
   /// In the middle of the span.
   ChordStation& station(std::size_t i) { return wing.trailing.at(0).stations.at(10 + i); }
   /// On the side of its face.
