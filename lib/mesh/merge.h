@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/assert.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -21,42 +20,42 @@ inline std::int32_t boundary_id(VertexId n_vertices, const EdgeMesh& edges, Edge
 /// The same number of a boundary node of a patch.
 std::int32_t boundary_id_of(VertexId n_vertices, const EdgeMesh& edges, const FacePatch& p, std::int32_t boundary_node);
 
-/// Patches joined by the ids of their nodes: places and corners, and where they come from.
-struct WeldedPatches {
-  std::vector<Vec3> points;             ///< by (entity dim, entity id, index); only those that a triangle uses
-  std::vector<Triangle> triangles;      ///< by (patch, position in it)
-  std::vector<TriangleId> patch_begin;  ///< [n_patches+1] into triangles
-  std::vector<NodeId> boundary;         ///< [n_vertices + edges.node_t] node by boundary_id; kNone: no triangle uses it
-  NodeId n_boundary = 0;                ///< nodes on vertices and edges; those inside faces follow
-  std::vector<std::int32_t> inner;      ///< [points - n_boundary] node inside a face: its place in FacePatch::inner_*
-  std::vector<std::int32_t> inner_begin;  ///< [n_patches+1] into inner
+/// [n_boundary + n_inner] 1: a triangle of the patch has this node.
+std::vector<std::uint8_t> used_nodes(const FacePatch& p);
+
+/// What a patch brings to the mesh of all.
+struct PatchUse {
+  std::vector<std::int32_t> boundary;  ///< boundary ids that its triangles have
+  std::int64_t n_inner = 0;            ///< nodes inside that they have
+  std::int64_t n_triangles = 0;
 };
 
-/// Numbers the nodes of one mesh: use() of all nodes on vertices and edges that its triangles have, number_boundary(),
-/// then face by face the nodes and triangles inside. The references outlive it.
-class Welder {
- public:
-  Welder(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz);
-  void use(std::int32_t boundary_id) {
-    ST_ASSERT(boundary_id >= 0 && boundary_id < static_cast<std::int64_t>(welded_.boundary.size()));
-    welded_.boundary[boundary_id] = 0;
-  }
-  /// Makes room for so many more. Throws Error when the mesh has more than ids can count.
-  void number_boundary(std::size_t n_inner, std::size_t n_triangles);
-  NodeId boundary(std::int32_t boundary_id) const { return welded_.boundary[boundary_id]; }
-  NodeId add_point(Vec3 x) {
-    welded_.points.push_back(x);
-    return static_cast<NodeId>(welded_.points.size()) - 1;
-  }
-  void add_triangle(NodeId a, NodeId b, NodeId c) { welded_.triangles.push_back({{a, b, c}}); }
-  std::int32_t id_of(const FacePatch& p, std::int32_t boundary_node) const;
-  const WeldedPatches& welded() const { return welded_; }
-  WeldedPatches take() { return std::move(welded_); }
+/// What nodes and triangles of patches are called in the mesh of all: add() each, then number(). Nodes by (entity dim,
+/// entity id, index), only those that a triangle has; triangles by (patch, position in it).
+struct PatchNumbers {
+  PatchNumbers(const EdgeMesh& edges, std::size_t n_vertices) : boundary(n_vertices + edges.node_xyz.size(), kNone) {}
 
- private:
-  const EdgeMesh& edges_;
-  std::span<const Vec3> vertex_xyz_;
-  WeldedPatches welded_;
+  /// The next patch. Throws Error when the mesh has more than ids can count.
+  void add(const PatchUse& use);
+  void number();
+  NodeId n_boundary() const { return inner_begin.front(); }
+  NodeId n_nodes() const { return inner_begin.back(); }
+  TriangleId n_triangles() const { return triangle_begin.back(); }
+  /// Of each node of patch i; kNone: no triangle has it.
+  std::vector<NodeId> of_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i) const;
+  /// Puts the nodes on vertices and edges into their places, and what is inside patch i, with its triangles.
+  void place_boundary(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, std::vector<Vec3>& node_xyz) const;
+  void place_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i, SurfaceMesh& mesh) const;
+
+  std::vector<NodeId> boundary;                  ///< node by boundary_id; kNone: no triangle has it
+  std::vector<NodeId> inner_begin = {0};         ///< [n_patches+1] the first node inside each
+  std::vector<TriangleId> triangle_begin = {0};  ///< [n_patches+1]
+};
+
+/// Patches joined by the ids of their nodes.
+struct WeldedPatches {
+  SurfaceMesh mesh;  ///< places, triangles and the faces of these alone
+  PatchNumbers numbers;
 };
 
 /// Joins patches in the given order; those without triangles may stand among them. Throws Error(kInput) when a patch
@@ -89,16 +88,12 @@ struct OrientationReport {
 /// occurs twice. Linear time; at most 130 bytes per triangle besides the result and the input.
 SurfaceMesh merge_patches(const MergeInput& input, OrientationReport& report);
 
-/// What a mesh says of its next node.
-void describe_node(SurfaceMesh& mesh, EntityDim dim, std::int32_t entity, double t, double size);
+/// The same, but triangles stay as they are in their patches.
+SurfaceMesh weld_mesh(const MergeInput& input);
 
-/// A mesh with room for what is welded, in which its nodes on vertices and edges are described. node_previous is filled
-/// where `edges` have it. Of `input` the patches are not used.
-SurfaceMesh describe_boundary(const MergeInput& input, const WeldedPatches& welded);
-
-/// The patches that merge_patches() makes the mesh of, by face ([n_faces]); without triangles where the mesh has none.
-/// `edges`: those of the mesh.
-std::vector<FacePatch> split_patches(const SurfaceMesh& mesh, const EdgeMesh& edges, FaceId n_faces);
+/// Describes the nodes on vertices and edges of a mesh that has places alone. node_previous is filled where `edges`
+/// have it. Of `input` the patches are not used.
+void describe_boundary(const MergeInput& input, const PatchNumbers& numbers, SurfaceMesh& mesh);
 
 /// The orientation step alone: turns triangles (and their corner uv, if any) of `mesh` in place.
 OrientationReport orient_outward(SurfaceMesh& mesh);

@@ -8,7 +8,6 @@
 
 #include "base/disjoint_sets.h"
 #include "base/error.h"
-#include "base/limits.h"
 #include "base/threads.h"
 #include "mesh/adjacency.h"
 #include "mesh/orient.h"
@@ -35,12 +34,11 @@ struct InnerEdges {
 
 /// What the mesh as a whole needs of one patch.
 struct PatchFacts {
-  std::vector<std::int32_t> boundary;                           // ids that triangles use
+  PatchUse use;
   std::vector<std::pair<std::int32_t, std::int32_t>> together;  // boundary ids of one component
   std::int32_t n_own_components = 0;                            // without a node on edges
   std::vector<BoundarySide> sides;
   InnerEdges inner;
-  std::int32_t n_used_inner = 0;
   bool has_unused = false;
   double area = 0;
   Box3 box;
@@ -150,21 +148,21 @@ void find_components(const FacePatch& p, const PatchNodes& nodes, const std::vec
 PatchFacts facts_of(const MergeInput& in, FacePatch p, std::int32_t patch) {
   PatchFacts facts;
   const PatchNodes nodes(in, p);
-  std::vector<std::uint8_t> is_used(p.n_boundary + p.inner_xyz.size(), 0);
+  std::vector<std::uint8_t> is_used = used_nodes(p);
+  facts.use.n_triangles = static_cast<std::int64_t>(p.triangles.size());
   for (const Triangle& t : p.triangles) {
-    for (const NodeId n : t.n) is_used[n] = 1;
     const Vec3 a = nodes.xyz(t.n[0]);
     facts.area += 0.5 * norm(cross(nodes.xyz(t.n[1]) - a, nodes.xyz(t.n[2]) - a));
   }
   for (NodeId n = 0; n < static_cast<NodeId>(is_used.size()); ++n) {
     if (is_used[n]) facts.box.add(nodes.xyz(n));
-    if (n >= p.n_boundary) facts.n_used_inner += is_used[n];
+    if (n >= p.n_boundary) facts.use.n_inner += is_used[n];
   }
-  facts.has_unused = static_cast<std::size_t>(facts.n_used_inner) != p.inner_xyz.size();
+  facts.has_unused = static_cast<std::size_t>(facts.use.n_inner) != p.inner_xyz.size();
   const std::vector<NodeId> first = nodes.firsts();
   for (std::int32_t i = 0; i < p.n_boundary; ++i) {
     if (!is_used[i]) continue;
-    facts.boundary.push_back(nodes.id(i));
+    facts.use.boundary.push_back(nodes.id(i));
     is_used[first[i]] = 1;
   }
   for (Triangle& t : p.triangles)
@@ -194,7 +192,10 @@ void for_each_boundary_edge(std::span<const BoundarySide> sides, const Visit& vi
 class OrderFinder {
  public:
   OrderFinder(const MergeInput& input, const PatchSource& source)
-      : in_(input), source_(source), components_of_nodes_(n_boundary_ids()), welder_(input.edges, input.vertex_xyz) {}
+      : in_(input),
+        source_(source),
+        order_{{}, PatchNumbers(input.edges, input.vertex_xyz.size())},
+        components_of_nodes_(static_cast<std::int64_t>(numbers().boundary.size())) {}
 
   MergeOrder run() {
     look_at_all();
@@ -205,14 +206,10 @@ class OrderFinder {
   }
 
  private:
-  std::int64_t n_boundary_ids() const {
-    return static_cast<std::int64_t>(in_.vertex_xyz.size() + in_.edges.node_xyz.size());
-  }
+  PatchNumbers& numbers() { return order_.numbers; }
   FaceId n_faces() const { return source_.face.empty() ? 0 : source_.face.back() + 1; }
 
   void look_at_all() {
-    order_.inner_begin = {0};
-    order_.triangle_begin = {0};
     area_.assign(n_faces(), 0);
     for (std::size_t begin = 0, end = 0; begin < source_.size(); begin = end) {
       std::int64_t n = 0;
@@ -231,7 +228,7 @@ class OrderFinder {
   }
 
   void take(std::size_t patch, const PatchFacts& f) {
-    for (const std::int32_t id : f.boundary) welder_.use(id);
+    numbers().add(f.use);
     for (const auto& [a, b] : f.together) components_of_nodes_.join(a, b);
     sides_.insert(sides_.end(), f.sides.begin(), f.sides.end());
     MergedFacts& all = order_.facts;
@@ -243,24 +240,17 @@ class OrderFinder {
     order_.has_unused.push_back(f.has_unused);
     area_[source_.face[patch]] = f.area;
     box_.add(f.box);
-    n_inner_ += f.n_used_inner;
-    n_triangles_ += source_.n_triangles[patch];
-    require_countable(n_inner_ + n_boundary_ids(), "nodes of all patches");
-    require_countable(n_triangles_, "triangles of all patches", kMaxTriangles);
-    order_.inner_begin.push_back(static_cast<NodeId>(n_inner_));
-    order_.triangle_begin.push_back(static_cast<TriangleId>(n_triangles_));
   }
 
   void number() {
-    welder_.number_boundary(0, 0);
-    WeldedPatches welded = welder_.take();
-    order_.boundary = describe_boundary(in_, welded);
-    order_.boundary.node_xyz = std::move(welded.points);
-    order_.number = std::move(welded.boundary);
-    for (NodeId& n : order_.inner_begin) n += welded.n_boundary;
-    for (std::size_t id = 0; id < order_.number.size(); ++id)
+    numbers().number();
+    order_.boundary.node_xyz.resize(numbers().n_boundary());
+    numbers().place_boundary(in_.edges, in_.vertex_xyz, order_.boundary.node_xyz);
+    describe_boundary(in_, numbers(), order_.boundary);
+    const std::vector<NodeId>& number = numbers().boundary;
+    for (std::size_t id = 0; id < number.size(); ++id)
       order_.facts.n_components +=
-          order_.number[id] != kNone && components_of_nodes_.find(static_cast<std::int32_t>(id)) == std::int64_t(id);
+          number[id] != kNone && components_of_nodes_.find(static_cast<std::int32_t>(id)) == std::int64_t(id);
   }
 
   FaceId face_of(const BoundarySide& s) const { return source_.face[s.patch]; }
@@ -330,26 +320,17 @@ class OrderFinder {
 
   /// Places, triangles and their faces, as they are turned now.
   SurfaceMesh all_triangles() const {
+    const PatchNumbers& numbers = order_.numbers;
     SurfaceMesh mesh;
     mesh.node_xyz = order_.boundary.node_xyz;
-    mesh.node_xyz.reserve(order_.inner_begin.back());
-    mesh.triangles.reserve(order_.triangle_begin.back());
-    mesh.triangle_face.reserve(order_.triangle_begin.back());
+    mesh.node_xyz.resize(numbers.n_nodes());
+    mesh.triangles.resize(numbers.n_triangles());
+    mesh.triangle_face.resize(numbers.n_triangles());
     for (std::size_t i = 0; i < source_.size(); ++i) {
-      const FacePatch p = source_.shape(i);
-      const PatchNodes nodes(in_, p);
-      const std::vector<std::uint8_t> is_used = used_inner_nodes(p);
-      std::vector<NodeId> number;
-      for (std::int32_t n = 0; n < p.n_boundary; ++n) number.push_back(order_.number[nodes.id(n)]);
-      for (std::size_t n = 0; n < p.inner_xyz.size(); ++n) {
-        number.push_back(static_cast<NodeId>(mesh.node_xyz.size()));
-        if (is_used[n]) mesh.node_xyz.push_back(p.inner_xyz[n]);
-      }
-      for (const Triangle& t : p.triangles) {
-        mesh.triangles.push_back({{number[t.n[0]], number[t.n[1]], number[t.n[2]]}});
-        if (is_turned_[p.face]) std::swap(mesh.triangles.back().n[1], mesh.triangles.back().n[2]);
-      }
-      mesh.triangle_face.insert(mesh.triangle_face.end(), p.triangles.size(), p.face);
+      numbers.place_patch(in_.edges, source_.shape(i), i, mesh);
+      for (TriangleId t = numbers.triangle_begin[i]; is_turned_[source_.face[i]] && t < numbers.triangle_begin[i + 1];
+           ++t)
+        std::swap(mesh.triangles[t].n[1], mesh.triangles[t].n[2]);
     }
     return mesh;
   }
@@ -366,28 +347,18 @@ class OrderFinder {
 
   const MergeInput& in_;
   const PatchSource& source_;
-  DisjointSets components_of_nodes_;  // by boundary id
-  Welder welder_;
   MergeOrder order_;
+  DisjointSets components_of_nodes_;  // by boundary id
   std::vector<BoundarySide> sides_;
   std::vector<std::uint8_t> is_balanced_;  // [n_patches]
   std::vector<double> area_;               // [n_faces]
   Box3 box_;
-  std::int64_t n_inner_ = 0, n_triangles_ = 0;
   std::vector<FaceComponent> components_;
   std::vector<std::int32_t> face_component_;
   std::vector<std::uint8_t> is_turned_;  // [n_faces]
 };
 
 }  // namespace
-
-std::vector<std::uint8_t> used_inner_nodes(const FacePatch& shape) {
-  std::vector<std::uint8_t> is_used(shape.inner_xyz.size(), 0);
-  for (const Triangle& t : shape.triangles)
-    for (const NodeId n : t.n)
-      if (n >= shape.n_boundary) is_used[n - shape.n_boundary] = 1;
-  return is_used;
-}
 
 MergeOrder find_merge_order(const MergeInput& input, const PatchSource& source) {
   return OrderFinder(input, source).run();

@@ -28,14 +28,12 @@ struct MergedFacts {
 
 /// The mesh that merge_patches() makes, without what lies inside faces.
 struct MergeOrder {
-  SurfaceMesh boundary;                    ///< nodes on vertices and edges; no triangles, no labels
-  std::vector<NodeId> number;              ///< node by boundary_id; kNone: no triangle uses it
-  std::vector<NodeId> inner_begin;         ///< [n_patches+1] number of the first node inside
-  std::vector<TriangleId> triangle_begin;  ///< [n_patches+1]
-  std::vector<std::uint8_t> is_turned;     ///< [n_patches]
-  std::vector<std::uint8_t> has_unused;    ///< [n_patches] nodes inside that no triangle uses, and which are left out
-  OrientationReport orientation;
-  MergedFacts facts;
+  SurfaceMesh boundary;  ///< nodes on vertices and edges; no triangles, no labels
+  PatchNumbers numbers;
+  std::vector<std::uint8_t> is_turned = {};   ///< [n_patches]
+  std::vector<std::uint8_t> has_unused = {};  ///< [n_patches] nodes inside that no triangle has, and which are left out
+  OrientationReport orientation = {};
+  MergedFacts facts = {};
 };
 
 /// Of `input` the patches are not used. Reads each patch twice; a third time where parts are inside out, and then all
@@ -43,8 +41,5 @@ struct MergeOrder {
 /// of a million triangles, at 12 bytes per triangle and 28 per node; and 16 bytes for each side between two nodes on
 /// edges. Throws as merge_patches() does.
 MergeOrder find_merge_order(const MergeInput& input, const PatchSource& source);
-
-/// Which nodes inside a patch triangles use. [n_inner]
-std::vector<std::uint8_t> used_inner_nodes(const FacePatch& shape);
 
 }  // namespace st

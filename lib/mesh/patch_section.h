@@ -71,18 +71,11 @@ class SectionNumbers {
   std::vector<NodeId> foreign_;
 };
 
-/// Rows of the patch of a face.
-struct SectionRows {
-  FacePatch rows;  ///< their nodes are those of the whole patch
-  PatchPlace place;
-
-  static auto fields(auto& r) { return std::tie(r.rows, r.place); }
-};
-
-/// What section `own` is in the patch of its face: its boundary is all of that, or none. `places` [n_sections]. Linear.
-SectionRows rows_of(PatchSection&& section, std::span<const PatchPlace> places, std::size_t own);
+/// What section `own` is in the patch of its face, as rows of it: its boundary is all of that, or none. Nodes are those
+/// of the whole patch. `places` [n_sections]. Linear.
+FacePatch rows_of(PatchSection&& section, std::span<const PatchPlace> places, std::size_t own);
 
 /// The patch from the rows of all its sections, in order.
-FacePatch join_rows(std::vector<SectionRows>&& rows);
+FacePatch join_rows(std::vector<FacePatch>&& rows);
 
 }  // namespace st

@@ -41,12 +41,7 @@ void share_lengths(const Executor& executor, std::vector<CellLength>& cells) {
 SurfaceMesh joined(const ModelTables& t, const MeshResult& result) {
   std::vector<const FacePatch*> patches;
   for (const FacePatch& p : result.patches) patches.push_back(&p);
-  WeldedPatches welded = weld_patches(result.edges, t.vertex_xyz, patches);
-  SurfaceMesh mesh;
-  mesh.node_xyz = std::move(welded.points);
-  mesh.triangles = std::move(welded.triangles);
-  mesh.triangle_face.reserve(mesh.triangles.size());
-  for (const FacePatch* p : patches) mesh.triangle_face.insert(mesh.triangle_face.end(), p->triangles.size(), p->face);
+  SurfaceMesh mesh = weld_patches(result.edges, t.vertex_xyz, patches).mesh;
   orient_outward(mesh);
   return mesh;
 }

@@ -25,7 +25,8 @@ class MergedRows {
     return {n_nodes(), [this, &of_boundary, value_of](const auto& take) {
               take(of_boundary);
               for (std::size_t i = 0; i < patches_.size(); ++i)
-                repeat(value_of(patches_[i].face()), order_.inner_begin[i + 1] - order_.inner_begin[i], take);
+                repeat(value_of(patches_[i].face()), order_.numbers.inner_begin[i + 1] - order_.numbers.inner_begin[i],
+                       take);
             }};
   }
   /// Nodes on boundaries as they are, then the rows of the patches.
@@ -72,7 +73,7 @@ class MergedRows {
   template <class T, class ValueOf>
   Column<T> of_cad(const CadPlaces& cad, T none, const ValueOf& value_of) const {
     return {n_nodes(), [this, &cad, none, value_of](const auto& take) {
-              repeat(none, order_.inner_begin.front(), take);
+              repeat(none, order_.numbers.n_boundary(), take);
               for (std::size_t i = 0; i < patches_.size(); ++i)
                 take_inner<Vec2>(i, &PatchRows::inner_uv, [&](const std::vector<Vec2>& uv) {
                   std::vector<T> values;
@@ -88,8 +89,8 @@ class MergedRows {
   }
 
  private:
-  std::size_t n_nodes() const { return static_cast<std::size_t>(order_.inner_begin.back()); }
-  std::size_t n_triangles() const { return static_cast<std::size_t>(order_.triangle_begin.back()); }
+  std::size_t n_nodes() const { return static_cast<std::size_t>(order_.numbers.n_nodes()); }
+  std::size_t n_triangles() const { return static_cast<std::size_t>(order_.numbers.n_triangles()); }
 
   template <class Function>
   static void in_pieces(std::int64_t n, const Function& f) {
@@ -117,13 +118,14 @@ class MergedRows {
   void take_inner(std::size_t i, RowPlace PatchRows::*rows, const Take& take) const {
     const PatchInFile& p = patches_[i];
     const std::vector<std::uint8_t> is_used =
-        order_.has_unused[i] ? used_inner_nodes(p.file->shape(p.patch)) : std::vector<std::uint8_t>();
+        order_.has_unused[i] ? used_nodes(p.file->shape(p.patch)) : std::vector<std::uint8_t>();
+    const std::size_t first_inner = is_used.empty() ? 0 : is_used.size() - p.file->n_inner(p.patch);
     in_pieces(p.file->n_inner(p.patch), [&](std::int64_t begin, std::int64_t n) {
       std::vector<T> values = read<T>(p, rows, p.file->inner_begin(p.patch) + begin, n);
       if (!is_used.empty()) {
         std::size_t kept = 0;
         for (std::size_t k = 0; k < values.size(); ++k)
-          if (is_used[begin + k]) values[kept++] = values[k];
+          if (is_used[first_inner + begin + k]) values[kept++] = values[k];
         values.resize(kept);
       }
       take(values);
@@ -145,14 +147,7 @@ class MergedRows {
   std::vector<NodeId> numbers(std::size_t i) const {
     const PatchInFile& p = patches_[i];
     const FacePatch shape = order_.has_unused[i] ? p.file->shape(p.patch) : p.file->boundary(p.patch);
-    std::vector<NodeId> number;
-    for (std::int32_t n = 0; n < shape.n_boundary; ++n)
-      number.push_back(
-          order_.number[boundary_id_of(static_cast<VertexId>(input_.vertex_xyz.size()), input_.edges, shape, n)]);
-    NodeId next = order_.inner_begin[i];
-    if (order_.has_unused[i])
-      for (const std::uint8_t is_used : used_inner_nodes(shape)) number.push_back(is_used ? next++ : kNone);
-    return number;
+    return order_.numbers.of_patch(input_.edges, shape, i);
   }
 
   template <class Take>
@@ -160,7 +155,7 @@ class MergedRows {
     const PatchInFile& p = patches_[i];
     const std::vector<NodeId> number = numbers(i);
     const auto n_known = static_cast<NodeId>(number.size());
-    const NodeId shift = order_.inner_begin[i] - n_known;
+    const NodeId shift = order_.numbers.inner_begin[i] - n_known;
     in_pieces(p.file->n_triangles(p.patch), [&](std::int64_t begin, std::int64_t n) {
       std::vector<Triangle> triangles =
           read<Triangle>(p, &PatchRows::nodes, p.file->triangle_begin(p.patch) + begin, n);

@@ -86,8 +86,9 @@ ArtifactHeader complete(ArtifactHeader header, const ArtifactHeader& geometry) {
 /// The patches of all faces that have triangles.
 std::vector<PatchCounts> counts_of(const MeshResult& r) {
   std::vector<PatchCounts> counts;
-  for (const FacePatch& p : r.patches)
-    if (!p.triangles.empty()) counts.push_back(st::counts_of(p));
+  if (r.places.empty())
+    for (const FacePatch& p : r.patches)
+      if (!p.triangles.empty()) counts.push_back(st::counts_of(p));
   for (std::size_t f = 0; f < r.places.size(); ++f) {
     if (r.places[f].empty()) continue;
     const PatchPlace& last = r.places[f].back();
@@ -98,13 +99,12 @@ std::vector<PatchCounts> counts_of(const MeshResult& r) {
 }
 
 /// Local, on each rank: its patches into their places. What went wrong, or nothing.
-std::string write_own_patches(const PatchTarget& target, const std::vector<SectionRows>& own) {
+std::string write_own_patches(const PatchTarget& target, const MeshResult& r) {
   try {
     PatchRowsFile rows(target);
-    parallel_for(own.size(), 1, [&](std::size_t i, std::size_t) {
-      const SectionRows& some = own[i];
-      const auto patch = std::lower_bound(target.face.begin(), target.face.end(), some.rows.face);
-      rows.write(static_cast<std::size_t>(patch - target.face.begin()), some.rows, some.place);
+    parallel_for(r.patches.size(), 1, [&](std::size_t i, std::size_t) {
+      const auto patch = std::lower_bound(target.face.begin(), target.face.end(), r.patches[i].face);
+      rows.write(static_cast<std::size_t>(patch - target.face.begin()), r.patches[i], r.own_places[i]);
     });
     rows.close();
   } catch (const Error& e) {
@@ -116,7 +116,7 @@ std::string write_own_patches(const PatchTarget& target, const std::vector<Secti
 
 /// Collective. Returns the content hash on rank 0.
 std::string write_everywhere(const std::string& path, const PatchesArtifact& rest,
-                             const std::vector<PatchCounts>& counts, const std::vector<SectionRows>& rows,
+                             const std::vector<PatchCounts>& counts, const MeshResult& result,
                              const Executor& executor) {
   std::optional<PatchesWriter> writer;
   PatchTarget target;
@@ -126,7 +126,7 @@ std::string write_everywhere(const std::string& path, const PatchesArtifact& res
   }
   share(executor, target);
   executor.begin_phase("rows");  // each rank its own
-  const std::string own = write_own_patches(target, rows);
+  const std::string own = write_own_patches(target, result);
   for (const Bytes& bytes : executor.gather(Bytes(packed(own)))) {
     std::string failure;
     unpack(bytes, failure);
@@ -258,7 +258,7 @@ StageSummary write_patches_result(const std::string& path, const ModelTables& t,
   }
   const Timer write_timer;
   if (is_everywhere) {
-    written.hash = write_everywhere(path, out, counts, result.rows, executor);
+    written.hash = write_everywhere(path, out, counts, result, executor);
   } else {
     out.patches = std::move(result.patches);
     std::erase_if(out.patches, [](const FacePatch& p) { return p.triangles.empty(); });

@@ -35,7 +35,7 @@ ONCE = [
 # what, how its code looks, in which headers, how often at most, and what to use instead
 FEW = [
     ("types with triangles of their own", r"std::vector<Triangle> \w+;|std::vector<std::int32_t> corners;",
-     ("lib/mesh", "lib/meshing"), 5, "FacePatch, or FaceMesh in a Piece"),
+     ("lib/mesh", "lib/meshing"), 3, "FacePatch, or FaceMesh in a Piece"),
     ("addresses of patches", r"(?m)^struct (?:\w*Place\w* \{\n  FaceId face|FacePlace|Placed\w+|\w+Begin)\b",
      ("lib/mesh/patch", "lib/meshing/engine"), 1, "PatchPlace"),
     ("keys of nodes", r"(?m)^(?:enum class \w*Key : std::int|(?:inline )?std::int64_t \w+_key\()", ("lib/",), 1,

@@ -42,15 +42,16 @@ struct Grid {
   }
   void add(const FailedFace& f) {
     const std::int64_t first = static_cast<std::int64_t>(points.size());
-    for (std::size_t i = 0; i < f.xyz.size(); ++i) add_point(f.xyz[i], f.uv[i], f.size[i]);
+    const FacePatch& p = f.patch;
+    for (std::size_t i = 0; i < p.inner_xyz.size(); ++i) add_point(p.inner_xyz[i], p.inner_uv[i], p.inner_size[i]);
     for (std::size_t s = 0; s < f.segment_loop.size(); ++s)
-      add_cell(kVtkLine, {first + f.segment_nodes[2 * s], first + f.segment_nodes[2 * s + 1]}, f.face,
+      add_cell(kVtkLine, {first + f.segment_nodes[2 * s], first + f.segment_nodes[2 * s + 1]}, p.face,
                f.segment_loop[s], f.segment_edge[s]);
-    for (const Triangle& t : f.triangles)
-      add_cell(kVtkTriangle, {first + t.n[0], first + t.n[1], first + t.n[2]}, f.face, kNone, kNone);
+    for (const Triangle& t : p.triangles)
+      add_cell(kVtkTriangle, {first + t.n[0], first + t.n[1], first + t.n[2]}, p.face, kNone, kNone);
     for (const Vec3 x : f.places) {
       add_point(x, {0, 0}, 0);
-      add_cell(kVtkVertex, {static_cast<std::int64_t>(points.size()) - 1}, f.face, kNone, kNone);
+      add_cell(kVtkVertex, {static_cast<std::int64_t>(points.size()) - 1}, p.face, kNone, kNone);
     }
   }
 };

@@ -330,21 +330,21 @@ std::vector<FaceId> CrossingSearch::move_touching_apart(const BoundaryNumbering&
     place[f] = welded.size();
     welded.push_back(&patch);
   }
-  WeldedPatches m = weld_patches(numbering.edges, numbering.tables.vertex_xyz, welded);
+  auto [mesh, numbers] = weld_patches(numbering.edges, numbering.tables.vertex_xyz, welded);
   std::vector<TouchingPair> touching;
   for (const FacetPair& p : pairs_) {
-    const Triangle &a = m.triangles[m.patch_begin[place.at(p.a.face)] + p.a.index],
-                   &b = m.triangles[m.patch_begin[place.at(p.b.face)] + p.b.index];
+    const Triangle &a = mesh.triangles[numbers.triangle_begin[place.at(p.a.face)] + p.a.index],
+                   &b = mesh.triangles[numbers.triangle_begin[place.at(p.b.face)] + p.b.index];
     if (std::none_of(std::begin(a.n), std::end(a.n), [&](NodeId n) { return std::ranges::count(b.n, n) > 0; }))
       touching.push_back({a, b, meeting_distance(model_.tables(), p.a.face, p.b.face)});
   }
   std::vector<FaceId> changed;
-  if (!st::move_touching_apart(touching, m.n_boundary, m.points)) return changed;
+  if (!st::move_touching_apart(touching, numbers.n_boundary(), mesh.node_xyz)) return changed;
   for (auto& [f, patch] : patches) {
     const std::vector<Vec3> before = patch.inner_xyz;
-    const std::size_t at = place[f];
-    for (std::int32_t i = m.inner_begin[at]; i < m.inner_begin[at + 1]; ++i)
-      patch.inner_xyz[m.inner[i]] = m.points[m.n_boundary + i];
+    const std::vector<NodeId> number = numbers.of_patch(numbering.edges, patch, place[f]);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      if (const NodeId n = number[patch.n_boundary + i]; n != kNone) patch.inner_xyz[i] = mesh.node_xyz[n];
     if (patch.inner_xyz != before) changed.push_back(f);
   }
   return changed;

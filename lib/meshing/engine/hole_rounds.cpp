@@ -26,9 +26,7 @@ constexpr int kGrowth[] = {2, 6};  // layers by which a hole grows when it canno
 }  // namespace
 
 std::vector<FacePatch> HoleRounds::all_patches() const {
-  const FaceId n_faces = model_.tables().n_faces();
-  if (failed_faces_.empty()) return split_patches(result_.mesh, update_.edges, n_faces);
-  return split_patches(insert_fills(*numbering_, holes_.marks(), fills_, failed_faces_), update_.edges, n_faces);
+  return insert_fills(*numbering_, holes_.marks(), fills_, failed_faces_);
 }
 
 void HoleRounds::mesh_edges() {
@@ -96,9 +94,9 @@ std::vector<HoleRim> HoleRounds::find_rims(const std::vector<FaceId>& faces) con
 }
 
 /// Without triangles where it cannot be filled, or where earlier runs ended at its face.
-FaceMesh HoleRounds::fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const {
+Piece HoleRounds::fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const {
   const CurrentWork at_face("face", rim.face + 1);
-  FaceMesh fill;
+  Piece fill;
   if (options_.left_out.contains(rim.face)) return fill;
   try {
     const RefinedField field(field_, refinements_.near(model_.tables().face_box[rim.face]));
@@ -110,8 +108,7 @@ FaceMesh HoleRounds::fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) co
   } catch (const Error&) {  // no triangles: the hole grows
   }
   int hint = 0;
-  for (FaceNode& n : fill.inner)
-    if (n.id == kNone) n.h = field_.size(n.x, hint);
+  for (FaceNode& n : fill.mesh.inner) n.h = field_.size(n.x, hint);
   return fill;
 }
 
@@ -171,7 +168,7 @@ Regions HoleRounds::holes_as_regions(const std::vector<HoleRim>& rims) const {
 }
 
 /// From the tiles.
-FaceMesh HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const {
+Piece HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const {
   return fill_hole(rim, [&](const Surface& surface, const FaceBoundary& boundary, const SizeField&) {
     Piece seams = tiled.seams(surface, number, boundary, executor_);
     if (seams.mesh.n_folds > 0) return std::move(seams.mesh);  // it will not do
@@ -183,13 +180,13 @@ FaceMesh HoleRounds::fill_tiled(const HoleRim& rim, std::int32_t number, TiledRe
 /// ascending.
 std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
   const std::vector<double> expected = expected_triangles(rims);
-  std::vector<FaceMesh> fills(rims.size());
+  std::vector<Piece> fills(rims.size());
   const MakeMesh make = [&](const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
     return mesh_face(surface, boundary, field, options_.of_face());
   };
   const auto take = [&](std::int32_t i, Bytes&& result) {
     unpack(result, fills[i]);
-    return !fills[i].corners.empty();
+    return !fills[i].mesh.corners.empty();
   };
   std::vector<std::int32_t> all(rims.size());
   std::iota(all.begin(), all.end(), 0);
@@ -208,7 +205,8 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
       .run(all);
   std::vector<std::int32_t> failed;
   for (std::size_t i = 0; executor_.is_root() && i < rims.size(); ++i) {
-    if (fills[i].corners.empty() || !add_image(rims[i].face, fills[i])) failed.push_back(static_cast<std::int32_t>(i));
+    if (fills[i].mesh.corners.empty() || !add_image(rims[i].face, fills[i]))
+      failed.push_back(static_cast<std::int32_t>(i));
     fills_[rims[i].face].push_back(std::move(fills[i]));
   }
   share(executor_, failed);
@@ -216,11 +214,11 @@ std::vector<std::int32_t> HoleRounds::fill(const std::vector<HoleRim>& rims) {
 }
 
 /// Local, on rank 0. Whether the face's partner, if it has one, has the image of what fills the whole face.
-bool HoleRounds::add_image(FaceId face, const FaceMesh& fill) {
+bool HoleRounds::add_image(FaceId face, const Piece& fill) {
   const FaceId partner = paired_.partner_of(face);
   if (partner == kNone) return true;
   fills_[partner].assign(1, paired_.image(face, fill, *numbering_));
-  return !fills_[partner][0].corners.empty();
+  return !fills_[partner][0].mesh.corners.empty();
 }
 
 /// What was kept and what is new as one mesh.
@@ -229,7 +227,7 @@ void HoleRounds::join() {
   if (!failed_faces_.empty() || !executor_.is_root()) return;
   renew_surrounded_nodes();
   result_.edges = update_.edges;
-  result_.mesh = insert_fills(*numbering_, holes_.marks(), fills_);
+  result_.mesh = weld_filled(*numbering_, all_patches());
 }
 
 /// Nodes that stay although all their triangles are new were asked for by the new sizes as well.

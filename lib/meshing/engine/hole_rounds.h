@@ -49,10 +49,10 @@ class HoleRounds : public MeshRounds {
   double expected_triangles(const HoleRim& rim) const;
   std::vector<double> expected_triangles(const std::vector<HoleRim>& rims) const;
   Regions holes_as_regions(const std::vector<HoleRim>& rims) const;
-  FaceMesh fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const;
+  Piece fill_tiled(const HoleRim& rim, std::int32_t number, TiledRegions& tiled) const;
   std::string made_from(const std::vector<HoleRim>& rims) const;
-  FaceMesh fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const;
-  bool add_image(FaceId face, const FaceMesh& fill);
+  Piece fill_hole(const HoleRim& rim, const MakeMesh& make_mesh) const;
+  bool add_image(FaceId face, const Piece& fill);
   void grow(const HoleRim& rim, std::size_t step);
   void renew_surrounded_nodes();
 
@@ -62,8 +62,8 @@ class HoleRounds : public MeshRounds {
   MeshOptions options_;
   PairedHoles paired_;
   EdgeUpdate update_;
-  std::optional<HoleNumbering> numbering_;    // of update_
-  std::vector<std::vector<FaceMesh>> fills_;  // [n_faces] on rank 0: of its holes; none: as it was, or failed
+  std::optional<HoleNumbering> numbering_;  // of update_
+  std::vector<std::vector<Piece>> fills_;   // [n_faces] on rank 0: of its holes; none: as it was, or failed
   std::vector<FaceId> failed_faces_;
   std::vector<TriangleId> crossing_;  // triangles of the old mesh that cross new ones, of the last search
 };

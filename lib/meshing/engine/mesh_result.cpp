@@ -21,9 +21,8 @@ void store_requests(const SizeField& field, MeshResult& r) {
   if (r.edges.node_request.empty()) r.edges.node_request = r.edges.node_size;
   renew(field, r.edges.node_xyz, r.edges.node_previous, r.edges.node_request);
   if (r.edges.node_request == r.edges.node_size) r.edges.node_request.clear();
-  const std::size_t n = r.patches.size();
-  parallel_for(n + r.rows.size(), 1, [&](std::size_t i, std::size_t) {
-    FacePatch& p = i < n ? r.patches[i] : r.rows[i - n].rows;
+  parallel_for(r.patches.size(), 1, [&](std::size_t i, std::size_t) {
+    FacePatch& p = r.patches[i];
     renew(field, p.inner_xyz, p.inner_previous, p.inner_size);
   });
 }

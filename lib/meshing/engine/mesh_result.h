@@ -53,12 +53,12 @@ struct MeshTimes {
 /// rank.
 struct MeshResult {
   EdgeMesh edges;
-  std::vector<FacePatch> patches;     ///< by face; without triangles where the face failed. Or, where they stay where
-                                      ///< they were made:
-  std::vector<SectionRows> rows;      ///< those of this rank
-  std::vector<FacePlace> places;      ///< by face
-  SurfaceMesh mesh;                   ///< the whole, where holes of one were filled and it was asked for
-  std::vector<FaceFailure> failures;  ///< by face
+  std::vector<FacePatch> patches;      ///< by face; without triangles where the face failed. Or, where they stay where
+                                       ///< they were made, the rows of the sections of this rank
+  std::vector<PatchPlace> own_places;  ///< then: of each of these
+  std::vector<FacePlace> places;       ///< then: of all, by face
+  SurfaceMesh mesh;                    ///< the whole, where holes of one were filled and it was asked for
+  std::vector<FaceFailure> failures;   ///< by face
   std::vector<FailedFace> failed_faces;  ///< likewise: boundary and partial state of each
   std::vector<RefinementPoint> folds;    ///< places where a triangle is still turned against the surface
   std::vector<FaceId> bad_faces;  ///< that failed, or have a triangle that is folded or crosses another; ascending

@@ -160,7 +160,7 @@ void MeshedFaces::report(MeshResult& result) const {
 
 /// Local: a patch that is all here, which is not kept any more.
 FacePatch MeshedFaces::take_whole(FaceId f) {
-  std::vector<SectionRows> rows;
+  std::vector<FacePatch> rows;
   for (std::size_t s = 0; s < places_[f].size(); ++s)
     if (places_[f][s].is_there()) rows.push_back(store_.take(places_[f], s));
   return join_rows(std::move(rows));
@@ -186,17 +186,14 @@ void MeshedFaces::hand_over(PatchesGo patches, MeshResult& result) {
   share(executor_, places_);
   report(result);
   if (patches == PatchesGo::kToRoot) return hand_to_root(result);
-  struct OwnSection {
-    FaceId face;
-    std::size_t number;
-  };
-  std::vector<OwnSection> own;
-  for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    for (std::size_t s = 0; s < places_[f].size(); ++s)
-      if (store_.is_own(places_[f][s])) own.push_back({f, s});
-  result.rows.resize(own.size());
-  parallel_for(own.size(), 1,
-               [&](std::size_t i, std::size_t) { result.rows[i] = store_.take(places_[own[i].face], own[i].number); });
+  for (const FacePlace& sections : places_)
+    for (const PatchPlace& section : sections)
+      if (store_.is_own(section)) result.own_places.push_back(section);
+  result.patches.resize(result.own_places.size());
+  parallel_for(result.patches.size(), 1, [&](std::size_t i, std::size_t) {
+    const PatchPlace& own = result.own_places[i];
+    result.patches[i] = store_.take(places_[own.face], static_cast<std::size_t>(own.section));
+  });
   result.places = places_;
 }
 

@@ -99,7 +99,6 @@ class ImageMaker {
   }
 
   void add_failures() {
-    const auto by_face = [](const auto& a, const auto& b) { return a.face < b.face; };
     for (std::size_t i = 0, n = result_.failures.size(); i < n; ++i) {
       FaceFailure f = result_.failures[i];
       if (mirror_.face[f.face] == f.face) continue;
@@ -109,15 +108,16 @@ class ImageMaker {
     }
     for (std::size_t i = 0, n = result_.failed_faces.size(); i < n; ++i) {
       FailedFace f = result_.failed_faces[i];
-      if (mirror_.face[f.face] == f.face) continue;
-      f.face = mirror_.face[f.face];
-      for (std::vector<Vec3>* points : {&f.xyz, &f.places})
+      FaceId& face = f.patch.face;
+      if (mirror_.face[face] == face) continue;
+      face = mirror_.face[face];
+      for (std::vector<Vec3>* points : {&f.patch.inner_xyz, &f.places})
         for (Vec3& x : *points) x = mirror_.image_of(x);
       for (EdgeId& e : f.segment_edge) e = mirror_.edge[e];
       result_.failed_faces.push_back(std::move(f));
     }
-    std::stable_sort(result_.failures.begin(), result_.failures.end(), by_face);
-    std::stable_sort(result_.failed_faces.begin(), result_.failed_faces.end(), by_face);
+    std::ranges::stable_sort(result_.failures, {}, &FaceFailure::face);
+    std::ranges::stable_sort(result_.failed_faces, {}, &FailedFace::face);
     for (std::size_t i = 0, n = result_.folds.size(); i < n; ++i) {
       result_.folds.push_back(result_.folds[i]);
       result_.folds.back().x = mirror_.image_of(result_.folds[i].x);

@@ -91,44 +91,44 @@ FaceId PairedHoles::partner_of(FaceId face) const {
   return pair ? pairs_.pairs()[*pair].b : kNone;
 }
 
-FaceMesh PairedHoles::image(FaceId face, const FaceMesh& fill, const HoleNumbering& numbering) const {
+Piece PairedHoles::image(FaceId face, const Piece& fill, const HoleNumbering& numbering) const {
   FaceBoundary boundary;
-  FaceMesh mesh;
-  for (const FaceNode& n : fill.inner) (n.id == kNone ? mesh.inner : boundary.nodes).push_back(n);
-  mesh.corners = fill.corners;
+  boundary.nodes = fill.boundary;
+  FaceMesh mesh = fill.mesh;
   for (std::size_t i = 0; old_.face_is_turned[face] && i < mesh.corners.size(); i += 3)
     std::swap(mesh.corners[i + 1], mesh.corners[i + 2]);
   const PairImage image =
       image_on_pair(model_, pairs_, *pair_of(face), make_patch(old_.tables, face, boundary, mesh, numbering.boundary),
                     numbering.boundary);
-  return image.error.empty() ? as_fill(image.patch, numbering) : FaceMesh();
+  return image.error.empty() ? as_fill(image.patch, numbering) : Piece();
 }
 
 /// Boundary nodes by their (u,v), of which one on a seam has two. They have a place by their id alone.
-FaceMesh PairedHoles::as_fill(const FacePatch& patch, const HoleNumbering& numbering) const {
-  FaceMesh fill;
+Piece PairedHoles::as_fill(const FacePatch& patch, const HoleNumbering& numbering) const {
+  Piece fill;
   std::map<std::tuple<NodeId, double, double>, std::int32_t> known;
   std::vector<std::int32_t> number(3 * patch.triangles.size(), kNone);
   for (std::size_t i = 0; i < patch.uv_corner.size(); ++i) {
     const std::int32_t corner = patch.uv_corner[i];
     const NodeId n = patch.triangles[corner / 3].n[corner % 3];
     const Vec2 uv = patch.own_uv[i];
-    const auto [it, is_new] = known.emplace(std::tuple(n, uv.x, uv.y), static_cast<std::int32_t>(fill.inner.size()));
+    const auto [it, is_new] = known.emplace(std::tuple(n, uv.x, uv.y), static_cast<std::int32_t>(fill.boundary.size()));
     number[corner] = it->second;
     if (is_new)
-      fill.inner.push_back(
+      fill.boundary.push_back(
           {uv, {}, 0, boundary_id_of(old_.tables.n_vertices(), numbering.update.edges, patch, n), false});
   }
-  const auto shift = static_cast<std::int32_t>(fill.inner.size()) - patch.n_boundary;
+  const auto shift = static_cast<std::int32_t>(fill.boundary.size()) - patch.n_boundary;
   for (std::size_t i = 0; i < patch.inner_xyz.size(); ++i)
-    fill.inner.push_back({patch.inner_uv[i], patch.inner_xyz[i], patch.inner_size[i], kNone, false});
+    fill.mesh.inner.push_back({patch.inner_uv[i], patch.inner_xyz[i], patch.inner_size[i], kNone, false});
   // a patch's triangles look out of the solid, those of a fill as the mesh before
   const bool turns = (old_.tables.face_is_reversed[patch.face] != 0) != (old_.face_is_turned[patch.face] != 0);
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     const auto node = [&](std::size_t k) {
       return number[3 * t + k] == kNone ? patch.triangles[t].n[k] + shift : number[3 * t + k];
     };
-    for (const std::size_t k : turns ? std::array{0u, 2u, 1u} : std::array{0u, 1u, 2u}) fill.corners.push_back(node(k));
+    for (const std::size_t k : turns ? std::array{0u, 2u, 1u} : std::array{0u, 1u, 2u})
+      fill.mesh.corners.push_back(node(k));
   }
   return fill;
 }

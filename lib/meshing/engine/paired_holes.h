@@ -28,7 +28,7 @@ class PairedHoles {
   /// The partner that has the image of a face; kNone: none.
   FaceId partner_of(FaceId face) const;
   /// Of what fills a whole face, on its partner; without triangles where that has no such mesh. Local.
-  FaceMesh image(FaceId face, const FaceMesh& fill, const HoleNumbering& numbering) const;
+  Piece image(FaceId face, const Piece& fill, const HoleNumbering& numbering) const;
   /// `keep_edge` ([n_edges], or empty: none), and the edges of all pairs.
   std::vector<char> with_edges_of_pairs(std::vector<char> keep_edge) const;
 
@@ -36,7 +36,7 @@ class PairedHoles {
   std::optional<std::size_t> pair_of(FaceId face) const;
   EdgeMesh image_of_run(const SegmentRun& run, const std::vector<SegmentRun>& runs, const EdgeMesh& nodes,
                         const std::vector<std::int32_t>& place) const;
-  FaceMesh as_fill(const FacePatch& patch, const HoleNumbering& numbering) const;
+  Piece as_fill(const FacePatch& patch, const HoleNumbering& numbering) const;
 
   const Model& model_;
   const HoleMesh& old_;

@@ -49,7 +49,7 @@ std::shared_ptr<const PatchSection> PatchStore::get(const PatchPlace& place) con
   return patches_.at(key(place));
 }
 
-SectionRows PatchStore::take(const FacePlace& place, std::size_t number) {
+FacePatch PatchStore::take(const FacePlace& place, std::size_t number) {
   std::unique_lock lock(mutex_);
   auto node = patches_.extract(key(place[number]));
   lock.unlock();
@@ -81,7 +81,7 @@ std::vector<FacePatch> PatchStore::bring(std::vector<FacePlace> wanted) const {
   tasks.order.resize(sections.size());
   std::iota(tasks.order.begin(), tasks.order.end(), 0);
   tasks.label = [&](std::int32_t task) { return TaskLabel{"bring", wanted[sections[task].face].back().face}; };
-  std::vector<std::vector<SectionRows>> rows(wanted.size());  // of sections by number
+  std::vector<std::vector<FacePatch>> rows(wanted.size());  // of sections by number
   for (std::size_t i = 0; i < wanted.size(); ++i) rows[i].resize(wanted[i].size());
   executor_.run_named_tasks(
       tasks,

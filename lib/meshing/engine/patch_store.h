@@ -38,7 +38,7 @@ class PatchStore {
   /// Precondition: it is kept here.
   std::shared_ptr<const PatchSection> get(const PatchPlace& place) const;
   /// Takes what is not kept any more: section `number` of the patch that is there.
-  SectionRows take(const FacePlace& place, std::size_t number);
+  FacePatch take(const FacePlace& place, std::size_t number);
   /// Drops all others. `live`: of other ranks, too.
   void keep_only(const std::vector<PatchPlace>& live);
 

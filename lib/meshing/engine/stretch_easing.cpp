@@ -68,20 +68,16 @@ StretchFlaws StretchEasing::find_flaws(int n_tries) const {
   if (!executor_.is_root()) return {};
   std::vector<const FacePatch*> of_faces;
   for (const auto& [f, patch] : patches) of_faces.push_back(&patch);
-  const WeldedPatches welded = weld_patches(faces_.edges(), tables_.vertex_xyz, of_faces);
+  const SurfaceMesh mesh = weld_patches(faces_.edges(), tables_.vertex_xyz, of_faces).mesh;
   const RefinedField present(field_, refinements_.all());
-  StretchFlaws flaws = find_stretch_flaws(welded.points, welded.triangles, present, n_tries);
-  if (find_unheld_) add_unheld(patches, welded, present, n_tries, flaws);
+  StretchFlaws flaws = find_stretch_flaws(mesh.node_xyz, mesh.triangles, present, n_tries);
+  if (find_unheld_) add_unheld(mesh, present, n_tries, flaws);
   return flaws;
 }
 
 /// Places that are not stretched count, too: what is not held there is not for stretch.
-void StretchEasing::add_unheld(const Patches& patches, const WeldedPatches& welded, const SizeField& present,
-                               int n_tries, StretchFlaws& flaws) const {
-  SurfaceMesh mesh;
-  mesh.node_xyz = welded.points;
-  mesh.triangles = welded.triangles;
-  for (const auto& [f, patch] : patches) mesh.triangle_face.insert(mesh.triangle_face.end(), patch.triangles.size(), f);
+void StretchEasing::add_unheld(const SurfaceMesh& mesh, const SizeField& present, int n_tries,
+                               StretchFlaws& flaws) const {
   int hint = 0;
   for (const RefinementPoint& place : find_unheld_(mesh)) {
     ++flaws.n_unheld;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <type_traits>
 #include <utility>
 
 #include "base/error.h"
@@ -44,7 +43,7 @@ void TiledRegions::share_cuts(const Executor& executor) {
     const std::int32_t region = chosen_[i];
     TileGroups groups(chosen_cuts_[i]);
     const std::int32_t n_tiles = groups.n_tiles();
-    std::vector<SplitMesh> meshes(static_cast<std::size_t>(n_tiles + groups.n_groups()));
+    std::vector<SplitPiece> meshes(static_cast<std::size_t>(n_tiles + groups.n_groups()));
     regions_cut_.emplace(region, RegionCut{std::move(chosen_cuts_[i]), std::move(groups), std::move(meshes),
                                            static_cast<std::int32_t>(sections_.size())});
     for (std::int32_t t = 0; t < n_tiles; ++t) sections_.push_back({region, t});
@@ -69,7 +68,7 @@ Bytes TiledRegions::compute(std::int32_t tile, int rank) {
   const FaceId f = regions_.face(region);
   const CurrentWork at_face("face", f + 1, limit_);
   const TileCut& cut = regions_cut_.at(region).cut;
-  SplitMesh& split = mesh_of(sections_[tile]);
+  SplitPiece& split = mesh_of(sections_[tile]);
   try {
     const auto surface = model_.surface(f);
     const FaceBoundary whole = regions_.boundary(region, *surface);
@@ -117,9 +116,9 @@ void TiledRegions::mesh_group(std::int32_t section, const Executor& executor) {
   const FaceId f = regions_.face(region);
   const TileCut& cut = regions_cut_.at(region).cut;
   const TileGroups& groups = regions_cut_.at(region).groups;
-  SplitMesh& split = mesh_of(sections_[section]);
+  SplitPiece& split = mesh_of(sections_[section]);
   const std::int32_t group = index - groups.n_tiles();
-  std::vector<Piece> bands = gather<Piece>(region, groups.members(group), executor);
+  std::vector<Piece> bands = gather(region, groups.members(group), true, executor);
   const CurrentWork at_face("face", f + 1, limit_);
   try {
     const auto surface = model_.surface(f);
@@ -142,31 +141,27 @@ struct SectionRequest {
 
 }  // namespace
 
-/// Moves the band out of the section, or all of it.
-template <class Part>
-Part TiledRegions::take_part(const Section& section) {
-  SplitMesh& mesh = mesh_of(section);
+/// Moves the band out of the section, or what it keeps; nothing wants the band then.
+Piece TiledRegions::take_part(const Section& section, bool wants_band) {
+  SplitPiece& mesh = mesh_of(section);
   Piece band = std::exchange(mesh.band, {});
-  if constexpr (std::is_same_v<Part, Piece>)
-    return band;
-  else
-    return std::exchange(mesh, {});
+  if (wants_band) return band;
+  return std::exchange(mesh.rest, {});
 }
 
 /// Of these sections [first, end) of the region, whoever has them: they are gone there.
-template <class Part>
-std::vector<Part> TiledRegions::gather(std::int32_t region, const std::array<std::int32_t, 2>& members,
-                                       const Executor& executor) {
-  std::vector<Part> parts;
+std::vector<Piece> TiledRegions::gather(std::int32_t region, const std::array<std::int32_t, 2>& members,
+                                        bool wants_bands, const Executor& executor) {
+  std::vector<Piece> parts;
   std::vector<Request> requests;
   std::vector<std::size_t> missing;
   for (std::int32_t index = members[0]; index < members[1]; ++index) {
     parts.emplace_back();
     if (const int rank = rank_of(number_of(region, index)); rank != executor.rank()) {
-      requests.push_back({rank, packed(SectionRequest{{region, index}, std::is_same_v<Part, Piece>})});
+      requests.push_back({rank, packed(SectionRequest{{region, index}, wants_bands})});
       missing.push_back(parts.size() - 1);
     } else {
-      parts.back() = take_part<Part>({region, index});
+      parts.back() = take_part({region, index}, wants_bands);
       executor.has_own(PackedSize::of(parts.back()));
     }
   }
@@ -192,10 +187,8 @@ std::int32_t TiledRegions::number_of(std::int32_t region, std::int32_t index) co
 Bytes TiledRegions::answer(const Bytes& request) {
   SectionRequest asked{};
   unpack(request, asked);
-  return asked.wants_band ? packed(take_part<Piece>(asked.section)) : packed(take_part<SplitMesh>(asked.section));
+  return packed(take_part(asked.section, asked.wants_band));
 }
-
-SplitMesh TiledRegions::take(std::int32_t section) { return take_part<SplitMesh>(sections_[section]); }
 
 Piece TiledRegions::seams(const Surface& surface, std::int32_t region, const FaceBoundary& boundary,
                           const Executor& executor) {
@@ -205,13 +198,13 @@ Piece TiledRegions::seams(const Surface& surface, std::int32_t region, const Fac
   const TileGroups& groups = parts.groups;
   const FaceField field = field_of(f);
   return SeamMaker{surface, make_surface, boundary, parts.cut, groups, field.get(), options_}.of_face(
-      gather<Piece>(region, groups.members_of_face(), executor));
+      gather(region, groups.members_of_face(), true, executor));
 }
 
 FaceMesh TiledRegions::join(std::int32_t region, const FaceBoundary& boundary, Piece seams, const Executor& executor) {
   if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);
   return join_sections(static_cast<std::int32_t>(boundary.nodes.size()),
-                       gather<SplitMesh>(region, {0, n_sections_of(region)}, executor), std::move(seams));
+                       gather(region, {0, n_sections_of(region)}, false, executor), std::move(seams));
 }
 
 }  // namespace st

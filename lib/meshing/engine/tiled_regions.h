@@ -113,18 +113,17 @@ class TiledRegions {
   /// Local: of a section, for a rank that asks for it.
   Bytes answer(const Bytes& request);
   /// Local, on its rank: what is left of it without the band.
-  SplitMesh take(std::int32_t section);
+  Piece take(std::int32_t section) { return take_part(sections_[section], false); }
   /// Local: nothing is wanted of them any more.
   void drop_sections() {
     for (auto& [region, parts] : regions_cut_) parts.meshes.clear();
   }
 
  private:
-  template <class Part>
-  std::vector<Part> gather(std::int32_t region, const std::array<std::int32_t, 2>& members, const Executor& executor);
-  template <class Part>
-  Part take_part(const Section& section);
-  SplitMesh& mesh_of(const Section& s) { return regions_cut_.at(s.region).meshes[s.index]; }
+  std::vector<Piece> gather(std::int32_t region, const std::array<std::int32_t, 2>& members, bool wants_bands,
+                            const Executor& executor);
+  Piece take_part(const Section& section, bool wants_band);
+  SplitPiece& mesh_of(const Section& s) { return regions_cut_.at(s.region).meshes[s.index]; }
   std::int32_t number_of(std::int32_t region, std::int32_t index) const;
   void mesh_group(std::int32_t section, const Executor& executor);
   TileCut cut_of(std::int32_t region) const;
@@ -145,7 +144,7 @@ class TiledRegions {
   struct RegionCut {
     TileCut cut;
     TileGroups groups;
-    std::vector<SplitMesh> meshes;                 // of its sections: those that are here
+    std::vector<SplitPiece> meshes;                // of its sections: those that are here
     std::int32_t first_tile = 0, first_group = 0;  // numbers of its sections among all
   };
   std::map<std::int32_t, RegionCut> regions_cut_;

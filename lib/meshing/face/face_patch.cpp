@@ -89,17 +89,17 @@ bool has_numbers_only(const FacePatch& patch) {
   return sum == 0;
 }
 
-PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, SplitMesh&& split,
+PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, Piece&& piece,
                           const BoundaryNumbering& numbering) {
   FaceBoundary boundary;
-  boundary.nodes = std::move(split.boundary);
+  boundary.nodes = std::move(piece.boundary);
   PatchSection section;
-  section.patch = make_patch(t, face, boundary, split.rest.mesh, numbering);
-  section.boundary_number = std::move(split.boundary_number);
+  section.patch = make_patch(t, face, boundary, piece.mesh, numbering);
+  section.boundary_number = std::move(piece.boundary_number);
   section.is_whole_boundary = false;
-  for (const std::int32_t i : split.shared) section.shared_key.push_back(inner_key(number, i));
-  section.shared = std::move(split.shared);
-  set_owners(split.rest.owner, section);
+  for (const std::int32_t i : piece.shared) section.shared_key.push_back(inner_key(number, i));
+  section.shared = std::move(piece.shared);
+  set_owners(piece.owner, section);
   return section;
 }
 

@@ -21,8 +21,8 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
 /// none where the loops of a face are known in space alone.
 bool has_numbers_only(const FacePatch& patch);
 
-/// What is left of a tile or group likewise, as the section of this number.
-PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, SplitMesh&& split,
+/// A section likewise, of this number.
+PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, Piece&& piece,
                           const BoundaryNumbering& numbering);
 
 /// The nodes of other sections, which are the last inner ones.

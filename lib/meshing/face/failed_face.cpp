@@ -35,13 +35,15 @@ LoopEdge edge_of(const BoundaryNumbering& numbering, const std::vector<LoopEdge>
   return found == edges.end() ? LoopEdge{kNone, 0} : *found;
 }
 
+void add_node(const FaceNode& n, FacePatch& patch) {
+  patch.inner_xyz.push_back(n.x);
+  patch.inner_uv.push_back(n.uv);
+  patch.inner_size.push_back(n.h);
+}
+
 void add_boundary(const BoundaryNumbering& numbering, const FaceBoundary& boundary, FailedFace& f) {
-  const std::vector<LoopEdge> edges = loop_edges(numbering.tables, f.face);
-  for (const FaceNode& n : boundary.nodes) {
-    f.xyz.push_back(n.x);
-    f.uv.push_back(n.uv);
-    f.size.push_back(n.h);
-  }
+  const std::vector<LoopEdge> edges = loop_edges(numbering.tables, f.face());
+  for (const FaceNode& n : boundary.nodes) add_node(n, f.patch);
   for (const auto& [a, b] : boundary.segments) {
     const LoopEdge e = edge_of(numbering, edges, boundary.nodes[a].id, boundary.nodes[b].id);
     f.segment_nodes.insert(f.segment_nodes.end(), {a, b});
@@ -50,15 +52,11 @@ void add_boundary(const BoundaryNumbering& numbering, const FaceBoundary& bounda
   }
 }
 
-void add_triangles(const FaceMesh& mesh, FailedFace& f) {
-  for (const FaceNode& n : mesh.inner) {
-    f.xyz.push_back(n.x);
-    f.uv.push_back(n.uv);
-    f.size.push_back(n.h);
-  }
-  for (std::size_t i = 0; i + 2 < mesh.corners.size() && f.triangles.size() < kMaxTriangles; i += 3) {
+void add_triangles(const FaceMesh& mesh, FacePatch& patch) {
+  for (const FaceNode& n : mesh.inner) add_node(n, patch);
+  for (std::size_t i = 0; i + 2 < mesh.corners.size() && patch.triangles.size() < kMaxTriangles; i += 3) {
     const std::int32_t* c = &mesh.corners[i];
-    if (c[0] != kNone && c[1] != kNone && c[2] != kNone) f.triangles.push_back({{c[0], c[1], c[2]}});
+    if (c[0] != kNone && c[1] != kNone && c[2] != kNone) patch.triangles.push_back({{c[0], c[1], c[2]}});
   }
 }
 
@@ -67,10 +65,10 @@ void add_triangles(const FaceMesh& mesh, FailedFace& f) {
 FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, const FaceBoundary& boundary,
                             const FaceMesh& mesh) {
   FailedFace f;
-  f.face = face;
+  f.patch.face = face;
   const bool has_uv = !boundary.nodes.empty();
   add_boundary(numbering, has_uv ? boundary : make_boundary_in_space(face, numbering), f);
-  if (has_uv) add_triangles(mesh, f);
+  if (has_uv) add_triangles(mesh, f.patch);
   for (const RefinementPoint& p : mesh.refinement) f.places.push_back(p.x);
   return f;
 }

@@ -33,7 +33,7 @@ class SectionSplitter {
         n_boundary_(size_of(places_)),
         whole_(std::move(whole)) {}
 
-  SplitMesh run() {
+  SplitPiece run() {
     Piece& band = split_.band;
     band.mesh.cause = whole_.mesh.cause;
     band.mesh.refinement = std::move(whole_.mesh.refinement);
@@ -95,7 +95,7 @@ class SectionSplitter {
       in_rest_[i] = size_of(split_.rest.mesh.inner);
       split_.rest.mesh.inner.push_back(whole_.mesh.inner[i]);
       if (i >= n_own) split_.rest.owner.push_back(whole_.owner[i - n_own]);
-      if (i < n_own && uses(i) & kInBand) split_.shared.push_back(in_rest_[i]);
+      if (i < n_own && uses(i) & kInBand) split_.rest.shared.push_back(in_rest_[i]);
     }
     Piece& band = split_.band;
     const auto add = [&](std::int32_t i) {
@@ -112,21 +112,21 @@ class SectionSplitter {
   }
 
   void number_boundary() {
+    Piece& rest = split_.rest;
     boundary_in_rest_.assign(n_boundary_, kNone);
     for (std::int32_t i = 0; i < n_boundary_; ++i) {
       if (!(uses_[i] & kInRest)) continue;
-      boundary_in_rest_[i] = size_of(split_.boundary);
-      split_.boundary.push_back(boundary_.nodes[places_[i]]);
-      split_.number.push_back(places_[i]);
-      split_.boundary_number.push_back(cut_.number[places_[i]]);
+      boundary_in_rest_[i] = size_of(rest.boundary);
+      rest.boundary.push_back(boundary_.nodes[places_[i]]);
+      rest.number.push_back(places_[i]);
+      rest.boundary_number.push_back(cut_.number[places_[i]]);
     }
-    std::vector<std::int32_t>& numbers = split_.boundary_number;
-    sort_once(numbers);
+    sort_once(rest.boundary_number);
   }
 
   /// Triangles that stay have no cut node, for these have the band around them.
   void share_triangles() {
-    const std::int32_t first_in_band = n_face_ + size_of(cut_.nodes), first_in_rest = size_of(split_.boundary);
+    const std::int32_t first_in_band = n_face_ + size_of(cut_.nodes), first_in_rest = size_of(split_.rest.boundary);
     for (std::size_t t = 0; t < is_in_band_.size(); ++t) {
       const std::int32_t* c = &whole_.mesh.corners[3 * t];
       for (int k = 0; k < 3; ++k) {
@@ -156,7 +156,7 @@ class SectionSplitter {
   std::vector<std::uint8_t> is_in_band_;         // [n_triangles]
   std::vector<std::int32_t> in_rest_, in_band_;  // [n_inner] the inner node there
   std::vector<std::int32_t> boundary_in_rest_;   // [n_boundary]
-  SplitMesh split_;
+  SplitPiece split_;
 };
 
 /// Puts bands together. Nodes that stay, on the boundary of the face, on cuts and in sections, are the boundary of this
@@ -238,18 +238,16 @@ class SeamMesher {
 
   void add_triangles() {
     const std::int32_t n_boundary = size_of(boundary_.nodes);
+    std::vector<std::int32_t> fixed(n_fixed_);
+    std::iota(fixed.begin(), fixed.end(), 0);
+    for (std::int32_t i = n_face_; i < n_fixed_; ++i)
+      if (is_inside_[i - n_face_]) fixed[i] = n_boundary + number_of_cut_[i - n_face_];
     for (std::size_t i = 0; i < bands_.size(); ++i) {
       Piece& band = bands_[i];
-      const std::int32_t n_own = band.n_own();
-      for (std::int32_t c : band.mesh.corners) {
-        if (c >= n_fixed_ + n_own)
-          c += first_rim_[i] - n_fixed_ - n_own;
-        else if (c >= n_fixed_)
-          c += n_boundary + first_own_[i] - n_fixed_;
-        else if (c >= n_face_ && is_inside_[c - n_face_])
-          c = n_boundary + number_of_cut_[c - n_face_];
-        mesh_.corners.push_back(c);
-      }
+      std::vector<NodeId> rim(band.owner.size());
+      std::iota(rim.begin(), rim.end(), first_rim_[i]);
+      const SectionNumbers number(n_fixed_, fixed, band.n_own(), n_boundary + first_own_[i], std::move(rim));
+      for (const std::int32_t c : band.mesh.corners) mesh_.corners.push_back(number(c));
       seams_.sides.insert(seams_.sides.end(), band.sides.begin(), band.sides.end());
       band = {};
     }
@@ -314,15 +312,17 @@ class SeamMesher {
 
 }  // namespace
 
-SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh) {
-  return SectionSplitter(boundary, cut, tile, nodes_of(cut.tiles[tile]), {std::move(mesh), {}, {}}).run();
+SplitPiece split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh) {
+  Piece whole;
+  whole.mesh = std::move(mesh);
+  return SectionSplitter(boundary, cut, tile, nodes_of(cut.tiles[tile]), std::move(whole)).run();
 }
 
-SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh) {
+SplitPiece split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh) {
   std::vector<std::int32_t> places(boundary.nodes.size() + cut.nodes.size());
   std::iota(places.begin(), places.end(), 0);
   const std::vector<std::array<std::int32_t, 2>> sides = std::move(mesh.sides);
-  SplitMesh split = SectionSplitter(boundary, cut, section, std::move(places), std::move(mesh)).run();
+  SplitPiece split = SectionSplitter(boundary, cut, section, std::move(places), std::move(mesh)).run();
   split.band.sides.insert(split.band.sides.end(), sides.begin(), sides.end());
   return split;
 }
@@ -345,37 +345,35 @@ Piece SeamMaker::of_face(std::vector<Piece> bands) const {
   return seams;
 }
 
-FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, Piece seams) {
+FaceMesh join_sections(std::int32_t n_boundary, std::vector<Piece> sections, Piece seams) {
   if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);
-  SplitMesh last;
-  last.rest = std::move(seams);
   FaceMesh joined;
-  joined.n_folds = last.rest.mesh.n_folds;
-  joined.refinement = last.rest.mesh.refinement;
+  joined.n_folds = seams.mesh.n_folds;
+  joined.refinement = seams.mesh.refinement;
   std::vector<std::size_t> first_inner{0}, first_corner{0};
-  sections.push_back(std::move(last));
-  for (const SplitMesh& s : sections) {
-    first_inner.push_back(first_inner.back() + s.rest.n_own());
-    first_corner.push_back(first_corner.back() + s.rest.mesh.corners.size());
+  sections.push_back(std::move(seams));
+  for (const Piece& s : sections) {
+    first_inner.push_back(first_inner.back() + s.n_own());
+    first_corner.push_back(first_corner.back() + s.mesh.corners.size());
   }
   parallel_reserve(joined.inner, first_inner.back());
   parallel_reserve(joined.corners, first_corner.back());
   joined.inner.resize(first_inner.back());
   joined.corners.resize(first_corner.back());
   parallel_for(sections.size(), 1, [&](std::size_t i, std::size_t) {
-    const SplitMesh& s = sections[i];
+    const Piece& s = sections[i];
     const bool is_last = i + 1 == sections.size();
-    const std::int32_t n_own = s.rest.n_own();
+    const std::int32_t n_own = s.n_own();
     const auto first = [&](std::size_t section) {
       return n_boundary + static_cast<std::int32_t>(first_inner[section]);
     };
     std::vector<NodeId> foreign;
-    for (const InnerNode& n : s.rest.owner) foreign.push_back(first(n.section) + n.number);
+    for (const InnerNode& n : s.owner) foreign.push_back(first(n.section) + n.number);
     const SectionNumbers number(is_last ? n_boundary : size_of(s.boundary), s.number, n_own, first(i),
                                 std::move(foreign));
-    std::transform(s.rest.mesh.corners.begin(), s.rest.mesh.corners.end(), joined.corners.begin() + first_corner[i],
+    std::transform(s.mesh.corners.begin(), s.mesh.corners.end(), joined.corners.begin() + first_corner[i],
                    [&](std::int32_t c) { return number(c); });
-    std::copy(s.rest.mesh.inner.begin(), s.rest.mesh.inner.begin() + n_own, joined.inner.begin() + first_inner[i]);
+    std::copy(s.mesh.inner.begin(), s.mesh.inner.begin() + n_own, joined.inner.begin() + first_inner[i]);
   });
   return joined;
 }

@@ -18,7 +18,8 @@
 namespace st {
 
 /// Some triangles of a face. Of what is about cuts, boundary node i of the face is corner i, cut node j is n_boundary +
-/// j, and inner node k is n_boundary + n_cut + k.
+/// j, and inner node k is n_boundary + n_cut + k. A section has a boundary of its own; so
+/// has what fills a hole.
 struct Piece {
   FaceMesh mesh;                 ///< inner: its own nodes, then those of sections
   std::vector<InnerNode> owner;  ///< of the latter, which stay there. Sections: the tiles, then the groups of tiles
@@ -26,26 +27,31 @@ struct Piece {
                                                    ///< edge between boundary nodes by triangles that are in no band
                                                    ///< any more
 
-  std::int32_t n_own() const { return static_cast<std::int32_t>(mesh.inner.size() - owner.size()); }
-  static auto fields(auto& x) { return std::tie(x.mesh, x.owner, x.sides); }
-};
-
-/// A section, and what it gives away.
-struct SplitMesh {
-  std::vector<FaceNode> boundary;             ///< nodes that triangles of the rest have on the boundary of the face
+  // of what has a boundary of its own
+  std::vector<FaceNode> boundary;  ///< its nodes on the boundary of the face
+  // of a section
   std::vector<std::int32_t> number;           ///< of each among the nodes of the face's boundary
   std::vector<std::int32_t> boundary_number;  ///< of their ids, ascending, once each, among all of the face's boundary
-  Piece rest;                                 ///< without the band: its boundary is `boundary`
-  std::vector<std::int32_t> shared;           ///< ascending: inner nodes of the rest's own that others have, too
-  Piece band;  ///< what is within some layers of the cuts; with the cause, the refinement and the folds of the section
+  std::vector<std::int32_t> shared;           ///< ascending: inner nodes of its own that others have, too
 
-  static auto fields(auto& x) { return std::tie(x.boundary, x.number, x.boundary_number, x.rest, x.shared, x.band); }
+  std::int32_t n_own() const { return static_cast<std::int32_t>(mesh.inner.size() - owner.size()); }
+  static auto fields(auto& x) {
+    return std::tie(x.mesh, x.owner, x.sides, x.boundary, x.number, x.boundary_number, x.shared);
+  }
+};
+
+/// What a section keeps, and what it gives away.
+struct SplitPiece {
+  Piece rest;  ///< the section
+  Piece band;  ///< what is within some layers of the cuts; with the cause, the refinement and the folds of both
+
+  static auto fields(auto& x) { return std::tie(x.rest, x.band); }
 };
 
 /// Takes the band off the mesh of a tile, and off that of a group, which is section n_tiles + group. Local, pure.
 /// The cost is linear.
-SplitMesh split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh);
-SplitMesh split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh);
+SplitPiece split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh);
+SplitPiece split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh);
 
 /// What does the enhancing.
 struct SeamMaker {
@@ -65,6 +71,6 @@ struct SeamMaker {
 };
 
 /// The mesh of the whole face from its sections and the seams of the face: section by section, the seams last.
-FaceMesh join_sections(std::int32_t n_boundary, std::vector<SplitMesh> sections, Piece seams);
+FaceMesh join_sections(std::int32_t n_boundary, std::vector<Piece> sections, Piece seams);
 
 }  // namespace st

@@ -278,11 +278,13 @@ std::vector<BoundaryPlace> hole_places(const FaceBoundary& boundary, const HoleN
   return places;
 }
 
-FaceMesh make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh) {
-  mesh.inner.insert(mesh.inner.begin(), boundary.nodes.begin(), boundary.nodes.end());
+Piece make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh) {
   for (std::size_t i = 0; rim.is_turned && i < mesh.corners.size(); i += 3)
     std::swap(mesh.corners[i + 1], mesh.corners[i + 2]);
-  return mesh;
+  Piece fill;
+  fill.mesh = std::move(mesh);
+  fill.boundary = boundary.nodes;
+  return fill;
 }
 
 }  // namespace st

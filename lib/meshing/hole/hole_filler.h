@@ -5,6 +5,7 @@
 
 #include "meshing/face/face_mesher.h"
 #include "meshing/face/face_tiles.h"
+#include "meshing/face/seam_mesh.h"
 #include "meshing/hole/hole_curves.h"
 #include "meshing/hole/hole_rim.h"
 
@@ -38,8 +39,8 @@ FaceBoundary make_hole_boundary(const Model& model, const Surface& surface, cons
 /// edges meet are like vertices.
 std::vector<BoundaryPlace> hole_places(const FaceBoundary& boundary, const HoleNumbering& numbering);
 
-/// What fills the hole, with the nodes of its boundary, by id of HoleNumbering, before its own, whose id is kNone: all
-/// are inner ones. Oriented as the old mesh. `mesh`: mesh_face of `boundary`.
-FaceMesh make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh);
+/// What fills the hole, with the nodes of its boundary, by id of HoleNumbering. Oriented as the old mesh. `mesh`:
+/// mesh_face of `boundary`.
+Piece make_hole_fill(const HoleRim& rim, const FaceBoundary& boundary, FaceMesh mesh);
 
 }  // namespace st

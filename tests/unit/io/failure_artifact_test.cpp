@@ -30,7 +30,7 @@ TEST(FailureArtifact, numbers_the_points_of_a_second_face_after_those_of_the_fir
   TemporaryDirectory dir;
   FailureArtifact a = sample_failures();
   a.faces.push_back(a.faces[0]);
-  a.faces[1].face = 0;
+  a.faces[1].patch.face = 0;
   write_failures(dir / "f.hdf", a);
   const Hdf5Reader r(dir / "f.hdf", "failures");
   const auto nodes = r.read<std::int64_t>("/VTKHDF/Connectivity");

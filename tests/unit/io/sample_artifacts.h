@@ -158,13 +158,14 @@ inline FailureArtifact sample_failures() {
   FailureArtifact a;
   a.header = sample_header();
   FailedFace f;
-  f.face = 1;
-  f.xyz = {{0, 0, 3}, {2, 0, 3}, {0, 2, 3}, {2, 2, 3}, {1, 0.5, 3}};
-  for (const Vec3 x : f.xyz) f.uv.push_back({10 * x.x, 10 * x.y}), f.size.push_back(0.5);
+  f.patch.face = 1;
+  f.patch.inner_xyz = {{0, 0, 3}, {2, 0, 3}, {0, 2, 3}, {2, 2, 3}, {1, 0.5, 3}};
+  for (const Vec3 x : f.patch.inner_xyz)
+    f.patch.inner_uv.push_back({10 * x.x, 10 * x.y}), f.patch.inner_size.push_back(0.5);
   f.segment_nodes = {0, 1, 1, 2, 2, 3, 3, 0};
   f.segment_loop = {0, 0, 0, 0};
   f.segment_edge = {4, 5, 6, 7};
-  f.triangles = {{{0, 1, 4}}, {{2, 4, 3}}};
+  f.patch.triangles = {{{0, 1, 4}}, {{2, 4, 3}}};
   f.places = {{1, 1, 3}};
   a.failures = {{1, "its loops cross", "repair it", {1, 1, 3}}};
   a.faces = {f};

@@ -27,8 +27,8 @@ void expect_same_as_merged(const CubePatches& cube) {
   OrientationReport report;
   const SurfaceMesh mesh = cube.merge(report);
   const MergeOrder order = find_merge_order(cube.input(), source_of(cube.patches));
-  EXPECT_EQ(order.inner_begin.back(), mesh.n_nodes());
-  EXPECT_EQ(order.triangle_begin.back(), mesh.n_triangles());
+  EXPECT_EQ(order.numbers.n_nodes(), mesh.n_nodes());
+  EXPECT_EQ(order.numbers.n_triangles(), mesh.n_triangles());
   EXPECT_EQ(order.orientation.turned_faces, report.turned_faces);
   EXPECT_EQ(order.orientation.inside_out_faces, report.inside_out_faces);
   EXPECT_EQ(order.orientation.turned_components, report.turned_components);
@@ -48,7 +48,7 @@ void expect_same_as_merged(const CubePatches& cube) {
   ASSERT_EQ(order.is_turned.size(), cube.patches.size());
   for (std::size_t i = 0; i < cube.patches.size(); ++i)
     EXPECT_EQ(order.is_turned[i] != 0,
-              mesh.corner_uv[3 * order.triangle_begin[i] + 1] != corner_uv(cube.patches[i], 1));
+              mesh.corner_uv[3 * order.numbers.triangle_begin[i] + 1] != corner_uv(cube.patches[i], 1));
 }
 
 TEST(MergeOrder, is_that_of_the_merged_mesh) { expect_same_as_merged({}); }

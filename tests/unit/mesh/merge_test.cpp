@@ -47,42 +47,6 @@ TEST(Merge, does_not_depend_on_the_order_of_the_patches) {
   EXPECT_TRUE(same(a.merge(), b.merge()));
 }
 
-TEST(Merge, gives_the_mesh_again_for_the_patches_that_it_splits_into) {
-  CubePatches c;
-  const SurfaceMesh m = c.merge();
-  c.patches = split_patches(m, c.edges, 6);
-  ASSERT_EQ(c.patches.size(), 6u);
-  for (const FacePatch& p : c.patches) {
-    EXPECT_EQ(p.n_boundary, 8);
-    EXPECT_EQ(p.inner_xyz.size(), 1u) << "that no triangle uses is left out";
-    EXPECT_EQ(p.inner_uv[0], corner_uvs(p).back());
-    EXPECT_TRUE(p.inner_previous.empty() && p.triangle_previous.empty());
-  }
-  EXPECT_TRUE(same(c.merge(), m));
-}
-
-TEST(Merge, refuses_to_split_triangles_with_nodes_inside_another_face) {
-  CubePatches c;
-  SurfaceMesh m = c.merge();
-  m.triangles.front().n[0] = m.n_nodes() - 1;
-  EXPECT_THROW(split_patches(m, c.edges, 6), Error);
-}
-
-TEST(Merge, splits_a_mesh_without_some_faces_into_patches_without_triangles_there) {
-  CubePatches c;
-  c.patches.erase(c.patches.begin() + 2);
-  SurfaceMesh m = c.merge();
-  for (NodeId n = 0; n < m.n_nodes(); ++n) m.node_previous.push_back(100 + n);
-  for (TriangleId t = 0; t < m.n_triangles(); ++t) m.triangle_previous.push_back(200 + t);
-  const std::vector<FacePatch> patches = split_patches(m, c.edges, 6);
-  for (FaceId f = 0; f < 6; ++f) {
-    EXPECT_EQ(patches[f].face, f);
-    EXPECT_EQ(patches[f].triangles.size(), f == 2 ? 0u : 8u);
-  }
-  EXPECT_EQ(patches[3].triangle_previous.front(), 200 + 16) << "as those of the faces before";
-  EXPECT_EQ(patches[3].inner_previous.front(), 100 + m.n_nodes() - 3);
-}
-
 TEST(Merge, keeps_the_uv_of_each_corner_and_the_parameter_and_size_of_each_node) {
   const CubePatches c;
   const SurfaceMesh m = c.merge();

@@ -87,11 +87,10 @@ TEST(PatchSection, rows_of_all_are_the_patch) {
     places[i].own_uv_begin = places[i - 1].own_uv_begin + std::ssize(before.patch.uv_corner);
   }
   EXPECT_EQ(places[2].inner_begin + sections[2].n_own(), 2);
-  std::vector<SectionRows> rows;
+  std::vector<FacePatch> rows;
   for (std::size_t i = 0; i < 3; ++i) rows.push_back(rows_of(std::move(sections[i]), places, i));
-  EXPECT_TRUE(rows[0].rows.boundary_dim.empty());
-  EXPECT_EQ(rows[2].rows.boundary_dim.size(), 6u);
-  EXPECT_EQ(rows[2].place.own_uv_begin, places[2].own_uv_begin);
+  EXPECT_TRUE(rows[0].boundary_dim.empty());
+  EXPECT_EQ(rows[2].boundary_dim.size(), 6u);
   EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole));
 }
 
@@ -100,9 +99,9 @@ TEST(PatchSection, alone_is_the_patch) {
   PatchSection section;
   section.patch = whole;
   const PatchPlace places[1] = {};
-  std::vector<SectionRows> rows;
+  std::vector<FacePatch> rows;
   rows.push_back(rows_of(std::move(section), places, 0));
-  EXPECT_EQ(packed(rows[0].rows), packed(whole));
+  EXPECT_EQ(packed(rows[0]), packed(whole));
   EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole));
 }
 

@@ -22,7 +22,7 @@ struct Edges : test::Meshed {
 double length_of(const FailedFace& f) {
   double length = 0;
   for (std::size_t s = 0; s < f.segment_loop.size(); ++s)
-    length += distance(f.xyz[f.segment_nodes[2 * s]], f.xyz[f.segment_nodes[2 * s + 1]]);
+    length += distance(f.patch.inner_xyz[f.segment_nodes[2 * s]], f.patch.inner_xyz[f.segment_nodes[2 * s + 1]]);
   return length;
 }
 
@@ -35,10 +35,11 @@ TEST(FailedFace, has_every_segment_of_its_loops_with_loop_and_edge) {
   EXPECT_EQ(std::set<EdgeId>(f.segment_edge.begin(), f.segment_edge.end()).size(), 5u);
   for (std::size_t s = 0; s < f.segment_loop.size(); ++s) {
     const double t = m.model.tables().edge_length[f.segment_edge[s]];
-    EXPECT_LT(distance(f.xyz[f.segment_nodes[2 * s]], f.xyz[f.segment_nodes[2 * s + 1]]), t)
+    EXPECT_LT(distance(f.patch.inner_xyz[f.segment_nodes[2 * s]], f.patch.inner_xyz[f.segment_nodes[2 * s + 1]]), t)
         << "a segment of another edge";
   }
-  for (std::size_t i = 0; i < f.xyz.size(); ++i) EXPECT_LT(distance(surface->point(f.uv[i]), f.xyz[i]), 1e-6);
+  for (std::size_t i = 0; i < f.patch.inner_xyz.size(); ++i)
+    EXPECT_LT(distance(surface->point(f.patch.inner_uv[i]), f.patch.inner_xyz[i]), 1e-6);
 }
 
 TEST(FailedFace, has_a_seam_twice) {
@@ -56,8 +57,8 @@ TEST(FailedFace, without_trimming_curves_has_the_nodes_of_its_edges_and_no_uv) {
   const Edges m("plate_with_hole");
   const FailedFace f = describe_failure(m.numbering, 0, {}, {});
   EXPECT_NEAR(length_of(f), 200 + 16 * kPi, 1);
-  for (const Vec2 uv : f.uv) EXPECT_TRUE(std::isnan(uv.x) && std::isnan(uv.y));
-  EXPECT_EQ(f.uv.size(), f.xyz.size());
+  for (const Vec2 uv : f.patch.inner_uv) EXPECT_TRUE(std::isnan(uv.x) && std::isnan(uv.y));
+  EXPECT_EQ(f.patch.inner_uv.size(), f.patch.inner_xyz.size());
 }
 
 TEST(FailedFace, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) {
@@ -69,10 +70,11 @@ TEST(FailedFace, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) 
   mesh.corners.insert(mesh.corners.end(), {0, 1, kNone});
   mesh.refinement.push_back({{1, 2, 3}, 1});
   const FailedFace f = describe_failure(m.numbering, 0, boundary, mesh);
-  ASSERT_EQ(f.triangles.size(), n_triangles);
+  ASSERT_EQ(f.patch.triangles.size(), n_triangles);
   double area = 0;
-  for (const Triangle& t : f.triangles)
-    area += 0.5 * norm(cross(f.xyz[t.n[1]] - f.xyz[t.n[0]], f.xyz[t.n[2]] - f.xyz[t.n[0]]));
+  for (const Triangle& t : f.patch.triangles)
+    area += 0.5 * norm(cross(f.patch.inner_xyz[t.n[1]] - f.patch.inner_xyz[t.n[0]],
+                             f.patch.inner_xyz[t.n[2]] - f.patch.inner_xyz[t.n[0]]));
   EXPECT_NEAR(area, 100, 1e-9);
   ASSERT_EQ(f.places.size(), 1u);
   EXPECT_TRUE(f.places[0] == (Vec3{1, 2, 3}));
@@ -90,8 +92,8 @@ TEST(FailedFace, survives_the_way_between_ranks) {
   EXPECT_TRUE(unpacker.is_empty());
   EXPECT_EQ(g.segment_nodes, f.segment_nodes);
   EXPECT_EQ(g.segment_edge, f.segment_edge);
-  EXPECT_EQ(g.size, f.size);
-  EXPECT_EQ(g.triangles.size(), f.triangles.size());
+  EXPECT_EQ(g.patch.inner_size, f.patch.inner_size);
+  EXPECT_EQ(g.patch.triangles.size(), f.patch.triangles.size());
 }
 
 }  // namespace

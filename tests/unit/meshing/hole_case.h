@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct Refilled {
   HoleNumbering numbering;
   std::vector<std::vector<HoleRim>> rims;         ///< [n_faces]
   std::vector<std::vector<FaceBoundary>> bounds;  ///< [n_faces] of the rims
-  std::vector<std::vector<FaceMesh>> fills;       ///< [n_faces]
+  std::vector<std::vector<Piece>> fills;          ///< [n_faces]
 
   /// Lengths are the field's where they are below the solid's.
   Refilled(const ShapeMesh& s, const SizeField& f, const HoleMarkOptions& options = {})
@@ -37,9 +38,10 @@ struct Refilled {
   Refilled(const Refilled&) = delete;
   Refilled& operator=(const Refilled&) = delete;
 
-  std::vector<FacePatch> patches() const {
-    return split_patches(insert_fills(numbering, marks, fills), update.edges, solid.model.tables().n_faces());
+  std::vector<FacePatch> patches(std::span<const FaceId> left_out = {}) const {
+    return insert_fills(numbering, marks, fills, left_out);
   }
+  SurfaceMesh welded(std::span<const FaceId> left_out = {}) const { return weld_filled(numbering, patches(left_out)); }
   SurfaceMesh merged() const {
     const ModelTables& t = solid.model.tables();
     OrientationReport report;

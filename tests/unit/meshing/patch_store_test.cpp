@@ -26,7 +26,7 @@ TEST(PatchStore, gives_back_what_was_put_by_face_and_version) {
   ASSERT_EQ(copies.size(), 2u);
   EXPECT_EQ(copies[0].face, 3);
   EXPECT_EQ(packed(copies[1]), packed(m.result.patches[0]));
-  EXPECT_EQ(packed(store.take(place_of(b), 0).rows), packed(m.result.patches[0]));
+  EXPECT_EQ(packed(store.take(place_of(b), 0)), packed(m.result.patches[0]));
 }
 
 TEST(PatchStore, drops_what_is_not_to_be_kept_and_keeps_nothing_of_an_empty_patch) {

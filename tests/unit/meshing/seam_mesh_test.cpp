@@ -91,22 +91,22 @@ TEST_P(SeamMeshes, leave_sections_whose_nodes_are_each_of_one_of_them) {
   const SquareInTiles square(GetParam());
   const Sections all = square.sections();
   std::size_t n_nodes = static_cast<std::size_t>(all.seams.n_own());
-  for (const SplitMesh& s : all.sections) {
-    n_nodes += static_cast<std::size_t>(s.rest.n_own());
+  for (const Piece& s : all.sections) {
+    n_nodes += static_cast<std::size_t>(s.n_own());
     ASSERT_EQ(s.boundary.size(), s.number.size());
     for (std::size_t i = 0; i < s.number.size(); ++i)
       EXPECT_EQ(s.boundary[i].uv, square.face.boundary.nodes[s.number[i]].uv);
     EXPECT_TRUE(std::is_sorted(s.shared.begin(), s.shared.end()));
-    EXPECT_LT(s.shared.empty() ? -1 : s.shared.back(), s.rest.n_own());
+    EXPECT_LT(s.shared.empty() ? -1 : s.shared.back(), s.n_own());
   }
   const auto expect_owned = [&](const std::vector<InnerNode>& owner, const FaceMesh& mesh, std::int32_t n_own) {
     for (std::size_t i = 0; i < owner.size(); ++i) {
-      const SplitMesh& s = all.sections.at(owner[i].section);
+      const Piece& s = all.sections.at(owner[i].section);
       EXPECT_TRUE(std::binary_search(s.shared.begin(), s.shared.end(), owner[i].number));
-      EXPECT_EQ(s.rest.mesh.inner.at(owner[i].number).uv, mesh.inner[n_own + i].uv);
+      EXPECT_EQ(s.mesh.inner.at(owner[i].number).uv, mesh.inner[n_own + i].uv);
     }
   };
-  for (const SplitMesh& s : all.sections) expect_owned(s.rest.owner, s.rest.mesh, s.rest.n_own());
+  for (const Piece& s : all.sections) expect_owned(s.owner, s.mesh, s.n_own());
   expect_owned(all.seams.owner, all.seams.mesh, all.seams.n_own());
   EXPECT_EQ(n_nodes, test::join(square.face, all).inner.size());
 }

@@ -23,7 +23,7 @@ inline std::vector<FaceMesh> mesh_tiles(const FaceCase& face, const TileCut& cut
 
 /// The sections of a face, without their bands, and its seams.
 struct Sections {
-  std::vector<SplitMesh> sections;
+  std::vector<Piece> sections;
   Piece seams;
 };
 
@@ -32,19 +32,20 @@ inline Sections mesh_sections(const FaceCase& face, const TileCut& cut, const Si
   const TileGroups groups(cut);
   const SurfaceMaker none;
   const SeamMaker maker{*face.surface, none, face.boundary, cut, groups, field, options};
-  Sections all;
+  std::vector<SplitPiece> split;
   const auto take_bands = [&](const std::array<std::int32_t, 2>& members) {
     std::vector<Piece> bands;
-    for (std::int32_t i = members[0]; i < members[1]; ++i)
-      bands.push_back(std::exchange(all.sections[i].band, Piece()));
+    for (std::int32_t i = members[0]; i < members[1]; ++i) bands.push_back(std::exchange(split[i].band, Piece()));
     return bands;
   };
   for (std::int32_t t = 0; t < groups.n_tiles(); ++t)
-    all.sections.push_back(split_tile(face.boundary, cut, t, std::move(meshes[t])));
+    split.push_back(split_tile(face.boundary, cut, t, std::move(meshes[t])));
   for (std::int32_t g = 0; g < groups.n_groups(); ++g)
-    all.sections.push_back(
+    split.push_back(
         split_group(face.boundary, cut, groups.n_tiles() + g, maker.of_group(g, take_bands(groups.members(g)))));
+  Sections all;
   all.seams = maker.of_face(take_bands(groups.members_of_face()));
+  for (SplitPiece& s : split) all.sections.push_back(std::move(s.rest));
   return all;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <limits>
 #include <map>
 
@@ -49,16 +50,19 @@ TEST(TiledFaces, stay_in_sections_whose_rows_are_the_patch) {
   const UniformField field(0.35);
   const MeshResult whole = mesh(model, field, 0.35, 1000, test::one_rank);
   MeshResult apart = mesh(model, field, 0.35, 1000, test::one_rank, PatchesGo::kNowhere);
-  EXPECT_TRUE(apart.patches.empty());
-  EXPECT_GT(apart.rows.size(), whole.patches.size() + 20);
-  std::map<FaceId, std::vector<SectionRows>> by_face;
-  for (SectionRows& rows : apart.rows) by_face[rows.rows.face].push_back(std::move(rows));
+  EXPECT_GT(apart.patches.size(), whole.patches.size() + 20);
+  ASSERT_EQ(apart.own_places.size(), apart.patches.size());
+  std::map<FaceId, std::vector<FacePatch>> by_face;
+  std::map<FaceId, std::int64_t> n_triangles;
+  for (std::size_t i = 0; i < apart.patches.size(); ++i) {
+    FacePatch& rows = apart.patches[i];
+    EXPECT_EQ(apart.own_places[i].triangle_begin, n_triangles[rows.face]);
+    n_triangles[rows.face] += std::ssize(rows.triangles);
+    by_face[rows.face].push_back(std::move(rows));
+  }
   for (std::size_t f = 0; f < whole.patches.size(); ++f) {
-    std::vector<SectionRows>& rows = by_face[static_cast<FaceId>(f)];
+    std::vector<FacePatch>& rows = by_face[static_cast<FaceId>(f)];
     EXPECT_EQ(n_triangles_of(apart.places[f]), static_cast<std::int64_t>(whole.patches[f].triangles.size()));
-    for (std::size_t i = 1; i < rows.size(); ++i)
-      EXPECT_EQ(rows[i].place.triangle_begin,
-                rows[i - 1].place.triangle_begin + static_cast<std::int64_t>(rows[i - 1].rows.triangles.size()));
     EXPECT_EQ(packed(join_rows(std::move(rows))), packed(whole.patches[f])) << f;
   }
 }
@@ -115,7 +119,7 @@ class BrokenTile : public test::BackwardExecutor {
           Bytes result = compute(task);
           const TaskLabel label = tasks.label(task);
           if (std::string(label.kind) != "tile" || label.part != 0) return result;
-          SplitMesh tile;
+          SplitPiece tile;
           unpack(tasks.record(task, result), tile);
           (is_in_band_ ? tile.band.mesh.inner : tile.rest.mesh.inner).at(0).x.z =
               std::numeric_limits<double>::quiet_NaN();
