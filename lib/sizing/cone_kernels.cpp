@@ -1,6 +1,6 @@
 #include "sizing/cone_kernels.h"
 
-#include "sizing/cone_kernels_code.h"
+#include "sizing/cone_along_code.h"
 
 namespace st {
 

@@ -19,21 +19,42 @@ struct ConeShares {
   float nearby, far;
 };
 
-/// How the lengths of a cone along the directions of a cell differ from its lengths.
-struct LongerWay {
-  float longer = 0;                   ///< by this, where `directions` is null
-  const float* directions = nullptr;  ///< [3][kProbes] unit vectors; else by what an ellipse has along them
-  const float* unit = nullptr;        ///< [3] along the ellipse
-  float squeeze = 0;                  ///< 1 - (length / length along)^2
-  float length = 0;                   ///< of the cone
+/// A cone, and what edges along a direction may be longer by.
+struct AlongCone {
+  const float* cone;       ///< [kConeNumbers]
+  const float* direction;  ///< [3] a unit vector, or zero
+  float along;             ///< length along it; the same in all directions unless it is above the cone's
+};
+
+/// A cell, or a part of one, and the smallest lengths along that are known at its probes.
+struct AlongSite {
+  float cell[4];
+  float unit[3];                 ///< the direction of all probes, if it is one
+  std::int32_t turns;            ///< else which of the directions [][3][kProbes] are theirs; below 0: none
+  float best[kProbes];           ///< below all where nothing is stretched
+  std::int32_t winner[kProbes];  ///< the sample of `best`; below 0: a cone of the site
 };
 
 /// Shares of the lengths along that are known.
 struct AlongShares {
   float clearly, nearly;
 };
-struct AlongOffer {
-  bool is_clearly, is_nearly;
+/// Whether a cone's lengths along are below these shares at any probe; what is clearly below is nearly so, too.
+enum AlongGain : std::int32_t { kNoGain, kNearlyGains, kClearlyGains };
+
+/// The cones of a site, and `more` that tell lengths along there; those of the shortest lengths first in both.
+struct AlongCones {
+  const float* cones;              ///< [][kConeNumbers]
+  const float* stretches;          ///< [][4] of each the direction and the length along
+  const std::int32_t *own, *more;  ///< which
+  std::int32_t n_own, n_more;
+  double largest;      ///< length, model unit
+  double most_aspect;  ///< length along over length across
+};
+struct LeastAlong {
+  float length;         ///< as `least` of the own ones
+  float along;          ///< in the direction of the cone that tells it
+  std::int32_t winner;  ///< that cone; -1: it has no direction
 };
 
 /// Of a chain of samples.
@@ -81,14 +102,14 @@ struct ConeKernels {
                 bool& is_near);
   /// Puts lengths where they are below `best`, and their sample where it wins. Returns the least of them.
   float (*take)(const float* lengths, std::int32_t sample, float* best, std::int32_t* winner);
-  /// Lowers `best` to lengths along where it is above. `lengths`: of a cone at the probes.
-  void (*lower_along)(const float* lengths, const LongerWay& way, float* best);
-  /// How a cone's lengths along at the probes of a cell are below `best`, at any.
-  AlongOffer (*offer_along)(const float* cell, const float* cone, const LongerWay& way, const AlongShares& share,
-                            const float* best);
-  /// Lowers `best`, and puts the sample where it wins, if these lengths are below a share of it at any probe.
-  void (*take_along)(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample, float share,
-                     float* best, std::int32_t* winner);
+  /// Lowers what a site knows to lengths along where it is above. `lengths`: of the cone at the probes; `turns`: see
+  /// AlongSite.
+  void (*lower_along)(const float* lengths, const AlongCone& cone, const float* turns, AlongSite& site);
+  /// What a cone's lengths along gain in each of `n` sites, `which` of `sites`.
+  void (*offer_along)(const AlongCone& cone, const AlongSite* sites, const float* turns, const std::int32_t* which,
+                      std::int32_t n, const AlongShares& shares, AlongGain* gains);
+  /// Lowers what a site knows, and puts the sample where it wins, if its lengths are below a share at any probe.
+  void (*take_along)(const AlongCone& cone, std::int32_t sample, const float* turns, float share, AlongSite& site);
   /// Whether a cone wins over known ones and over the largest length where the cell is close to it.
   bool (*wins_nearby)(const float* cell, const float* cone, float share, float largest, const KnownCones& known);
   /// Likewise at a set of places of a face.
@@ -103,6 +124,8 @@ struct ConeKernels {
   /// it; kNone: none tells less than `largest`.
   float (*least)(const float* cones, const std::int32_t* own, std::int32_t n, const float* place, float largest,
                  std::int32_t* winner);
+  /// The smallest length at a place, and the smallest that all the cones ask for along its direction.
+  LeastAlong (*least_along)(const AlongCones& of, const float* place);
 };
 
 const ConeKernels& cone_kernels();

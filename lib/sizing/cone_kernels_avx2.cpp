@@ -8,7 +8,7 @@
 #pragma GCC target("avx2")
 #endif
 #define ST_EIGHT_WIDE
-#include "sizing/cone_kernels_code.h"
+#include "sizing/cone_along_code.h"
 
 namespace st::detail {
 

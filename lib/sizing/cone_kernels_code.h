@@ -1,5 +1,4 @@
-// The kernels' code, compiled once per kind of processor by the file that includes it, with ST_EIGHT_WIDE where vectors
-// hold eight floats. Include nothing here that has code of its own.
+// Code of the kernels, but for lengths along. For cone_along_code.h alone.
 #pragma once
 
 #include "sizing/cone_kernels.h"
@@ -155,47 +154,6 @@ float take_lengths(const float* lengths, std::int32_t sample, float* best, std::
   return least_of(least(load(lengths), load(lengths + 8)));
 }
 
-void add_longer(const LongerWay& way, F8 (&at)[2]) {
-  for (int g = 0; g < 2; ++g) {
-    if (!way.directions) {
-      at[g] = at[g] + all(way.longer);
-      continue;
-    }
-    const float* d = way.directions + 8 * g;
-    const F8 part =
-        load(d) * all(way.unit[0]) + load(d + kProbes) * all(way.unit[1]) + load(d + 2 * kProbes) * all(way.unit[2]);
-    at[g] = at[g] + (all(way.length) / root(all(1) - way.squeeze * least(part * part, all(1))) - way.length);
-  }
-}
-
-void lower_along(const float* lengths, const LongerWay& way, float* best) {
-  F8 at[2] = {load(lengths), load(lengths + 8)};
-  add_longer(way, at);
-  for (int g = 0; g < 2; ++g) store(best + 8 * g, least(load(best + 8 * g), at[g]));
-}
-
-AlongOffer offer_along(const float* cell, const float* cone, const LongerWay& way, const AlongShares& share,
-                       const float* best) {
-  F8 at[2];
-  CellView(cell).lengths(ConeView(cone), at);
-  add_longer(way, at);
-  const F8 known[2] = {load(best), load(best + 8)};
-  const auto are_below = [&](float of) { return is_any((at[0] < of * known[0]) | (at[1] < of * known[1])); };
-  return {are_below(share.clearly), are_below(share.nearly)};
-}
-
-void take_along(const float* cell, const float* cone, const LongerWay& way, std::int32_t sample, float share,
-                float* best, std::int32_t* winner) {
-  F8 at[2], known[2] = {load(best), load(best + 8)};
-  CellView(cell).lengths(ConeView(cone), at);
-  add_longer(way, at);
-  if (!is_any((at[0] < share * known[0]) | (at[1] < share * known[1]))) return;
-  for (int g = 0; g < 2; ++g) {
-    store(winner + 8 * g, where(at[g] < known[g], sample, load(winner + 8 * g)));
-    store(best + 8 * g, least(at[g], known[g]));
-  }
-}
-
 /// Whether a cone of such lengths at the places, over `share`, wins at any of them where `wins` is true.
 bool wins_over(const EightPlaces& places, const F8& limit, I8 wins, const KnownCones& known) {
   if (!is_any(wins)) return false;
@@ -285,56 +243,66 @@ std::int32_t settle_face(const ConeFace& face, std::int32_t set, const float* co
   return n_added;
 }
 
+/// Four numbers of each of eight from the n-th on, by number.
+void turn_eight(const float* const (&from)[8], int n, F8& first, F8& second, F8& third, F8& fourth) {
+  F8 of[4];
+  for (int i = 0; i < 4; ++i) of[i] = load_fours(from[i] + n, from[i + 4] + n);
+  const F8 ab_first = mix_first(of[0], of[1]), ab_last = mix_last(of[0], of[1]), cd_first = mix_first(of[2], of[3]),
+           cd_last = mix_last(of[2], of[3]);
+  first = join_first(ab_first, cd_first);
+  second = join_last(ab_first, cd_first);
+  third = join_first(ab_last, cd_last);
+  fourth = join_last(ab_last, cd_last);
+}
+
 /// Eight cones side by side.
 struct EightCones {
   F8 x[3], length, slope, side[2][3], half[2];
 
   explicit EightCones(const float* const (&cone)[8]) {
-    turn(cone, 0, x[0], x[1], x[2], length);
-    turn(cone, 4, slope, side[0][0], side[0][1], side[0][2]);
-    turn(cone, 8, side[1][0], side[1][1], side[1][2], half[0]);
+    turn_eight(cone, 0, x[0], x[1], x[2], length);
+    turn_eight(cone, 4, slope, side[0][0], side[0][1], side[0][2]);
+    turn_eight(cone, 8, side[1][0], side[1][1], side[1][2], half[0]);
     float last[8];
     for (int i = 0; i < 8; ++i) last[i] = cone[i][kConeNumbers - 1];
     half[1] = load(last);
   }
 
-  /// At a place, see ConeKernels::least.
-  F8 length_at(const float* place) const {
+  /// By what each is longer at a place, see ConeKernels::least, than at its rectangle.
+  F8 rise_at(const float* place) const {
     F8 way[3];
     for (int k = 0; k < 3; ++k) way[k] = (all(place[k]) - x[k]) + all(place[4 + k]);
     for (int e = 0; e < 2; ++e) {
       const F8 within = most(least(dot(way, side[e]), half[e]), -half[e]);
       for (int k = 0; k < 3; ++k) way[k] = way[k] - within * side[e][k];
     }
-    return length + slope * root(dot(way, way));
+    return slope * root(dot(way, way));
   }
 
  private:
   static F8 dot(const F8 (&a)[3], const F8 (&b)[3]) { return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1]; }
-  /// Four numbers of each from the n-th on, by number.
-  static void turn(const float* const (&cone)[8], int n, F8& first, F8& second, F8& third, F8& fourth) {
-    F8 of[4];
-    for (int i = 0; i < 4; ++i) of[i] = load_fours(cone[i] + n, cone[i + 4] + n);
-    const F8 ab_first = mix_first(of[0], of[1]), ab_last = mix_last(of[0], of[1]), cd_first = mix_first(of[2], of[3]),
-             cd_last = mix_last(of[2], of[3]);
-    first = join_first(ab_first, cd_first);
-    second = join_last(ab_first, cd_first);
-    third = join_first(ab_last, cd_last);
-    fourth = join_last(ab_last, cd_last);
-  }
 };
 
-float least_length(const float* cones, const std::int32_t* own, std::int32_t n, const float* place, float largest,
-                   std::int32_t* winner) {
+/// The eight of a list from the k-th on, or the last one again.
+EightCones eight_of(const float* cones, const std::int32_t* own, std::int32_t n, std::int32_t k) {
+  const float* cone[8];
+  for (std::int32_t i = 0; i < 8; ++i)
+    cone[i] = cones + kConeNumbers * static_cast<std::int64_t>(own[k + i < n ? k + i : n - 1]);
+  return EightCones(cone);
+}
+
+/// See ConeKernels::least. Calls f(k, eight, rise) for each eight that it asks.
+template <class F>
+float least_of_cones(const float* cones, const std::int32_t* own, std::int32_t n, const float* place, float largest,
+                     std::int32_t* winner, const F& f) {
   F8 best = all(largest);
   I8 from = where(best >= best, -1, I8{});  // where in `own` the eight begin that tell it
   float result = largest;
   for (std::int32_t k = 0; k < n; k += 8) {
-    const float* cone[8];
-    for (std::int32_t i = 0; i < 8; ++i)
-      cone[i] = cones + kConeNumbers * static_cast<std::int64_t>(own[k + i < n ? k + i : n - 1]);
-    if (!(cone[0][3] < result)) break;  // the shortest of those from here on
-    const F8 length = EightCones(cone).length_at(place);
+    if (!(cones[kConeNumbers * static_cast<std::int64_t>(own[k]) + 3] < result)) break;  // the shortest from here on
+    const EightCones eight = eight_of(cones, own, n, k);
+    const F8 rise = eight.rise_at(place), length = eight.length + rise;
+    f(k, eight, rise);
     from = where(length < best, k, from);
     best = least(length, best);
     result = least_of(best);
@@ -351,8 +319,10 @@ float least_length(const float* cones, const std::int32_t* own, std::int32_t n, 
   return result;
 }
 
-constexpr ConeKernels kKernels{is_near_cell, sides_ahead, cone_lengths, offer_cone,   take_lengths, lower_along,
-                               offer_along,  take_along,  wins_nearby,  wins_on_face, settle_face,  least_length};
+float least_length(const float* cones, const std::int32_t* own, std::int32_t n, const float* place, float largest,
+                   std::int32_t* winner) {
+  return least_of_cones(cones, own, n, place, largest, winner, [](std::int32_t, const EightCones&, const F8&) {});
+}
 
 }  // namespace
 }  // namespace st

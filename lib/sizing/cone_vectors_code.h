@@ -44,6 +44,7 @@ inline F8 root(const F8& v) {
   return r;
 }
 inline I8 where(const I8& mask, std::int32_t a, const I8& b) { return mask ? a - I8{} : b; }
+inline F8 select(const I8& mask, const F8& a, const F8& b) { return mask ? a : b; }
 inline bool is_any(const I8& mask) { return __builtin_ia32_movmskps256(reinterpret_cast<F8>(mask)) != 0; }
 inline F4 least_half(const F8& v) {
   const F4 a = __builtin_shufflevector(v, v, 0, 1, 2, 3), b = __builtin_shufflevector(v, v, 4, 5, 6, 7);
@@ -76,6 +77,7 @@ inline F8 operator+(float s, const F8& x) { return {s + x.a, s + x.b}; }
 inline F8 operator-(const F8& x, float s) { return {x.a - s, x.b - s}; }
 inline F8 operator-(const F8& x) { return {-x.a, -x.b}; }
 inline I8 operator<(const F8& x, const F8& y) { return {x.a < y.a, x.b < y.b}; }
+inline I8 operator>(const F8& x, const F8& y) { return {x.a > y.a, x.b > y.b}; }
 inline I8 operator<(const F8& x, float s) { return {x.a < s, x.b < s}; }
 inline I8 operator>=(const F8& x, const F8& y) { return {x.a >= y.a, x.b >= y.b}; }
 inline I8 operator&(const I8& x, const I8& y) { return {x.a & y.a, x.b & y.b}; }
@@ -108,6 +110,7 @@ inline F8 root(const F8& v) { return {root(v.a), root(v.b)}; }
 inline I8 where(const I8& mask, std::int32_t x, const I8& y) {
   return {mask.a ? x - I4{} : y.a, mask.b ? x - I4{} : y.b};
 }
+inline F8 select(const I8& mask, const F8& x, const F8& y) { return {mask.a ? x.a : y.a, mask.b ? x.b : y.b}; }
 inline bool is_any(const I8& mask) { return signs(mask.a | mask.b) != 0; }
 inline F4 least_half(const F8& v) { return least(v.a, v.b); }
 inline F8 load_fours(const float* p, const float* q) { return {load_four(p), load_four(q)}; }

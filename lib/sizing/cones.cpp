@@ -51,7 +51,6 @@ class ConeSpread {
     prefer_large_pages(sites_.data(), n * sizeof(Site));
     touch_pages(sites_.data(), n * sizeof(Site));
     sites_.resize(n);
-    holds_sample_.resize(n);
     find_beside();
     make_parts();
   }
@@ -62,7 +61,7 @@ class ConeSpread {
     for (Part& part : parts_) part.buckets.resize(n_buckets);
     for_each_own_site(neighbours_, samples_, blanking_, [&](std::int32_t site, std::int32_t sample) {
       push({site, sample, 0}, cones_[sample].length, part_of(site));
-      holds_sample_[site] = 1;
+      own_sites_.push_back({site, sample});
     });
     for (now_ = 0; now_ < n_buckets; ++now_)
       while (take_events()) {
@@ -72,8 +71,8 @@ class ConeSpread {
     fill_rest();
   }
 
-  ConeTable take() {
-    const SiteGraph graph = make_graph();
+  ConeTable take(SampleSites* sites) {
+    SiteGraph graph = make_graph();
     SiteSamples kept = pruned_sites();
     sites_ = {};  // most of the memory
     parts_ = {};
@@ -101,6 +100,7 @@ class ConeSpread {
         if (all.at_center[site] != kNone) table.at_center[site] = number[all.at_center[site]];
       }
     });
+    if (sites) *sites = {std::move(graph), std::move(own_sites_)};
     return table;
   }
 
@@ -143,8 +143,9 @@ class ConeSpread {
         graph.of_beside[site] = sites_[site].beside;
       }
     });
-    graph.beside = beside_;
-    graph.holds_sample = std::move(holds_sample_);
+    graph.beside = std::move(beside_);
+    graph.holds_sample.resize(sites_.size());
+    for (const auto& [site, sample] : own_sites_) graph.holds_sample[site] = 1;
     return graph;
   }
 
@@ -374,9 +375,9 @@ class ConeSpread {
   const float largest_;
   float smallest_ = std::numeric_limits<float>::infinity();
   std::vector<Cone> cones_;
-  std::vector<Site> sites_;                 // [n_sites]
-  std::vector<std::uint8_t> holds_sample_;  // [n_sites]
+  std::vector<Site> sites_;  // [n_sites]
   std::vector<SiteBeside> beside_;
+  std::vector<std::pair<std::int32_t, std::int32_t>> own_sites_;
   std::vector<Part> parts_;
   int part_bits_ = 0;         // log2 of the sites of a part
   std::size_t now_ = 0;       // which bucket
@@ -386,10 +387,10 @@ class ConeSpread {
 }  // namespace
 
 ConeTable spread_cones(const Neighbours& neighbours, std::span<const LengthSample> samples,
-                       std::span<const float> slope, double max_length, const Blanking* blanking) {
+                       std::span<const float> slope, double max_length, const Blanking* blanking, SampleSites* sites) {
   ConeSpread spread(neighbours, samples, slope, max_length, blanking);
   spread.run();
-  return spread.take();
+  return spread.take(sites);
 }
 
 }  // namespace st

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <vector>
 
@@ -77,55 +76,8 @@ struct ConeStretch {
   }
 };
 
-/// Four cones, asked at once.
-class FourCones {
- public:
-  FourCones(const Cone& a, const Cone& b, const Cone& c, const Cone& d) {
-    turn(&a.x[0], &b.x[0], &c.x[0], &d.x[0], x_[0], x_[1], x_[2], length_);
-    turn(&a.slope, &b.slope, &c.slope, &d.slope, slope_, side_[0][0], side_[0][1], side_[0][2]);
-    turn(&a.side[1][0], &b.side[1][0], &c.side[1][0], &d.side[1][0], side_[1][0], side_[1][1], side_[1][2], half_[0]);
-    half_[1] = Float4{a.half[1], b.half[1], c.half[1], d.half[1]};
-  }
-  /// Of each the length, 1e-6 of it.
-  Float4 length_at(const SplitPlace& to) const { return length_ + rise_at(to); }
-  /// By what it is longer than at the rectangle.
-  Float4 rise_at(const SplitPlace& to) const {
-    Float4 way[3];
-    for (int k = 0; k < 3; ++k) way[k] = (to.high[k] - x_[k]) + to.low[k];
-    for (int e = 0; e < 2; ++e) {
-      const Float4 along = dot(way, side_[e]), below = along < half_[e] ? along : half_[e],
-                   within = below > -half_[e] ? below : -half_[e];
-      for (int k = 0; k < 3; ++k) way[k] -= within * side_[e][k];
-    }
-    const Float4 square = dot(way, way);
-    Float4 root{};
-    for (int i = 0; i < 4; ++i) root[i] = std::sqrt(square[i]);
-    return slope_ * root;
-  }
-
- private:
-  static Float4 dot(const Float4 (&a)[3], const Float4 (&b)[3]) { return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1]; }
-  /// Four numbers of each of four cones, by number.
-  static void turn(const float* a, const float* b, const float* c, const float* d, Float4& first, Float4& second,
-                   Float4& third, Float4& fourth) {
-    const auto load = [](const float* from) {
-      Float4 four;
-      std::memcpy(&four, from, sizeof four);
-      return four;
-    };
-    const Float4 ab_low = __builtin_shufflevector(load(a), load(b), 0, 4, 1, 5),
-                 ab_high = __builtin_shufflevector(load(a), load(b), 2, 6, 3, 7),
-                 cd_low = __builtin_shufflevector(load(c), load(d), 0, 4, 1, 5),
-                 cd_high = __builtin_shufflevector(load(c), load(d), 2, 6, 3, 7);
-    first = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-    second = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-    third = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-    fourth = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
-  }
-
-  Float4 x_[3], length_, slope_, side_[2][3], half_[2];
-};
 static_assert(sizeof(Cone) == 13 * sizeof(float));
+static_assert(sizeof(ConeStretch) == 4 * sizeof(float));
 
 inline Cone::Cone(const LengthSample& sample, float slope, Vec3 lo) : length(sample.length), slope(slope) {
   const Vec3 from_lo = sample.xyz - lo;
@@ -148,6 +100,8 @@ inline ConeStretch::ConeStretch(const SampleStretch& of_sample) {
   direction[2] = static_cast<float>(unit.z);
 }
 
+struct SampleSites;
+
 /// The cones of an octree, and which of them tell the length in each site.
 struct ConeTable {
   std::vector<Cone> cone;               ///< those that tell any, by leaf
@@ -167,8 +121,10 @@ struct ConeTable {
 /// site: those that win at its corners or its centre, and those nearby that win where the site is closest to them. A
 /// sample reaches the sites to which links lead from its own, over sites where it wins: where it wins is star-shaped
 /// about its rectangle (additively weighted Voronoi cells), so without a surface nothing is lost. With `blanking` (may
-/// be null) only open links lead on. `slope` [n_samples] > 0. Local, the same on every run. O(cones) in practice.
+/// be null) only open links lead on. `slope` [n_samples] > 0. `sites` (may be null) becomes what add_stretch() needs.
+/// Local, the same on every run. O(cones) in practice.
 ConeTable spread_cones(const Neighbours& neighbours, std::span<const LengthSample> samples,
-                       std::span<const float> slope, double max_length, const Blanking* blanking);
+                       std::span<const float> slope, double max_length, const Blanking* blanking,
+                       SampleSites* sites = nullptr);
 
 }  // namespace st

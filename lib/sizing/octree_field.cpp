@@ -120,35 +120,21 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
   return scaled(source_length(hint, x, length));
 }
 
-float OctreeField::least_along(std::span<const std::int32_t> cones, const SplitPlace& x, const float (&unit)[3],
-                               float least) const {
-  for (std::size_t k = 0; k < cones.size(); k += 4) {
-    std::int32_t own[4];
-    for (std::size_t i = 0; i < 4; ++i) own[i] = cones[std::min(k + i, cones.size() - 1)];
-    const auto& c = data_.cones;
-    if (!(c[own[0]].length < least)) break;  // the shortest of those from here on
-    const Float4 rise = FourCones(c[own[0]], c[own[1]], c[own[2]], c[own[3]]).rise_at(x);
-    for (int i = 0; i < 4; ++i)
-      least = std::min(least, rise[i] + data_.stretch[own[i]].length_in(unit, c[own[i]].length));
-  }
-  return least;
-}
-
 /// The direction is that of the cone that tells the length.
 LocalSize OctreeField::cone_local(std::int32_t site, const Place& x) const {
-  std::int32_t winner = kNone;
-  const double unscaled = cone_length(site, x, &winner), length = scaled(unscaled);
-  if (winner == kNone || !(data_.stretch[winner].along > 0)) return {length, length, {}};
-  const float(&unit)[3] = data_.stretch[winner].direction;
-  const auto of = [site](std::span<const std::int32_t> cones, std::span<const std::int32_t> first) {
-    return cones.subspan(first[site], first[site + 1] - first[site]);
-  };
-  const SplitPlace place(x.from_lo);
-  float least = static_cast<float>(std::min(data_.max_length, data_.max_aspect * unscaled));
-  least = least_along(of(data_.site_cones, data_.first_cone), place, unit, least);
-  least = least_along(of(data_.site_along, data_.first_along), place, unit, least);
-  const double along = scaled(static_cast<double>(least));
-  if (!(along > length)) return {length, length, {}};
+  const std::int32_t own = data_.first_cone[site], more = data_.first_along[site];
+  const AlongCones cones{reinterpret_cast<const float*>(data_.cones.data()),
+                         reinterpret_cast<const float*>(data_.stretch.data()),
+                         data_.site_cones.data() + own,
+                         data_.site_along.data() + more,
+                         data_.first_cone[site + 1] - own,
+                         data_.first_along[site + 1] - more,
+                         data_.max_length,
+                         data_.max_aspect};
+  const LeastAlong least = kernels_.least_along(cones, SplitPlace(x.from_lo).numbers());
+  const double length = scaled(static_cast<double>(least.length)), along = scaled(static_cast<double>(least.along));
+  if (least.winner == kNone || !(along > length)) return {length, length, {}};
+  const float(&unit)[3] = data_.stretch[least.winner].direction;
   return {length, along, normalized(Vec3{unit[0], unit[1], unit[2]})};
 }
 

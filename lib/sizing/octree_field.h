@@ -142,9 +142,6 @@ class OctreeField : public SizeField {
   LocalSize local_in(std::int32_t site, const Place& x) const;
   LocalSize cell_local(std::int32_t site, const Place& x) const;
   LocalSize cone_local(std::int32_t site, const Place& x) const;
-  /// Before scale: the smallest of `least` and of what these cones ask for along `unit`.
-  float least_along(std::span<const std::int32_t> cones, const SplitPlace& x, const float (&unit)[3],
-                    float least) const;
   static double length_in(const CellLength& cell, Vec3 d) {
     const double rise = cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
     return std::min<double>(cell.length + rise, std::abs(cell.upper));

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "base/limits.h"
 #include "base/parallel_reserve.h"
@@ -23,11 +25,11 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 class StretchSpread {
  public:
-  StretchSpread(const Neighbours& neighbours, std::span<const LengthSample> samples, std::span<const float> slope,
-                const Blanking* blanking, ConeTable& table)
-      : neighbours_(neighbours), octree_(neighbours.octree()), blanking_(blanking), samples_(samples), table_(table) {
+  StretchSpread(const OctreeView& octree, std::span<const LengthSample> samples, std::span<const float> slope,
+                const SampleSites& sites, ConeTable& table)
+      : graph_(sites.graph), own_sites_(sites.own), samples_(samples), table_(table) {
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      cones_.emplace_back(samples[i], slope[i], octree_.lo);
+      cones_.emplace_back(samples[i], slope[i], octree.lo);
       stretch_.emplace_back(samples[i].stretch);
     }
   }
@@ -35,6 +37,7 @@ class StretchSpread {
   void run() {
     for (const std::int32_t sample : table_.sample) table_.stretch.push_back(stretch_[sample]);
     find_sites();
+    find_starts();
     std::vector<std::int32_t> order(samples_.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [](std::int32_t a, std::int32_t b) { return turn_of(a) < turn_of(b); });
@@ -48,55 +51,56 @@ class StretchSpread {
   }
 
  private:
-  /// A site where some probe has a stretched length.
-  struct Site {
-    ConeCell cell;
-    Lengths best;                      // smallest length along at the probes; below all where nothing is stretched
-    float unit[3] = {0, 0, 0};         // the direction of all of these, if it is one
-    std::int32_t turns = kNone;        // else into turns_
-    std::array<Int4, kGroups> winner;  // the sample of `best`; kNone: a cone of the site
-  };
   /// The directions of the cones that tell the lengths at the probes.
-  using Directions = std::array<Lengths, 3>;
+  using Directions = std::array<std::array<float, kProbes>, 3>;
   /// Of the sites of a piece of a loop.
   struct Piece {
-    std::vector<std::int32_t> number;  // of the sites in `sites`
-    std::vector<Site> sites;
     std::vector<Directions> turns;
-    std::vector<Lengths> lengths;                // of the cones of the site at hand
-    std::vector<std::int32_t> beside, n_beside;  // of all sites
+    std::vector<Lengths> lengths;  // of the cones of the site at hand
     std::vector<std::int32_t> winners, n_winners;
   };
 
-  /// Which sites a sample has come to. One for each thread at work.
-  class Walk {
-   public:
-    explicit Walk(std::int32_t n_sites) : is_seen_(static_cast<std::size_t>(n_sites) / 64 + 1) {}
-    /// Whether it is new.
+  /// Which sites a sample has come to, but for those where nothing is stretched. One for each thread at work.
+  struct Walk {
+    std::vector<std::uint64_t> is_seen;  // a bit for each site
+    std::vector<std::int32_t> found;     // the first `n` count
+    std::size_t n = 0;
+    std::vector<std::int32_t> waiting;
+    std::vector<AlongGain> gains;
+
     bool come_to(std::int32_t site) {
-      std::uint64_t& word = is_seen_[static_cast<std::size_t>(site) / 64];
-      const std::uint64_t bit = std::uint64_t{1} << (site % 64);
+      const auto number = static_cast<std::uint32_t>(site);
+      std::uint64_t& word = is_seen[number / 64];
+      const std::uint64_t bit = std::uint64_t{1} << (number % 64);
       if ((word & bit) != 0) return false;
       word |= bit;
-      seen_.push_back(site);
+      found[n++] = site;
       return true;
     }
-    void forget() {
-      for (const std::int32_t site : seen_) is_seen_[static_cast<std::size_t>(site) / 64] = 0;
-      seen_.clear();
+    void come_to_all(std::span<const SiteBeside> sites) {
+      make_room(sites.size());
+      std::int32_t* to = found.data() + n;
+      std::uint64_t* const words = is_seen.data();
+      for (const SiteBeside& s : sites) {
+        const auto number = static_cast<std::uint32_t>(s.site);
+        const std::uint64_t word = words[number / 64], bit = std::uint64_t{1} << (number % 64);
+        if ((word & bit) != 0) continue;
+        words[number / 64] = word | bit;
+        *to++ = s.site;
+      }
+      n = static_cast<std::size_t>(to - found.data());
     }
-    std::vector<std::int32_t> waiting;
-
-   private:
-    std::vector<std::uint64_t> is_seen_;  // a bit for each site
-    std::vector<std::int32_t> seen_;
+    /// For so many that are found.
+    void make_room(std::size_t n_more) {
+      if (found.size() < n + n_more) found.resize(2 * (n + n_more));
+    }
   };
   struct Win {
-    std::int32_t slot, sample;
+    std::int32_t site, sample;
   };
-  /// A list of sites for each of something.
+  /// A list of sites for each sample.
   struct SiteLists {
-    std::vector<std::int32_t> first{0}, sites;
+    std::vector<std::int32_t> first, sites;
     std::span<const std::int32_t> operator[](std::int32_t i) const {
       return std::span(sites).subspan(static_cast<std::size_t>(first[i]),
                                       static_cast<std::size_t>(first[i + 1] - first[i]));
@@ -109,102 +113,97 @@ class StretchSpread {
     return static_cast<std::uint32_t>(sample) * 0x9E3779B1U;  // golden ratio: neighbours fall far apart
   }
 
-  std::int32_t n_sites() const { return static_cast<std::int32_t>(table_.first.size()) - 1; }
-  std::int32_t leaf_of(std::int32_t site) const {
-    return site < octree_.n_leaves() ? site : blanking_->split_leaf[site - octree_.n_leaves()];
-  }
-  std::span<const std::int32_t> cones_of(std::int32_t site) const {
+  std::size_t n_sites() const { return graph_.cell.size(); }
+  std::span<const std::int32_t> cones_of(std::size_t site) const {
     return std::span(table_.of_site).subspan(table_.first[site], table_.first[site + 1] - table_.first[site]);
   }
+  const float* turns() const { return turns_.empty() ? nullptr : turns_[0][0].data(); }
+  static AlongCone along_cone(const Cone& cone, const ConeStretch& stretch) {
+    return {cone.numbers(), stretch.direction, stretch.along};
+  }
+  AlongCone along_cone(std::int32_t sample) const { return along_cone(cones_[sample], stretch_[sample]); }
 
   /// The pieces of a loop over all sites, which `f(site, piece)` fills.
   template <class F>
   std::vector<Piece> over_sites(const F& f) const {
-    const auto n = static_cast<std::size_t>(n_sites());
-    std::vector<Piece> pieces((n + kSitesPerPiece - 1) / kSitesPerPiece);
-    parallel_for(n, kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t site = begin; site < end; ++site)
-        f(static_cast<std::int32_t>(site), pieces[begin / kSitesPerPiece]);
+    std::vector<Piece> pieces((n_sites() + kSitesPerPiece - 1) / kSitesPerPiece);
+    parallel_for(n_sites(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t site = begin; site < end; ++site) f(site, pieces[begin / kSitesPerPiece]);
     });
     return pieces;
   }
 
   void find_sites() {
-    slot_.assign(static_cast<std::size_t>(n_sites()), kNone);
-    std::vector<Piece> pieces = over_sites([&](std::int32_t site, Piece& own) {
-      const std::size_t n = own.beside.size();
-      visit_beside(site, [&](std::int32_t other) { own.beside.push_back(other); });
-      own.n_beside.push_back(static_cast<std::int32_t>(own.beside.size() - n));
-      const auto cones = cones_of(site);
-      if (std::any_of(cones.begin(), cones.end(), [&](std::int32_t c) { return table_.stretch[c].along > 0; })) {
-        own.number.push_back(site);
-        own.sites.push_back(make_site(site, own));
-      }
-    });
-    std::size_t n_sites = 0, n_beside = 0;
-    for (const Piece& own : pieces) {
-      n_sites += own.sites.size();
-      n_beside += own.beside.size();
+    parallel_reserve(sites_, n_sites());
+    sites_.resize(n_sites());
+    std::vector<Piece> pieces = over_sites([&](std::size_t site, Piece& own) { make_site(site, own); });
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      const auto first = static_cast<std::int32_t>(turns_.size());
+      const std::size_t end = std::min(n_sites(), (i + 1) * kSitesPerPiece);
+      for (std::size_t site = i * kSitesPerPiece; first > 0 && site < end; ++site)
+        if (sites_[site].turns != kNone) sites_[site].turns += first;
+      turns_.insert(turns_.end(), pieces[i].turns.begin(), pieces[i].turns.end());
+      pieces[i] = {};
     }
-    parallel_reserve(sites_, n_sites);
-    parallel_reserve(beside_.sites, n_beside);
-    for (Piece& own : pieces) {
-      for (std::size_t i = 0; i < own.sites.size(); ++i) {
-        if (own.sites[i].turns != kNone) own.sites[i].turns += static_cast<std::int32_t>(turns_.size());
-        slot_[own.number[i]] = static_cast<std::int32_t>(sites_.size() + i);
-      }
-      sites_.insert(sites_.end(), own.sites.begin(), own.sites.end());
-      turns_.insert(turns_.end(), own.turns.begin(), own.turns.end());
-      beside_.sites.insert(beside_.sites.end(), own.beside.begin(), own.beside.end());
-      require_countable(beside_.sites.size(), "cells beside cells");
-      for (const std::int32_t n : own.n_beside) beside_.first.push_back(beside_.first.back() + n);
-      own = {};
-    }
-    find_starts();
+    is_plain_.resize(n_sites() / 64 + 1);
+    for (std::size_t site = 0; site < n_sites(); ++site)
+      if (!is_stretched(site)) is_plain_[site / 64] |= std::uint64_t{1} << (site % 64);
   }
 
+  /// Whether any cone of the site is.
+  bool is_stretched(std::size_t site) const {
+    return std::ranges::any_of(cones_of(site), [&](std::int32_t c) { return table_.stretch[c].along > 0; });
+  }
+
+  /// Where each sample tells a length.
   void find_starts() {
-    std::vector<std::pair<std::int32_t, std::int32_t>> all;  // sample, site
-    for (std::int32_t site = 0; site < n_sites(); ++site)
-      for (const std::int32_t c : cones_of(site)) all.emplace_back(table_.sample[c], site);
-    for_each_own_site(neighbours_, samples_, blanking_,
-                      [&](std::int32_t site, std::int32_t sample) { all.emplace_back(sample, site); });
     std::vector<std::int32_t>& first = starts_.first;
     first.assign(samples_.size() + 1, 0);
-    for (const auto& [sample, site] : all) ++first[sample + 1];
+    for (const std::int32_t c : table_.of_site) ++first[table_.sample[c] + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
-    starts_.sites.resize(all.size());
+    starts_.sites.resize(table_.of_site.size());
     std::vector<std::int32_t> next(first.begin(), first.end() - 1);
-    for (const auto& [sample, site] : all) starts_.sites[next[sample]++] = site;
+    for (std::size_t site = 0; site < n_sites(); ++site)
+      for (const std::int32_t c : cones_of(site))
+        starts_.sites[next[table_.sample[c]]++] = static_cast<std::int32_t>(site);
+    lies_in_.first.assign(samples_.size() + 1, 0);
+    for (const auto& [site, sample] : own_sites_) ++lies_in_.first[sample + 1];
+    std::partial_sum(lies_in_.first.begin(), lies_in_.first.end(), lies_in_.first.begin());
+    lies_in_.sites.resize(own_sites_.size());
+    next.assign(lies_in_.first.begin(), lies_in_.first.end() - 1);
+    for (const auto& [site, sample] : own_sites_) lies_in_.sites[next[sample]++] = site;
   }
 
-  Site make_site(std::int32_t site, Piece& own) const {
-    Site s;
-    s.cell = ConeCell(octree_, leaf_of(site));
-    s.winner.fill(Int4{} + kNone);
+  void make_site(std::size_t site, Piece& own) {
+    AlongSite& s = sites_[site];
+    const ConeCell& cell = graph_.cell[site];
+    std::copy_n(cell.numbers(), 4, s.cell);
+    std::fill_n(s.winner, kProbes, kNone);
+    std::fill_n(s.best, kProbes, -kInfinity);
+    std::fill_n(s.unit, 3, 0.0F);
+    s.turns = kNone;
+    if (!is_stretched(site)) return;
     const auto cones = cones_of(site);
     own.lengths.clear();
-    for (const std::int32_t c : cones) own.lengths.push_back(s.cell.lengths(kernels_, table_.cone[c]));
+    for (const std::int32_t c : cones) own.lengths.push_back(cell.lengths(kernels_, table_.cone[c]));
     const std::array<Int4, kGroups> told_by = winners_at_probes(cones, own.lengths);
     Directions directions{};
     bool is_turning = false;
-    for (int g = 0; g < kGroups; ++g)
-      for (int i = 0; i < 4; ++i) {
-        const ConeStretch stretch = told_by[g][i] == kNone ? ConeStretch() : table_.stretch[told_by[g][i]];
-        s.best[g][i] = stretch.along > 0 ? kInfinity : -kInfinity;
-        for (int k = 0; k < 3; ++k) directions[k][g][i] = stretch.direction[k];
-        if (stretch.along > 0) note_direction(stretch, s, is_turning);
-      }
+    for (int i = 0; i < kProbes; ++i) {
+      const std::int32_t c = told_by[i / 4][i % 4];
+      if (c == kNone || !(table_.stretch[c].along > 0)) continue;
+      s.best[i] = kInfinity;
+      for (int k = 0; k < 3; ++k) directions[k][i] = table_.stretch[c].direction[k];
+      note_direction(table_.stretch[c], s, is_turning);
+    }
     if (is_turning) {
       s.turns = static_cast<std::int32_t>(own.turns.size());
       own.turns.push_back(directions);
     }
-    for (std::size_t k = 0; k < cones.size(); ++k) {
-      const std::int32_t c = cones[k];
-      kernels_.lower_along(numbers(own.lengths[k]), way_of(s, table_.cone[c], table_.stretch[c], own.turns),
-                           numbers(s.best));
-    }
-    return s;
+    const float* const turns = is_turning ? own.turns[0][0].data() : nullptr;
+    for (std::size_t k = 0; k < cones.size(); ++k)
+      kernels_.lower_along(numbers(own.lengths[k]), along_cone(table_.cone[cones[k]], table_.stretch[cones[k]]), turns,
+                           s);
   }
 
   /// Which cones, of such lengths, tell the lengths there; kNone: the largest length.
@@ -222,7 +221,7 @@ class StretchSpread {
     return winner;
   }
 
-  static void note_direction(const ConeStretch& stretch, Site& s, bool& is_turning) {
+  static void note_direction(const ConeStretch& stretch, AlongSite& s, bool& is_turning) {
     const bool is_first = s.unit[0] == 0 && s.unit[1] == 0 && s.unit[2] == 0;
     for (int k = 0; k < 3; ++k) {
       if (is_first) s.unit[k] = stretch.direction[k];
@@ -230,46 +229,30 @@ class StretchSpread {
     }
   }
 
-  /// How the lengths along of a cone differ from its lengths in a site. `turns`: those of the sites.
-  static LongerWay way_of(const Site& s, const Cone& cone, const ConeStretch& stretch,
-                          const std::vector<Directions>& turns) {
-    LongerWay way;
-    if (!(stretch.along > cone.length)) return way;
-    if (s.turns == kNone) {
-      way.longer = stretch.length_in(s.unit, cone.length) - cone.length;
-      return way;
-    }
-    const float ratio = cone.length / stretch.along;
-    way.directions = numbers(turns[s.turns][0]);
-    way.unit = stretch.direction;
-    way.squeeze = 1 - ratio * ratio;
-    way.length = cone.length;
-    return way;
-  }
-
   /// All of them against what is known before, so that the result does not depend on the number of threads.
   void spread_all(std::span<const std::int32_t> samples) {
     constexpr std::size_t kParts = 64;
     const std::size_t per_piece = std::clamp<std::size_t>(samples.size() / kParts, 1, 128);
-    const std::size_t per_part = sites_.size() / kParts + 1;
+    const std::size_t per_part = n_sites() / kParts + 1;
     std::vector<std::array<std::vector<Win>, kParts>> won((samples.size() + per_piece - 1) / per_piece);
     parallel_for(samples.size(), per_piece, [&](std::size_t begin, std::size_t end) {
       std::unique_ptr<Walk> walk = take_walk();
       const auto note = [&](const Win& w) {
-        won[begin / per_piece][static_cast<std::size_t>(w.slot) / per_part].push_back(w);
+        won[begin / per_piece][static_cast<std::size_t>(w.site) / per_part].push_back(w);
       };
       for (std::size_t i = begin; i < end; ++i) spread(samples[i], *walk, note);
       give_back(std::move(walk));
     });
     parallel_for(kParts, 1, [&](std::size_t part, std::size_t) {
       for (const auto& piece : won)
-        for (const auto [slot, sample] : piece[part]) take(sites_[slot], sample);
+        for (const auto [site, sample] : piece[part])
+          kernels_.take_along(along_cone(sample), sample, turns(), kClearly, sites_[site]);
     });
   }
 
   std::unique_ptr<Walk> take_walk() {
     const std::lock_guard lock(walks_mutex_);
-    if (walks_.empty()) return std::make_unique<Walk>(n_sites());
+    if (walks_.empty()) return std::make_unique<Walk>(Walk{is_plain_, {}, 0, {}, {}});
     std::unique_ptr<Walk> walk = std::move(walks_.back());
     walks_.pop_back();
     return walk;
@@ -279,56 +262,55 @@ class StretchSpread {
     walks_.push_back(std::move(walk));
   }
 
-  /// Over sites where the sample tells the length along, or nearly. Calls note(win) for each where it does.
+  /// Over sites where the sample tells the length along, or nearly. Calls note(win) for each where it does. It begins
+  /// where it tells a length, and knows nothing new there, and where it lies.
   template <class F>
   void spread(std::int32_t sample, Walk& walk, const F& note) const {
-    const auto leads_on = [&](std::int32_t slot) {
-      const auto [is_clearly, is_nearly] = offer(sites_[slot], sample);
-      if (is_clearly) note(Win{slot, sample});
-      return is_nearly;
-    };
-    for (const std::int32_t site : starts_[sample]) {
-      if (!walk.come_to(site)) continue;
-      walk.waiting.push_back(site);
-      if (slot_[site] != kNone) leads_on(slot_[site]);
-    }
+    walk.n = 0;
+    walk.waiting.assign(starts_[sample].begin(), starts_[sample].end());
+    walk.make_room(walk.waiting.size() + lies_in_[sample].size());
+    for (const std::int32_t site : walk.waiting) walk.come_to(site);
+    std::size_t n_offered = walk.n;
+    for (const std::int32_t site : lies_in_[sample])
+      if (walk.come_to(site) || is_plain(site)) walk.waiting.push_back(site);
+    offer_rest(sample, n_offered, walk, note, [](std::int32_t, AlongGain) {});
     while (!walk.waiting.empty()) {
-      const std::int32_t site = walk.waiting.back();
-      walk.waiting.pop_back();
-      for (const std::int32_t other : beside_[site])
-        if (walk.come_to(other) && slot_[other] != kNone && leads_on(slot_[other])) walk.waiting.push_back(other);
+      for (const std::int32_t site : walk.waiting) walk.come_to_all(graph_.beside_of(site));
+      walk.waiting.clear();
+      offer_rest(sample, n_offered, walk, note, [&](std::int32_t site, AlongGain gain) {
+        if (gain != kNoGain) walk.waiting.push_back(site);
+      });
     }
-    walk.forget();
+    for (const std::int32_t site : std::span(walk.found).first(walk.n))
+      walk.is_seen[static_cast<std::size_t>(site) / 64] = is_plain_[static_cast<std::size_t>(site) / 64];
+  }
+  bool is_plain(std::int32_t site) const {
+    return (is_plain_[static_cast<std::size_t>(site) / 64] >> (site % 64) & 1) != 0;
   }
 
-  template <class F>
-  void visit_beside(std::int32_t site, const F& f) const {
-    if (!blanking_ || blanking_->site_links[site] == kNone)
-      neighbours_.for_each_across_face(site, [&](std::int32_t other, const CellStep&) { f(other); });
-    else
-      for_each_link_across_face(*blanking_, neighbours_, site, [&](std::int32_t other, const CellStep&) { f(other); });
-  }
-
-  /// It leads on where it nearly wins: where directions turn, it may win further on.
-  AlongOffer offer(const Site& s, std::int32_t sample) const {
+  /// To the sites that are found from the `n_offered`-th on. It leads on where it nearly wins: where directions turn,
+  /// it may win further on.
+  template <class F, class G>
+  void offer_rest(std::int32_t sample, std::size_t& n_offered, Walk& walk, const F& note, const G& told) const {
     constexpr float kNearly = 1.002F;  // of the length along
-    const Cone& cone = cones_[sample];
-    return kernels_.offer_along(s.cell.numbers(), cone.numbers(), way_of(s, cone, stretch_[sample], turns_),
-                                {kClearly, kNearly}, numbers(s.best));
-  }
-  void take(Site& s, std::int32_t sample) const {
-    const Cone& cone = cones_[sample];
-    kernels_.take_along(s.cell.numbers(), cone.numbers(), way_of(s, cone, stretch_[sample], turns_), sample, kClearly,
-                        numbers(s.best), numbers(s.winner));
+    const std::span<const std::int32_t> rest = std::span(walk.found).subspan(n_offered, walk.n - n_offered);
+    n_offered = walk.n;
+    walk.gains.resize(rest.size());
+    kernels_.offer_along(along_cone(sample), sites_.data(), turns(), rest.data(),
+                         static_cast<std::int32_t>(rest.size()), {kClearly, kNearly}, walk.gains.data());
+    for (std::size_t i = 0; i < rest.size(); ++i) {
+      if (walk.gains[i] == kClearlyGains) note(Win{rest[i], sample});
+      told(rest[i], walk.gains[i]);
+    }
   }
 
   /// What wins and is no cone of the site already.
   void store() {
     std::vector<std::int32_t> number(samples_.size(), kNone);
     for (std::size_t c = 0; c < table_.sample.size(); ++c) number[table_.sample[c]] = static_cast<std::int32_t>(c);
-    std::vector<Piece> pieces = over_sites([&](std::int32_t site, Piece& own) {
+    std::vector<Piece> pieces = over_sites([&](std::size_t site, Piece& own) {
       const std::size_t n = own.winners.size();
-      if (slot_[site] != kNone) add_winners(site, number, own.winners);
+      if (!is_plain(static_cast<std::int32_t>(site))) add_winners(site, number, own.winners);
       own.n_winners.push_back(static_cast<std::int32_t>(own.winners.size() - n));
     });
     table_.first_along.push_back(0);
@@ -340,12 +322,10 @@ class StretchSpread {
   }
 
   /// Adds the samples that win in a site and are no cone of it. `number` [n_samples]: which cones they are.
-  void add_winners(std::int32_t site, std::span<const std::int32_t> number, std::vector<std::int32_t>& winners) const {
+  void add_winners(std::size_t site, std::span<const std::int32_t> number, std::vector<std::int32_t>& winners) const {
     const auto first = static_cast<std::ptrdiff_t>(winners.size());
     const auto own = cones_of(site);
-    const std::int32_t* winner = numbers(sites_[slot_[site]].winner);
-    for (int i = 0; i < kProbes; ++i) {
-      const std::int32_t sample = winner[i];
+    for (const std::int32_t sample : sites_[site].winner) {
       if (sample == kNone || std::find(winners.begin() + first, winners.end(), sample) != winners.end()) continue;
       if (number[sample] == kNone || std::find(own.begin(), own.end(), number[sample]) == own.end())
         winners.push_back(sample);
@@ -366,29 +346,27 @@ class StretchSpread {
     table_.along_of_site.push_back(number[sample]);
   }
 
-  const Neighbours& neighbours_;
-  const OctreeView& octree_;
-  const Blanking* const blanking_;
+  const SiteGraph& graph_;
+  const std::span<const std::pair<std::int32_t, std::int32_t>> own_sites_;
   const ConeKernels& kernels_ = cone_kernels();
   const std::span<const LengthSample> samples_;
   ConeTable& table_;
   std::vector<Cone> cones_;           // [n_samples]
   std::vector<ConeStretch> stretch_;  // [n_samples]
-  std::vector<std::int32_t> slot_;    // [n_sites] into sites_; kNone: nothing is stretched there
-  std::vector<Site> sites_;
+  std::vector<AlongSite> sites_;      // [n_sites]
   std::vector<Directions> turns_;
-  SiteLists beside_;  // of each site: to which lengths pass from it
-  SiteLists starts_;  // of each sample: where it tells a length or lies
+  std::vector<std::uint64_t> is_plain_;  // a bit for each site: nothing is stretched there
+  SiteLists starts_, lies_in_;           // of each sample: where it tells a length, where it lies
   std::mutex walks_mutex_;
   std::vector<std::unique_ptr<Walk>> walks_;  // not in use
 };
 
 }  // namespace
 
-void add_stretch(const Neighbours& neighbours, std::span<const LengthSample> samples, std::span<const float> slope,
-                 const Blanking* blanking, ConeTable& table) {
+void add_stretch(const OctreeView& octree, std::span<const LengthSample> samples, std::span<const float> slope,
+                 const SampleSites& sites, ConeTable& table) {
   if (std::none_of(samples.begin(), samples.end(), [](const LengthSample& s) { return s.stretch.along > 0; })) return;
-  StretchSpread(neighbours, samples, slope, blanking, table).run();
+  StretchSpread(octree, samples, slope, sites, table).run();
 }
 
 }  // namespace st

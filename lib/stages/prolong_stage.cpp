@@ -232,8 +232,11 @@ void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress
   progress.step("lengths", 0.4);
   if (has_cones) {
     const std::vector<float> slope = sample_slopes(o, slope_seeds, raster.samples);
-    sizing.cones = spread_cones(neighbours, raster.samples, slope, raster.numbers.far_length, blanking);
-    if (sizing.numbers.max_aspect > 1) add_stretch(neighbours, raster.samples, slope, blanking, sizing.cones);
+    const bool is_stretched = sizing.numbers.max_aspect > 1;
+    SampleSites sites;
+    sizing.cones = spread_cones(neighbours, raster.samples, slope, raster.numbers.far_length, blanking,
+                                is_stretched ? &sites : nullptr);
+    if (is_stretched) add_stretch(neighbours.octree(), raster.samples, slope, sites, sizing.cones);
   } else {
     const std::vector<float> slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
     sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause,

@@ -66,8 +66,9 @@ inline SizingArtifact sizing_of_stretched_cones() {
   sizing.numbers.max_aspect = 8;
   const std::vector<float> slope(raster.samples.size(), 0.2F);
   const Neighbours neighbours(raster.octree.shape.view());
-  sizing.cones = spread_cones(neighbours, raster.samples, slope, sizing.numbers.far_length, nullptr);
-  add_stretch(neighbours, raster.samples, slope, nullptr, sizing.cones);
+  SampleSites sites;
+  sizing.cones = spread_cones(neighbours, raster.samples, slope, sizing.numbers.far_length, nullptr, &sites);
+  add_stretch(neighbours.octree(), raster.samples, slope, sites, sizing.cones);
   sizing.lengths = lengths_at_centers(sizing.field_data(nullptr), sizing.cones.at_center);
   return sizing;
 }

@@ -70,64 +70,75 @@ TEST(ConeKernels, tell_the_lengths_of_a_cone_at_the_probes) {
   }
 }
 
-/// Unit vectors at the probes of a cell.
-std::array<Lengths, 3> random_directions(unsigned seed) {
+/// Unit vectors at the probes of a cell, by coordinate.
+std::vector<float> random_directions(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1, 1);
-  std::array<Lengths, 3> directions;
+  std::vector<float> directions(3 * kProbes);
   for (int i = 0; i < kProbes; ++i) {
     const Vec3 d = normalized({unit(random), unit(random), unit(random)});
-    directions[0][i / 4][i % 4] = static_cast<float>(d.x);
-    directions[1][i / 4][i % 4] = static_cast<float>(d.y);
-    directions[2][i / 4][i % 4] = static_cast<float>(d.z);
+    const double of[] = {d.x, d.y, d.z};
+    for (int k = 0; k < 3; ++k) directions[static_cast<std::size_t>(k * kProbes + i)] = static_cast<float>(of[k]);
   }
   return directions;
+}
+
+/// A cell in which nothing is known but at one probe.
+AlongSite empty_site(const ConeCell& cell, int known, float length) {
+  AlongSite site{};
+  std::copy_n(cell.numbers(), 4, site.cell);
+  std::fill_n(site.best, kProbes, 10.0F);
+  std::fill_n(site.winner, kProbes, kNone);
+  site.best[known] = length;
+  return site;
 }
 
 TEST(ConeKernels, tell_lengths_along_the_directions_of_a_cell) {
   constexpr AlongShares kShares{0.99F, 1.002F};
   const RandomCones all(3);
-  const std::array<Lengths, 3> directions = random_directions(4);
+  const std::vector<float> directions = random_directions(4);
+  const float unit[3] = {0, 0.6F, 0.8F};
   ConeStretch stretch;
   stretch.direction[1] = 1;
-  for (const Cone& cone : all.cone) {
-    stretch.along = 7 * cone.length;
-    const float ratio = cone.length / stretch.along;
-    const LongerWay way{0, numbers(directions[0]), stretch.direction, 1 - ratio * ratio, cone.length};
-    const Lengths lengths = all.cell.lengths(cone_kernels(), cone);
-    Lengths best;
-    best.fill(four(10));
-    std::array<Int4, kGroups> winner;
-    winner.fill(Int4{} + kNone);
-    best[1][2] = 0.1F * cone.length;
-    const auto offer = [&](const Cone& of, const LongerWay& along) {
-      return cone_kernels().offer_along(all.cell.numbers(), of.numbers(), along, kShares, numbers(best));
-    };
-    EXPECT_TRUE(offer(cone, way).is_clearly);
-    cone_kernels().take_along(all.cell.numbers(), cone.numbers(), way, 7, kShares.clearly, numbers(best),
-                              numbers(winner));
-    for (int i = 0; i < kProbes; ++i) {
-      if (i == 6) continue;
-      const float d[3] = {directions[0][i / 4][i % 4], directions[1][i / 4][i % 4], directions[2][i / 4][i % 4]};
-      EXPECT_NEAR(best[i / 4][i % 4], lengths[i / 4][i % 4] + stretch.length_in(d, cone.length) - cone.length, 1e-6);
-      EXPECT_EQ(winner[i / 4][i % 4], 7);
+  for (const Cone& cone : all.cone)
+    for (const std::int32_t turns : {0, kNone}) {
+      stretch.along = 7 * cone.length;
+      const AlongCone along{cone.numbers(), stretch.direction, stretch.along};
+      const Lengths lengths = all.cell.lengths(cone_kernels(), cone);
+      AlongSite sites[2] = {empty_site(all.cell, 6, 0.1F * cone.length), empty_site(all.cell, 6, 0)};
+      AlongSite& site = sites[0];
+      site.turns = turns;
+      std::copy_n(unit, 3, site.unit);
+      std::fill_n(sites[1].best, kProbes, 0.0F);  // where no cone gains
+      AlongSite lowered = site;
+      const auto gain = [&] {
+        constexpr std::int32_t kWhich[2] = {1, 0};
+        AlongGain gains[2];
+        cone_kernels().offer_along(along, sites, directions.data(), kWhich, 2, kShares, gains);
+        EXPECT_EQ(gains[0], kNoGain);
+        return gains[1];
+      };
+      EXPECT_EQ(gain(), kClearlyGains);
+      cone_kernels().take_along(along, 7, directions.data(), kShares.clearly, site);
+      for (int i = 0; i < kProbes; ++i) {
+        if (i == 6) continue;
+        const float turning[3] = {directions[i], directions[kProbes + i], directions[2 * kProbes + i]};
+        EXPECT_NEAR(site.best[i],
+                    lengths[i / 4][i % 4] + stretch.length_in(turns == 0 ? turning : unit, cone.length) - cone.length,
+                    1e-6);
+        EXPECT_EQ(site.winner[i], 7);
+      }
+      EXPECT_EQ(site.best[6], 0.1F * cone.length) << "what is shorter stays";
+      EXPECT_EQ(site.winner[6], kNone);
+      cone_kernels().lower_along(numbers(lengths), along, directions.data(), lowered);
+      EXPECT_TRUE(std::equal(site.best, site.best + kProbes, lowered.best));
+      for (float& length : site.best) length *= 0.9985F;  // a sample that is nearly as short leads on
+      EXPECT_EQ(gain(), kNearlyGains);
+      for (float& length : site.best) length *= 0.99F;
+      EXPECT_EQ(gain(), kNoGain);
+      cone_kernels().take_along(along, 8, directions.data(), kShares.clearly, site);
+      EXPECT_EQ(site.winner[0], 7);
     }
-    EXPECT_EQ(best[1][2], 0.1F * cone.length) << "what is shorter stays";
-    EXPECT_EQ(winner[1][2], kNone);
-    Lengths lowered;
-    lowered.fill(four(10));
-    cone_kernels().lower_along(numbers(lengths), way, numbers(lowered));
-    lowered[1][2] = best[1][2];
-    EXPECT_EQ(std::memcmp(&lowered, &best, sizeof best), 0);
-    for (Float4& four_lengths : best) four_lengths *= 0.9985F;  // a sample that is nearly as short leads on
-    EXPECT_TRUE(offer(cone, way).is_nearly);
-    EXPECT_FALSE(offer(cone, way).is_clearly);
-    for (Float4& four_lengths : best) four_lengths *= 0.99F;
-    EXPECT_FALSE(offer(cone, way).is_nearly);
-    cone_kernels().take_along(all.cell.numbers(), cone.numbers(), way, 8, kShares.clearly, numbers(best),
-                              numbers(winner));
-    EXPECT_EQ(winner[0][0], 7);
-  }
 }
 
 TEST(ConeKernels, ask_every_cone_that_is_known) {
@@ -155,6 +166,66 @@ TEST(ConeKernels, ask_every_cone_that_is_known) {
   known.first = 3;
   EXPECT_FALSE(wins(known));
   EXPECT_FALSE(kernels.wins_nearby(all.cell.numbers(), won.numbers(), 0.997F, 0.04F, all.known({})));
+}
+
+/// Cones side by side, the shortest lengths first, of which every second is longer along a direction.
+struct StretchedCones {
+  std::vector<Cone> cones;
+  std::vector<ConeStretch> stretches;
+
+  explicit StretchedCones(unsigned seed) {
+    for (unsigned i = 0; i < 5; ++i)
+      for (const Cone& c : RandomCones(100 * seed + i).cone) cones.push_back(c);
+    std::sort(cones.begin(), cones.end(), [](const Cone& a, const Cone& b) { return a.length < b.length; });
+    const std::vector<float> directions = random_directions(seed);
+    for (std::size_t i = 0; i < cones.size(); ++i) {
+      ConeStretch s;
+      for (std::size_t k = 0; k < 3; ++k) s.direction[k] = directions[k * kProbes + i / 2 % kProbes];
+      s.along = i % 2 == 0 ? static_cast<float>(2 + i % 40) * cones[i].length : 0;
+      stretches.push_back(s);
+    }
+  }
+  AlongCones along(const std::vector<std::int32_t>& own, const std::vector<std::int32_t>& more) const {
+    return {cones[0].numbers(),
+            stretches[0].direction,
+            own.data(),
+            more.data(),
+            static_cast<std::int32_t>(own.size()),
+            static_cast<std::int32_t>(more.size()),
+            3,
+            30};
+  }
+  /// One by one, in the direction of a cone.
+  float least_along(const std::vector<std::int32_t>& asked, std::int32_t of, Vec3 x, float least) const {
+    for (const std::int32_t c : asked)
+      least = std::min(least, static_cast<float>(cones[c].length_at(x)) - cones[c].length +
+                                  stretches[c].length_in(stretches[of].direction, cones[c].length));
+    return least;
+  }
+};
+
+TEST(ConeKernels, tell_the_least_length_along_the_direction_of_the_cone_that_tells_the_length) {
+  int n_along = 0;
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const StretchedCones all(seed);
+    std::vector<std::int32_t> own, more;
+    const std::int32_t n = seed % 2 == 0 ? 7 : static_cast<std::int32_t>(all.cones.size());
+    for (std::int32_t i = 0; i < n; ++i) (i % 5 == 4 ? more : own).push_back(i);
+    const Vec3 x = Vec3{all.cones[seed].x[0], all.cones[seed].x[1], all.cones[seed].x[2]} + Vec3{0.01, 0.02, 0.005};
+    const SplitPlace place(x);
+    const LeastAlong found = cone_kernels().least_along(all.along(own, more), place.numbers());
+    std::int32_t winner = kNone;
+    EXPECT_EQ(found.length, cone_kernels().least(all.cones[0].numbers(), own.data(),
+                                                 static_cast<std::int32_t>(own.size()), place.numbers(), 3, &winner));
+    winner = own[static_cast<std::size_t>(winner)];
+    const bool is_stretched = all.stretches[static_cast<std::size_t>(winner)].along > 0;
+    EXPECT_EQ(found.winner, is_stretched ? winner : kNone);
+    if (!is_stretched) continue;
+    ++n_along;
+    const float least = all.least_along(own, winner, x, std::min(3.0F, 30 * found.length));
+    EXPECT_NEAR(found.along, all.least_along(more, winner, x, least), 1e-6);
+  }
+  EXPECT_GT(n_along, 10);
 }
 
 /// Expects of cones, the shortest lengths first, what they tell one by one at a place.
@@ -225,26 +296,38 @@ bool expect_same_on_face(const RandomCones& all, std::int32_t i, const std::vect
 /// Likewise the lengths along of a cell, in one direction and in several.
 void expect_same_along(const RandomCones& all, std::size_t i) {
   const ConeKernels* const kernels[] = {&detail::cone_kernels_anywhere(), &detail::cone_kernels_avx2()};
-  const std::array<Lengths, 3> directions = random_directions(static_cast<unsigned>(i));
+  const std::vector<float> directions = random_directions(static_cast<unsigned>(i));
   const Cone& cone = all.cone[i];
   const float unit[3] = {0.6F, 0, 0.8F};
-  for (const LongerWay& way :
-       {LongerWay{0.3F, nullptr, nullptr, 0, 0}, LongerWay{0, numbers(directions[0]), unit, 0.97F, cone.length}}) {
-    Lengths best[2];
-    std::array<Int4, kGroups> winner[2];
-    AlongOffer offer[2];
+  const AlongCone along{cone.numbers(), unit, 6 * cone.length};
+  for (const std::int32_t turns : {0, kNone}) {
+    AlongSite site[2];
+    AlongGain gain[2];
     for (int k = 0; k < 2; ++k) {
-      winner[k].fill(Int4{} + kNone);
-      best[k].fill(four(0.4F));
-      offer[k] = kernels[k]->offer_along(all.cell.numbers(), cone.numbers(), way, {0.99F, 1.002F}, numbers(best[k]));
-      kernels[k]->take_along(all.cell.numbers(), cone.numbers(), way, 3, 0.99F, numbers(best[k]), numbers(winner[k]));
-      kernels[k]->lower_along(numbers(all.cell.lengths(*kernels[k], cone)), way, numbers(best[k]));
+      site[k] = empty_site(all.cell, 3, 0.4F);
+      site[k].turns = turns;
+      site[k].unit[1] = 1;
+      constexpr std::int32_t kFirst = 0;
+      kernels[k]->offer_along(along, &site[k], directions.data(), &kFirst, 1, {0.99F, 1.002F}, &gain[k]);
+      kernels[k]->take_along(along, 3, directions.data(), 0.99F, site[k]);
+      kernels[k]->lower_along(numbers(all.cell.lengths(*kernels[k], cone)), along, directions.data(), site[k]);
     }
-    EXPECT_EQ(offer[0].is_clearly, offer[1].is_clearly);
-    EXPECT_EQ(offer[0].is_nearly, offer[1].is_nearly);
-    EXPECT_EQ(std::memcmp(&best[0], &best[1], sizeof(Lengths)), 0);
-    EXPECT_EQ(std::memcmp(&winner[0], &winner[1], sizeof winner[0]), 0);
+    EXPECT_EQ(gain[0], gain[1]);
+    EXPECT_EQ(std::memcmp(&site[0], &site[1], sizeof(AlongSite)), 0);
   }
+}
+
+/// Likewise at a place.
+void expect_same_least_along(unsigned seed) {
+  const StretchedCones all(seed);
+  const std::vector<std::int32_t> own{0, 3, 4, 8, 9, 12, 15, 17, 20}, more{2, 5};
+  const SplitPlace place({1.01, 0.98, 1.1});
+  const AlongCones along = all.along(own, more);
+  const LeastAlong a = detail::cone_kernels_anywhere().least_along(along, place.numbers()),
+                   b = detail::cone_kernels_avx2().least_along(along, place.numbers());
+  EXPECT_EQ(a.length, b.length);
+  EXPECT_EQ(a.along, b.along);
+  EXPECT_EQ(a.winner, b.winner);
 }
 #endif
 
@@ -283,6 +366,7 @@ TEST(ConeKernels, give_the_same_bits_on_every_processor) {
       EXPECT_EQ(std::memcmp(&best[0], &best[1], sizeof(Lengths)), 0);
       EXPECT_EQ(std::memcmp(&winner[0], &winner[1], sizeof winner[0]), 0);
       expect_same_along(all, i);
+      expect_same_least_along(static_cast<unsigned>(i) + 40 * seed);
       const bool wins = anywhere.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.997F, 0.3F, all.known(own));
       EXPECT_EQ(wins, avx2.wins_nearby(all.cell.numbers(), all.cone[i].numbers(), 0.997F, 0.3F, all.known(own)));
       n_won += wins;

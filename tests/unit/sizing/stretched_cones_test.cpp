@@ -43,8 +43,9 @@ std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, std
   const Neighbours neighbours(view);
   p->samples = sorted_samples(boxes);
   const std::vector<float> slope(p->samples.size(), static_cast<float>(kSlope));
-  p->cones = spread_cones(neighbours, p->samples, slope, kLargest, nullptr);
-  add_stretch(neighbours, p->samples, slope, nullptr, p->cones);
+  SampleSites sites;
+  p->cones = spread_cones(neighbours, p->samples, slope, kLargest, nullptr, &sites);
+  add_stretch(view, p->samples, slope, sites, p->cones);
   if (out) *out = p;
   OctreeFieldData data{view, {}, {}, kSlope, 1};
   data.set_cones(p->cones, kLargest);
