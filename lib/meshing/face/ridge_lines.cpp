@@ -30,6 +30,11 @@ constexpr double kClear = 1.5;             // lengths across, to other nodes and
 constexpr double kClearBeside = 20;        // likewise, to such edges along the line: their rows cover it
 constexpr double kBesideCosine = 0.8;      // between such an edge and the line
 constexpr std::size_t kLeastNodes = 4;
+// lines that reach no loop
+constexpr std::size_t kSections = 64;  // of the face, at most, along which lengths are looked at
+constexpr int kSamples = 16;           // of each
+constexpr double kLower = 0.8;         // a length there over those at both sides: less is looked at
+constexpr int kMostInside = 12;        // lines that are tried
 
 class RidgeLayer {
  public:
@@ -37,8 +42,16 @@ class RidgeLayer {
 
   std::vector<std::vector<std::int32_t>> run() {
     std::vector<std::vector<std::int32_t>> lines;
-    for (const auto& [seed, inward] : find_seeds())
-      for (std::vector<std::int32_t>& line : insert(trace(seed, inward), seed)) lines.push_back(std::move(line));
+    for (const auto& [seed, inward] : find_seeds()) {
+      const std::vector<MeshNode> places = trace(seed, inward);
+      triangle_ = kNone;
+      for (std::vector<std::int32_t>& line : insert(places, seed)) lines.push_back(std::move(line));
+    }
+    int n_tried = 0;
+    for (const Inside& i : find_inside()) {
+      if (is_beside_lines(i.place) || n_tried++ == kMostInside) continue;
+      for (std::vector<std::int32_t>& line : insert(trace_both_ways(i), i.seed)) lines.push_back(std::move(line));
+    }
     return lines;
   }
 
@@ -47,6 +60,70 @@ class RidgeLayer {
     std::int32_t node;
     Vec3 inward;
   };
+
+  /// A place inside the face where the length is least, and a node of a loop from which it is seen.
+  struct Inside {
+    MeshNode place;
+    std::int32_t seed;
+  };
+
+  /// On sections from loop to loop, the sides of the triangles so far: those with the least lengths first.
+  std::vector<Inside> find_inside() {
+    std::vector<std::pair<std::int32_t, std::int32_t>> sections;
+    for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      const PlaneTriangle& t = m_.triangles[i];
+      for (int k = 0; k < 3 && t.state == kUnfinished; ++k)
+        if (const std::int32_t a = t.v[k], b = t.v[(k + 1) % 3];
+            a < b && b < m_.n_boundary && !(t.constrained >> k & 1))
+          sections.push_back({a, b});
+    }
+    std::vector<Inside> found;
+    const std::size_t step = sections.size() / kSections + 1;
+    for (std::size_t i = 0; i < sections.size(); i += step) add_least(sections[i].first, sections[i].second, found);
+    std::ranges::stable_sort(found, {}, [](const Inside& i) { return i.place.request; });
+    return found;
+  }
+
+  /// Of the section from a to b: places with shorter lengths than at both sides.
+  void add_least(std::int32_t a, std::int32_t b, std::vector<Inside>& found) {
+    const auto at = [&](double share) {
+      MeshNode p;
+      p.p = (1 - share) * m_.nodes[a].p + share * m_.nodes[b].p;
+      w_.evaluate(p);
+      w_.ask_sizes(p);
+      return p;
+    };
+    std::array<MeshNode, kSamples + 1> samples;
+    for (int k = 0; k <= kSamples; ++k) samples[k] = at(static_cast<double>(k) / kSamples);
+    for (int k = 1; k < kSamples; ++k) {
+      const double own = samples[k].request;
+      if (own > samples[k - 1].request || own >= samples[k + 1].request) continue;
+      if (own > kLower * std::max(samples[k - 1].request, samples[k + 1].request)) continue;
+      double low = static_cast<double>(k - 1) / kSamples, high = static_cast<double>(k + 1) / kSamples;
+      for (int n = 0; n < 2 * kHalvings; ++n) {  // by thirds
+        const double one = low + (high - low) / 3, two = high - (high - low) / 3;
+        (at(one).request < at(two).request ? high : low) = at(one).request < at(two).request ? two : one;
+      }
+      Inside inside{at(0.5 * (low + high)), a};
+      if (!is_long(inside.place)) continue;
+      const Vec3 across = normalized(cross(inside.place.normal, inside.place.squeeze));
+      if (!to_least(inside.place, across, inside.place.request) || !is_long(inside.place)) continue;
+      triangle_ = kNone;
+      if (!goes_to(inside.place.p, a)) inside.seed = b;
+      found.push_back(inside);
+    }
+  }
+
+  /// From a place inside the face.
+  std::vector<MeshNode> trace_both_ways(const Inside& i) {
+    const Vec3 ahead = normalized(i.place.squeeze);
+    const std::vector<MeshNode> rest = trace(i.place, i.seed, ahead);
+    std::vector<MeshNode> line = trace(i.place, i.seed, -1 * ahead);  // triangle_ is that of its end
+    std::ranges::reverse(line);
+    line.push_back(i.place);
+    line.insert(line.end(), rest.begin(), rest.end());
+    return line;
+  }
 
   /// Nodes where the length is least along their loop.
   std::vector<Seed> find_seeds() const {
@@ -82,11 +159,14 @@ class RidgeLayer {
 
   /// Places one length along apart, from a loop on, also where edges may not be longer along the way for a while.
   std::vector<MeshNode> trace(std::int32_t seed, Vec3 inward) {
-    std::vector<MeshNode> line;
     MeshNode at = m_.nodes[seed];
-    Vec3 ahead = inward;
-    triangle_ = kNone;
     to_least(at, normalized(cross(at.normal, inward)), at.request);  // the seed is at one end of a round nose
+    return trace(at, seed, inward);
+  }
+  /// Behind a place that is seen from the seed.
+  std::vector<MeshNode> trace(MeshNode at, std::int32_t seed, Vec3 ahead) {
+    std::vector<MeshNode> line;
+    triangle_ = kNone;
     for (int n = 0, n_without = 0; n < kMostSteps && n_without < kSearched; ++n) {
       const std::optional<MeshNode> next = step_from(at, ahead);
       if (!next || !goes_to(next->p, seed)) break;
@@ -154,10 +234,10 @@ class RidgeLayer {
     return false;
   }
 
-  /// In pieces, where it comes near to others or has no long edges.
+  /// In pieces, where it comes near to others or has no long edges. The first place is seen from the seed, or in
+  /// triangle_.
   std::vector<std::vector<std::int32_t>> insert(const std::vector<MeshNode>& places, std::int32_t seed) {
     std::vector<std::vector<std::int32_t>> lines(1);
-    triangle_ = kNone;
     for (const MeshNode& place : places) {
       const std::int32_t last = lines.back().empty() ? kNone : lines.back().back();
       const std::int32_t n = is_long(place) ? insert(place, last, seed) : kNone;
@@ -193,6 +273,10 @@ class RidgeLayer {
       return e.constrained && e.a != last && e.b != last && segment_distance(p.x, a, b) < clear;
     });
     if (is_near) return true;
+    return is_beside_lines(p);
+  }
+
+  bool is_beside_lines(const MeshNode& p) const {
     return std::any_of(beside_.begin(), beside_.end(), [&](const std::pair<std::int32_t, std::int32_t>& side) {
       const Vec3 a = m_.nodes[side.first].x, b = m_.nodes[side.second].x;
       return distance(a, b) > kAspect * p.request && is_beside(p, b - a) &&

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace st {
 namespace {
@@ -113,14 +114,28 @@ class ChainFinder {
       const std::vector<std::int32_t> back = walk(chain.nodes.front(), previous_, is_corner);
       bottom.insert(bottom.begin(), back.rbegin(), back.rend() - 1);
     }
-    std::vector<std::int32_t> right = after(bottom), top = after(right), left = after(top);
-    if (left.back() != bottom.front() || std::min({right.size(), top.size(), left.size()}) < 2) return;
+    std::vector<std::int32_t> right = after(bottom), top = after(right), left;
+    if (top.back() == bottom.front() && !make_four(bottom, right, top, left)) return;
+    if (left.empty()) left = after(top);
+    if (left.back() != bottom.front() || top.size() < 2 || left.size() + right.size() < 3) return;
     std::reverse(top.begin(), top.end());
     std::reverse(left.begin(), left.end());
     chain.bottom = std::move(bottom);
     chain.right = std::move(right);
     chain.top = std::move(top);
     chain.left = std::move(left);
+  }
+
+  /// A wedge has three sides: at its apex, between two of as many nodes, the fourth is that node alone.
+  static bool make_four(const std::vector<std::int32_t>& bottom, std::vector<std::int32_t>& right,
+                        std::vector<std::int32_t>& top, std::vector<std::int32_t>& left) {
+    if (top.size() == bottom.size() && right.size() < bottom.size()) {
+      left = {bottom.front()};
+      return true;
+    }
+    if (right.size() != bottom.size() || top.size() >= bottom.size()) return false;
+    left = std::exchange(top, std::exchange(right, {bottom.back()}));
+    return true;
   }
 
   /// The short rest up to a corner.

@@ -16,8 +16,8 @@ struct RowChain {
   /// node, backwards, and after the last. Empty: the loop goes on otherwise.
   std::vector<std::int32_t> before, after;
   bool is_closed = false;  ///< a whole loop: the last node is the first
-  /// Where the loop has four corners: the side with the chain, the one across, and those at its first and last node.
-  /// Opposite sides run alike.
+  /// Where the loop has four corners: the side with the chain, the one across, and those at its first and last node. Of
+  /// a wedge with three the one at its apex is that node alone. Opposite sides run alike.
   std::vector<std::int32_t> bottom, top, left, right;
 };
 

@@ -120,6 +120,27 @@ TEST(RidgeLines, go_on_behind_places_without_stretch) {
   for (const auto& line : lines) EXPECT_GE(line.size(), 7u);
 }
 
+/// Of the least length over 20 of its 30 lengths alone.
+class InnerRidgeField : public WallField {
+ public:
+  InnerRidgeField() : WallField(0.1, 0.2, 1) {}
+  using WallField::size;
+  double size(Vec3 x, int& hint) const override {
+    return WallField::size({x.x, std::hypot(x.y, std::max(0.0, std::abs(x.x - 15) - 10)), 0}, hint);
+  }
+};
+
+TEST(RidgeLines, are_found_inside_a_face) {
+  const InnerRidgeField field;
+  std::vector<Vec2> loop = band(30, 30, {10}, {10});
+  for (Vec2& p : loop) p.y -= 5;
+  RowCase face({loop}, field);
+  const auto lines = lay_ridges(face.work);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_GE(lines[0].size(), 18u);
+  for (const std::int32_t n : lines[0]) EXPECT_NEAR(face.work.mesh.nodes[n].x.y, 0, 0.02);
+}
+
 TEST(RidgeLines, are_none_where_lengths_are_alike_in_all_directions) {
   const WallField field(0.1, 0.2, 0.12);
   RowCase face({loop_about_ridge()}, field);

@@ -122,6 +122,29 @@ TEST(RowLadder, is_none_on_a_face_around_a_nose_whose_sides_are_near_each_other)
   EXPECT_FALSE(lay_ladder(rolled.work, find_row_chains(rolled.work).at(0)));
 }
 
+/// From its apex on, at either end of the chain.
+TEST(RowLadder, fills_a_wedge) {
+  const FewerRowsField field;
+  std::vector<Vec2> loop;
+  for (int i = 0; i <= 10; ++i) loop.push_back({static_cast<double>(i), 0});
+  loop.push_back({10, 0.3});
+  for (int i = 10; i > 0; --i) loop.push_back({static_cast<double>(i), 0.06 * i});
+  for (const bool is_mirrored : {false, true}) {
+    SCOPED_TRACE(is_mirrored);
+    std::vector<Vec2> own = loop;
+    if (is_mirrored) {
+      for (Vec2& p : own) p.x = 10 - p.x;
+      std::ranges::reverse(own);
+    }
+    RowCase face({own}, field);
+    const std::vector<RowChain> chains = find_row_chains(face.work);
+    ASSERT_FALSE(chains.empty());
+    ASSERT_TRUE(lay_ladder(face.work, chains[0]));
+    EXPECT_NEAR(face.laid_area(), 10 * 0.3, 1e-9);
+    EXPECT_LT(largest_laid_angle(face.work.mesh), 110);
+  }
+}
+
 TEST(RowLadder, leaves_out_columns_that_something_is_in) {
   const FewerRowsField field;
   RowCase face({band(10, 10, {0.3, 0.6}, {0.6}), {{4.9, 0.25}, {4.9, 0.35}, {5.1, 0.35}, {5.1, 0.25}}}, field);
