@@ -33,11 +33,13 @@ gp_Pnt2d end_of(const TopoDS_Edge& edge, const TopoDS_Face& face, bool is_end) {
 
 /// Whether each edge starts where the one before ends.
 bool is_ring(const std::vector<TopoDS_Edge>& edges, const TopoDS_Face& face) {
+  const auto after = [&](std::size_t k) -> const TopoDS_Edge& { return edges[(k + 1) % edges.size()]; };
+  for (std::size_t k = 0; k < edges.size(); ++k)
+    if (!TopExp::LastVertex(edges[k], true).IsSame(TopExp::FirstVertex(after(k), true))) return false;
   double u0, u1, v0, v1;
   BRepTools::UVBounds(face, u0, u1, v0, v1);
   for (std::size_t k = 0; k < edges.size(); ++k) {
-    const TopoDS_Edge &edge = edges[k], &next = edges[(k + 1) % edges.size()];
-    if (!TopExp::LastVertex(edge, true).IsSame(TopExp::FirstVertex(next, true))) return false;
+    const TopoDS_Edge &edge = edges[k], &next = after(k);
     const gp_Pnt2d end = end_of(edge, face, true), next_start = end_of(next, face, false);
     if (std::fabs(end.X() - next_start.X()) > kAsFar * (u1 - u0)) return false;
     if (std::fabs(end.Y() - next_start.Y()) > kAsFar * (v1 - v0)) return false;
@@ -58,7 +60,8 @@ std::vector<TopoDS_Edge> walk_wire(const TopoDS_Wire& wire, const TopoDS_Face& f
 }
 
 bool can_be_walked(const TopoDS_Wire& wire, const TopoDS_Face& face) {
-  return walk_wire(wire, face).size() == stored_edges(wire).size();
+  const std::vector<TopoDS_Edge> stored = stored_edges(wire);
+  return is_ring(stored, face) || walk_wire(wire, face).size() == stored.size();  // a ring is found sooner
 }
 
 }  // namespace st::occt

@@ -158,6 +158,11 @@ void AirPieces::find_first_faces() {
 
 TopoDS_Face AirPieces::face(FaceId f) const { return TopoDS::Face(model_.faces(f + 1)); }
 
+const std::vector<FaceSample>& AirPieces::samples_of(FaceId f) const {
+  const auto known = samples_.find(f);
+  return known != samples_.end() ? known->second : samples_.emplace(f, sample_face(face(f))).first->second;
+}
+
 std::vector<Vec3> AirPieces::points_of(EdgeId e) const {
   const auto first = edge_points_.begin() + static_cast<std::ptrdiff_t>(kPointsPerEdge) * e;
   return {first, first + kPointsPerEdge};
@@ -187,7 +192,7 @@ bool AirPieces::is_in_plane(FaceId f, const HullPlane& plane) const {
   for (const EdgeId e : t_.edges_of(f)) tolerance = std::max(tolerance, t_.edge_tolerance[e]);
   const auto is_off = [&](Vec3 x) { return std::abs(dot(x - plane.point, plane.normal)) > tolerance; };
   if (!has_edges_in(f, plane, tolerance)) return false;
-  const std::vector<FaceSample> samples = sample_face(face(f));
+  const std::vector<FaceSample>& samples = samples_of(f);
   return std::none_of(
              samples.begin(), samples.end(),
              [&](const FaceSample& s) { return is_off(s.xyz) || std::abs(dot(s.normal, plane.normal)) < kAlong; }) &&
@@ -210,7 +215,7 @@ std::optional<HullPlane> AirPieces::hull_plane_of(FaceId f) const {
   if (t_.face_box[f].diagonal() < kLargePiece * diagonal_) return std::nullopt;
   std::optional<HullPlane> plane = rough_plane_of(f);
   if (!plane || !turn_outward(*plane, kRough * kInPlane * diagonal_)) return std::nullopt;
-  const std::vector<FaceSample> samples = sample_face(face(f));
+  const std::vector<FaceSample>& samples = samples_of(f);
   if (samples.empty()) return std::nullopt;
   plane->point = samples[0].xyz, plane->normal = samples[0].normal;
   return turn_outward(*plane, kInPlane * diagonal_) && is_in_plane(f, *plane) ? plane : std::nullopt;

@@ -54,6 +54,8 @@ class AirPieces {
   const Box3& box() const { return box_; }
   double diagonal() const { return diagonal_; }
   TopoDS_Face face(FaceId f) const;
+  /// sample_face() of it, made once.
+  const std::vector<FaceSample>& samples_of(FaceId f) const;
   /// Of all edges at one place.
   EdgeId first_edge(EdgeId e) const { return first_edge_[e]; }
   /// Three faces or more meet there.
@@ -114,8 +116,9 @@ class AirPieces {
   std::vector<FaceId> first_face_;     // [n_faces] of all with the same edges, and so of those that are there twice
   std::vector<std::int32_t> offsets_;  // of first edges
   std::vector<FaceId> edge_faces_;
-  std::vector<Vec3> edge_points_;            // [5 * n_edges] of poles their vertex
-  std::map<EdgeId, std::vector<Way>> ways_;  // of edges of three faces or more
+  std::vector<Vec3> edge_points_;                              // [5 * n_edges] of poles their vertex
+  std::map<EdgeId, std::vector<Way>> ways_;                    // of edges of three faces or more
+  mutable std::map<FaceId, std::vector<FaceSample>> samples_;  // of faces that were asked for
   Box3 box_;
   double diagonal_ = 0;
 };

@@ -12,6 +12,8 @@
 #include "base/progress.h"
 #include "base/required_unit.h"
 #include "base/text.h"
+#include "base/threads.h"
+#include "geometry/brep/read_back.h"
 #include "geometry/import/air_roles.h"
 #include "geometry/import/body_relations.h"
 #include "geometry/import/cad_reader.h"
@@ -202,14 +204,17 @@ void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, c
                       "numbers; for groups with a tolerance select by place, part, layer or name");
 }
 
-/// Once the small faces that lie on a neighbour are merged into it.
+/// Once the small faces that lie on a neighbour are merged into it. Meanwhile the bytes of what is left are made.
 std::vector<occt::FaceCrossing> find_faces_that_cross(ImportedShape& model, occt::ModelOfFile& tables,
-                                                      std::vector<ImportFinding>& findings, const std::string& path) {
+                                                      ImportResult& result, const std::string& path) {
   constexpr int kMostPasses = 4;  // each merges one sliver into a face
-  std::vector<occt::FaceCrossing> found = occt::find_crossing_faces(model, tables.tables);
-  for (int i = 0; i < kMostPasses && occt::merge_folded_slivers(model, tables.tables, found, findings); ++i) {
+  std::vector<occt::FaceCrossing> found;
+  run_jobs({[&] { found = occt::find_crossing_faces(model, tables.tables); },
+            [&] { result.brep = occt::brep_bytes(model.shape); }});
+  for (int i = 0; i < kMostPasses && occt::merge_folded_slivers(model, tables.tables, found, result.findings); ++i) {
     tables = occt::make_tables(model, path);
     found = occt::find_crossing_faces(model, tables.tables);
+    result.brep = occt::brep_bytes(model.shape);
   }
   return found;
 }
@@ -314,7 +319,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   result.air = settle_bodies_and_air(model, tables, options, result.findings, path, progress);
   const auto mirrored = mirror_model(model, tables, mirror, result.findings, path);
   progress.step("faces that cross", 0.75);
-  const auto crossings = find_faces_that_cross(model, tables, result.findings, path);
+  const auto crossings = find_faces_that_cross(model, tables, result, path);
   occt::require_sound_boxes(tables.tables.face_box, path);
   result.tables = std::move(tables.tables);
   result.tables.unit = unit.name;
@@ -330,7 +335,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) occt::require_closed(result, path);
   if (mirrored) result.mirror = mirrored->numbers_in(model.shape, path);
-  result.brep = occt::brep_bytes(model.shape);
+  if (occt::is_read_back_equal(model.shape)) result.loaded = std::make_shared<const LoadedBrep>(model.shape);
   name_parts(model, result);
   for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
   return result;

@@ -228,7 +228,7 @@ class AirFinder {
     for (const Vec3 x : body) middle += x / static_cast<double>(body.size());
     double least = std::numeric_limits<double>::infinity();
     for (const FaceId f : faces) {
-      std::vector<FaceSample> samples = sample_face(pieces_.face(f));
+      std::vector<FaceSample> samples = pieces_.samples_of(f);
       if (t_.face_type[f] == SurfaceType::kPlane && !samples.empty()) samples.resize(1);
       for (const FaceSample& s : samples) {
         const Vec3 inward = dot(middle - s.xyz, s.normal) > 0 ? s.normal : -s.normal;
@@ -330,7 +330,7 @@ class AirFinder {
   bool is_sphere(const std::vector<FaceId>& faces) const {
     std::vector<FaceSample> all;
     for (const FaceId f : faces) {
-      const std::vector<FaceSample> own = sample_face(pieces_.face(f));
+      const std::vector<FaceSample>& own = pieces_.samples_of(f);
       all.insert(all.end(), own.begin(), own.end());
     }
     return common_center(all).has_value();
@@ -353,7 +353,7 @@ class AirFinder {
     }
     bool has_tail = false;
     for (const FaceId f : split.body) {
-      for (const FaceSample& s : sample_face(pieces_.face(f)))
+      for (const FaceSample& s : pieces_.samples_of(f))
         if (std::abs(dot(s.normal, normal)) > kTaper) return false;
       bool has_corners = t_.face_area[f] < kNarrowBase * chord * height;
       int n_along = 0;
@@ -415,7 +415,7 @@ class AirFinder {
   /// A face of free form that is no wall of a hole or of an engraving in the plane.
   bool is_free_over(FaceId f, const HullPlane& plane, const std::vector<FaceId>& body) const {
     if (t_.face_type[f] < SurfaceType::kBezier) return false;
-    std::vector<FaceSample> samples = sample_face(pieces_.face(f));
+    std::vector<FaceSample> samples = pieces_.samples_of(f);
     const auto is_across = [&](const FaceSample& s) { return std::abs(dot(s.normal, plane.normal)) < kAcross; };
     if (!std::all_of(samples.begin(), samples.end(), is_across)) return true;
     for (FaceSample& s : samples) {

@@ -18,7 +18,10 @@
 #include <TopoDS_Iterator.hxx>
 #include <cmath>
 #include <functional>
+#include <numeric>
+#include <vector>
 
+#include "base/threads.h"
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
@@ -42,6 +45,16 @@ int count_bad_wires(const TopoDS_Shape& face) {
 }
 
 using FaceImage = std::function<TopoDS_Shape(const TopoDS_Shape&)>;
+
+/// Of all faces, on all threads.
+int count_all_bad_wires(const ImportedShape& model) {
+  constexpr std::size_t kAtOnce = 8;
+  std::vector<int> n_bad(static_cast<std::size_t>(model.faces.Extent()), 0);
+  parallel_for(n_bad.size(), kAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) n_bad[i] = count_bad_wires(model.faces(static_cast<int>(i) + 1));
+  });
+  return std::accumulate(n_bad.begin(), n_bad.end(), 0);
+}
 
 /// A repair of the faces that need one is worse than none if it opens edges, or changes the area of the others. The
 /// four sides of a face that had no loops are not opened.
@@ -130,8 +143,7 @@ void bound_rings(ImportedShape& model, std::vector<ImportFinding>& findings) {
 
 void repair_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
   bound_rings(model, findings);
-  int n_bad = 0;
-  for (int i = 1; i <= model.faces.Extent(); ++i) n_bad += count_bad_wires(model.faces(i));
+  const int n_bad = count_all_bad_wires(model);
   if (n_bad > 0) rebuild_bad_loops(model, n_bad, findings);
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);

@@ -13,10 +13,10 @@
 #include <cstring>
 #include <istream>
 #include <sstream>
-#include <streambuf>
 
 #include "base/assert.h"
 #include "base/error.h"
+#include "geometry/brep/byte_stream.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/model/model_impl.h"
 #include "geometry/shape/analytic.h"
@@ -27,27 +27,17 @@
 namespace st {
 namespace {
 
-/// Reads a byte array as a stream without copying it.
-class ByteStream : public std::streambuf {
- public:
-  explicit ByteStream(const std::vector<std::byte>& bytes) {
-    char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
-    setg(begin, begin, begin + bytes.size());
-  }
-
- protected:
-  pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override {
-    char* target = way == std::ios_base::beg   ? eback() + offset
-                   : way == std::ios_base::cur ? gptr() + offset
-                                               : egptr() + offset;
-    if (target < eback() || target > egptr()) return pos_type(off_type(-1));
-    setg(eback(), target, egptr());
-    return target - eback();
-  }
-  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override {
-    return seekoff(position, std::ios_base::beg, mode);
-  }
-};
+/// Null where there is none in the bytes.
+TopoDS_Shape shape_of(const std::vector<std::byte>& brep) try {
+  const auto buffer = occt::byte_stream(brep);
+  std::istream stream(buffer.get());
+  TopoDS_Shape shape;
+  BinTools::Read(shape, stream);
+  return shape;
+} catch (const Standard_Failure& e) {
+  throw Error(ExitCode::kInput, std::string("the B-Rep of the geometry artifact cannot be read (") +
+                                    e.DynamicType()->Name() + "); run st-import again");
+}
 
 /// The plane of a flat chart with the chart's own (u,v), which are places in it: the one nearest to all nodes, along
 /// their longest extent first. A single triangle of a fine chart would tilt it.
@@ -104,18 +94,14 @@ std::vector<std::byte> occt::brep_bytes(const TopoDS_Shape& shape) {
 }
 
 Model::Model(ModelTables tables, std::vector<std::byte> brep)
+    : Model(std::move(tables), std::move(brep), LoadedBrep{}) {}
+
+Model::Model(ModelTables tables, std::vector<std::byte> brep, const LoadedBrep& loaded)
     : tables_(std::move(tables)), brep_(std::move(brep)), impl_(std::make_unique<Impl>()) {
-  try {
-    ByteStream buffer(brep_);
-    std::istream stream(&buffer);
-    BinTools::Read(impl_->shape, stream);
-    if (!impl_->shape.IsNull()) {
-      TopExp::MapShapes(impl_->shape, TopAbs_FACE, impl_->faces);
-      TopExp::MapShapes(impl_->shape, TopAbs_EDGE, impl_->edges);
-    }
-  } catch (const Standard_Failure& e) {
-    throw Error(ExitCode::kInput, std::string("the B-Rep of the geometry artifact cannot be read (") +
-                                      e.DynamicType()->Name() + "); run st-import again");
+  impl_->shape = loaded.shape.IsNull() ? shape_of(brep_) : loaded.shape;
+  if (!impl_->shape.IsNull()) {
+    TopExp::MapShapes(impl_->shape, TopAbs_FACE, impl_->faces);
+    TopExp::MapShapes(impl_->shape, TopAbs_EDGE, impl_->edges);
   }
   if (impl_->faces.Extent() != tables_.n_faces() || impl_->edges.Extent() != tables_.n_edges())
     throw Error(ExitCode::kInput, "the B-Rep of the geometry artifact contradicts its tables; run st-import again");
