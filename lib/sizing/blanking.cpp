@@ -22,6 +22,7 @@ constexpr int kSamples = 9;  // points of a cell that tell its parts apart: near
 constexpr double kSampleX = 0.9371, kSampleY = 0.9423, kSampleZ = 0.9497, kSampleCentre = 0.0137;
 constexpr std::int8_t kNoFlow = -1;
 constexpr std::size_t kCellsPerPiece = 8'192;
+constexpr std::size_t kCutCellsPerPiece = 1'024;  // likewise of cells that take microseconds each
 constexpr double kRounded = 1e-6;     // half edges: far more than clipped corners are rounded by
 constexpr double kSheetCosine = 0.8;  // of triangles with their mean normal: no two of them face each other
 
@@ -68,6 +69,9 @@ struct Scratch {
   std::unordered_map<std::uint64_t, bool> ways;             // by two cells and their parts
 };
 
+/// What a piece knows of its cells helps the next ones in it: pieces are shorter only where several threads share them.
+std::size_t cut_cells_per_piece() { return thread_count() > 1 ? kCutCellsPerPiece : kCellsPerPiece; }
+
 /// Links of some sites, in order.
 struct LinkRows {
   std::vector<std::int32_t> site;
@@ -90,9 +94,11 @@ class Blanker {
     leave_holes_open();
     box_triangles();
     colour_cut_cells();
-    find_sheets();
-    colour_the_rest();
-    find_parts();
+    run_jobs({[&] {  // looks at cut cells alone
+                find_sheets();
+                find_parts();
+              },
+              [&] { colour_the_rest(); }});
     link_sites();
     result_.cut_index = std::move(cut_index_);
     result_.sheet = std::move(sheet_);
@@ -260,12 +266,12 @@ class Blanker {
       std::vector<std::int32_t> leaf;
       std::vector<CellSplit> split;
     };
-    const auto n = static_cast<std::size_t>(cut_.n_cut());
+    const std::size_t n = static_cast<std::size_t>(cut_.n_cut()), n_per_piece = cut_cells_per_piece();
     parts_.resize(n);
-    std::vector<SplitCells> pieces((n + kCellsPerPiece - 1) / kCellsPerPiece);
-    parallel_for(n, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+    std::vector<SplitCells> pieces((n + n_per_piece - 1) / n_per_piece);
+    parallel_for(n, n_per_piece, [&](std::size_t begin, std::size_t end) {
       Scratch scratch;
-      SplitCells& own = pieces[begin / kCellsPerPiece];
+      SplitCells& own = pieces[begin / n_per_piece];
       for (auto i = static_cast<std::int32_t>(begin); i < static_cast<std::int32_t>(end); ++i) {
         if (is_sheet(i)) continue;  // see parts()
         parts_[i] = parts_of(i, scratch.pieces);
@@ -545,11 +551,11 @@ class Blanker {
     std::vector<std::int32_t> near;
     for (std::int32_t leaf = 0; leaf < n; ++leaf)
       if (is_near[leaf]) near.push_back(leaf);
-    const std::size_t n_rows = near.size() + static_cast<std::size_t>(n_split);
-    std::vector<LinkRows> pieces((n_rows + kCellsPerPiece - 1) / kCellsPerPiece);
-    parallel_for(n_rows, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+    const std::size_t n_rows = near.size() + static_cast<std::size_t>(n_split), n_per_piece = cut_cells_per_piece();
+    std::vector<LinkRows> pieces((n_rows + n_per_piece - 1) / n_per_piece);
+    parallel_for(n_rows, n_per_piece, [&](std::size_t begin, std::size_t end) {
       Scratch scratch;
-      LinkRows& rows = pieces[begin / kCellsPerPiece];
+      LinkRows& rows = pieces[begin / n_per_piece];
       for (std::size_t i = begin; i < end; ++i)
         if (i < near.size())
           add_row(near[i], near[i], 0, scratch, rows);

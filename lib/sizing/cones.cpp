@@ -78,23 +78,22 @@ class ConeSpread {
     parts_ = {};
     const SiteSamples all = agree_on_faces(graph, cones_, largest_, std::move(kept));
     ConeTable table;
-    table.of_site.reserve(all.sample.size());
+    table.of_site.resize(all.sample.size());
     table.at_center.assign(all.at_center.size(), kNone);
     std::vector<std::int32_t> number(cones_.size(), kNone);
     for (const std::int32_t s : all.sample) {
-      if (number[s] == kNone) {
-        number[s] = static_cast<std::int32_t>(table.cone.size());
-        table.cone.push_back(cones_[s]);
-        table.cause.push_back(samples_[s].cause);
-        table.sample.push_back(s);
-      }
-      table.of_site.push_back(number[s]);
+      if (number[s] != kNone) continue;
+      number[s] = static_cast<std::int32_t>(table.cone.size());
+      table.cone.push_back(cones_[s]);
+      table.cause.push_back(samples_[s].cause);
+      table.sample.push_back(s);
     }
     table.first = all.first;
     const auto is_shorter = [&](std::int32_t a, std::int32_t b) {
       return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length : a < b;
     };
     parallel_for(all.at_center.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::int32_t i = table.first[begin]; i < table.first[end]; ++i) table.of_site[i] = number[all.sample[i]];
       for (std::size_t site = begin; site < end; ++site) {
         std::sort(table.of_site.begin() + table.first[site], table.of_site.begin() + table.first[site + 1], is_shorter);
         if (all.at_center[site] != kNone) table.at_center[site] = number[all.at_center[site]];
