@@ -8,6 +8,7 @@
 
 #include "base/sort_once.h"
 #include "judge/cad_corners.h"
+#include "judge/edge_angles.h"
 
 namespace st {
 
@@ -36,6 +37,7 @@ class Causes {
         shapes_(corners),
         tables_(model.tables()),
         corners_(model, mesh.merged),
+        edge_angles_(model),
         angle_deg_(angle_deg),
         sine_limit_(1.001 * std::sin(radians(angle_deg))) {
     number_edge_nodes();
@@ -48,7 +50,12 @@ class Causes {
     const auto angle = triangle_angles_deg(a, b, c);
     const int k = static_cast<int>(std::min_element(angle.begin(), angle.end()) - angle.begin());
     if (!(angle[k] < angle_deg_)) return std::nullopt;
-    return place(blame_angle(t, angle, k), mesh_.triangle_face[t], angle[k], centre(t));
+    CausePlace found = place(blame_angle(t, angle, k), mesh_.triangle_face[t], angle[k], centre(t));
+    for (const EdgeId e : edges_beside(t)) {
+      const double turning = edge_angles_.largest_deg(e);
+      if (found.beside == kNone || turning < found.beside_deg) found.beside = e, found.beside_deg = turning;
+    }
+    return found;
   }
 
   CausePlace of_growth(const QualityReport::LargeJump& jump) {
@@ -89,7 +96,7 @@ class Causes {
   }
 
   CausePlace place(const Blame& b, FaceId face, double value, Vec3 x) const {
-    return {b.cause, face, b.edge, b.vertex, value, x};
+    return {.cause = b.cause, .face = face, .edge = b.edge, .vertex = b.vertex, .value = value, .xyz = x};
   }
 
   /// Nodes inside an edge follow one another in a canonical mesh.
@@ -126,6 +133,18 @@ class Causes {
     return at_first || at_last ? e : kNone;
   }
   bool is_short(EdgeId e) const { return n_inside_[e] < kMostSegments; }
+
+  /// That have a node of the triangle inside, or a side of it; ascending.
+  std::vector<EdgeId> edges_beside(TriangleId t) const {
+    std::vector<EdgeId> edges;
+    const auto& n = mesh_.triangles[t].n;
+    for (int k = 0; k < 3; ++k) {
+      if (dim(n[k]) == EntityDim::kEdge) edges.push_back(mesh_.node_entity[n[k]]);
+      if (const EdgeId e = along_edge(n[k], n[(k + 1) % 3]); e != kNone) edges.push_back(e);
+    }
+    sort_once(edges);
+    return edges;
+  }
 
   Blame blame_angle(TriangleId t, const std::array<double, 3>& angle, int smallest) {
     const auto& n = mesh_.triangles[t].n;
@@ -223,6 +242,7 @@ class Causes {
   const TriangleCorners& shapes_;
   const ModelTables& tables_;
   CadCorners corners_;
+  EdgeAngles edge_angles_;
   double angle_deg_, sine_limit_;
   std::vector<NodeId> first_inside_;                            // by CAD edge: its first node that is no vertex
   std::vector<std::int32_t> n_inside_;                          // by CAD edge: nodes that are no vertices
@@ -236,6 +256,7 @@ CauseList gather(std::vector<CausePlace> places, const IsWorse& is_worse) {
   std::stable_sort(places.begin(), places.end(), is_worse);
   for (const CausePlace& p : places) {
     const std::size_t k = static_cast<std::size_t>(p.cause);
+    list.n_smooth += p.beside != kNone && p.beside_deg <= kSmoothEdgeDeg;
     if (list.count[k]++ < static_cast<std::int64_t>(CauseList::kMaxPlaces)) list.worst[k].push_back(p);
   }
   return list;
@@ -244,6 +265,7 @@ CauseList gather(std::vector<CausePlace> places, const IsWorse& is_worse) {
 /// Those of both, likewise.
 template <class IsWorse>
 void add(const CauseList& other, const IsWorse& is_worse, CauseList& all) {
+  all.n_smooth += other.n_smooth;
   for (std::size_t k = 0; k < kNShapeCauses; ++k) {
     all.count[k] += other.count[k];
     std::vector<CausePlace>& worst = all.worst[k];

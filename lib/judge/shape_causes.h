@@ -36,6 +36,8 @@ struct CausePlace {
   EdgeId edge = kNone;      ///< the CAD edge, when the cause is one
   VertexId vertex = kNone;  ///< the CAD vertex of a corner
   double value = 0;         ///< angle in degrees, ratio of areas' roots, length over request
+  EdgeId beside = kNone;    ///< of a sharp triangle: the edge that it has a node or a side on, the smoothest of several
+  double beside_deg = 0;    ///< largest angle between the normals on both sides of that edge, degrees
   Vec3 xyz;                 ///< model unit
   std::int64_t order = 0;   ///< in the mesh
 };
@@ -45,9 +47,12 @@ struct CauseList {
   static constexpr std::size_t kMaxPlaces = 10;
   std::array<std::int64_t, kNShapeCauses> count{};
   std::array<std::vector<CausePlace>, kNShapeCauses> worst;  ///< at most kMaxPlaces each, the worst first
+  std::int64_t n_smooth = 0;  ///< of sharp triangles: beside an edge whose normals stay within kSmoothEdgeDeg
   std::int64_t total() const;
   std::int64_t free() const { return count[static_cast<std::size_t>(ShapeCause::kFree)]; }
-  static auto fields(auto& l) { return std::tie(l.count, l.worst[0], l.worst[1], l.worst[2], l.worst[3], l.worst[4]); }
+  static auto fields(auto& l) {
+    return std::tie(l.count, l.worst[0], l.worst[1], l.worst[2], l.worst[3], l.worst[4], l.n_smooth);
+  }
 };
 static_assert(kNShapeCauses == 5, "CauseList::fields() names each");
 

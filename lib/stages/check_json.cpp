@@ -106,6 +106,7 @@ json cause_json(const SurfaceMesh& mesh, const CauseList& list) {
           static_cast<std::size_t>(p.face) < mesh.labels.face_name.size() ? mesh.labels.face_name[p.face] : "";
       if (p.edge != kNone) entry["edge"] = p.edge + 1;
       if (p.vertex != kNone) entry["vertex"] = p.vertex + 1;
+      if (p.beside != kNone) entry["beside"] = {{"edge", p.beside + 1}, {"normals_deg", p.beside_deg}};
       places.push_back(entry);
     }
   }
@@ -114,6 +115,7 @@ json cause_json(const SurfaceMesh& mesh, const CauseList& list) {
 
 json causes_json(const SurfaceMesh& mesh, const ShapeCauses& c, bool has_sizes) {
   json j{{"below_deg", c.angle_deg}, {"sharp", cause_json(mesh, c.sharp)}, {"growth", cause_json(mesh, c.growth)}};
+  j["sharp"]["at_smooth_edges"] = c.sharp.n_smooth;
   if (has_sizes) j["lengths"] = cause_json(mesh, c.lengths);
   return j;
 }

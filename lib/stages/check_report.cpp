@@ -7,6 +7,7 @@
 
 #include "base/length.h"
 #include "base/text.h"
+#include "judge/edge_angles.h"
 #include "stages/text_table.h"
 #include "stages/wing_table.h"
 
@@ -144,6 +145,11 @@ std::string cause_words(ShapeCause cause) {
   return cause == ShapeCause::kFree ? name + " (no cause in CAD or sizes)" : name;
 }
 
+/// ", edge 7 of 43 deg"
+std::string beside_text(const CausePlace& p) {
+  return p.beside == kNone ? "" : fmt::format(", edge {} of {:.3g} deg", p.beside + 1, p.beside_deg);
+}
+
 /// "  sharp  5 with an angle below 10 deg: 3 corner, 2 strip; worst: 4.5 at ..., ...": free places before those that
 /// the CAD forces.
 std::string cause_line(const SurfaceMesh& mesh, const std::string& name, const std::string& what,
@@ -159,8 +165,10 @@ std::string cause_line(const SurfaceMesh& mesh, const std::string& name, const s
   for (std::size_t k = kNShapeCauses; k-- > 0;)
     for (const CausePlace& p : list.worst[k])
       if (n_shown++ < kShown)
-        places += fmt::format("{}{:.4g} at {}", places.empty() ? "" : "; ", p.value,
-                              place_text(mesh, {p.xyz, p.face, kNone}));
+        places += fmt::format("{}{:.4g} at {}{}", places.empty() ? "" : "; ", p.value,
+                              place_text(mesh, {p.xyz, p.face, kNone}), beside_text(p));
+  if (list.n_smooth > 0)
+    counts += fmt::format("; {} at edges that turn by {:g} deg at most", list.n_smooth, kSmoothEdgeDeg);
   return fmt::format("  {:<20} {} {}: {}; worst: {}\n", name, list.total(), what, counts, places);
 }
 

@@ -18,7 +18,8 @@ namespace {
 // side of a thin wing is further away there.
 constexpr double kReach = 4;
 
-constexpr double kNeedle = 1e-3;  // height of a triangle over its longest side: flatter ones have no plane
+constexpr double kOpposite = 0.5;  // one more than the cosine: normals further apart are not of one surface
+constexpr double kNeedle = 1e-3;   // height of a triangle over its longest side: flatter ones have no plane
 
 Vec3 flat(Vec2 p) { return {p.x, p.y, 0}; }
 
@@ -32,6 +33,14 @@ double segment_distance2(Vec2 p, Vec2 a, Vec2 b) {
 std::array<double, 3> barycentric(Vec2 p, Vec2 a, Vec2 b, Vec2 c) {
   const double det = cross(b - a, c - a), second = cross(p - a, c - a) / det, third = cross(b - a, p - a) / det;
   return {1 - second - third, second, third};
+}
+
+/// A form on vectors across the unit vector `from`, turned with it, without twist.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& form, Vec3 from, Vec3 to) {
+  const double nearness = 1 + dot(from, to);
+  if (nearness < kOpposite) return form;
+  const Eigen::Matrix3d turn = Eigen::Matrix3d::Identity() - to_eigen(from + to) * to_eigen(to).transpose() / nearness;
+  return turn * form * turn.transpose();
 }
 
 bool is_needle(const Chart& c, const Corners& n) {
@@ -125,7 +134,7 @@ struct ChartSurface::Data {
             0.5 * (to_eigen(tilt) * to_eigen(gradient).transpose() + to_eigen(gradient) * to_eigen(tilt).transpose());
       }
       for (const std::int32_t node : t) {
-        bend[node] += area * form;
+        bend[node] += area * turned(form, n, chart.normal[node]);
         total[node] += area;
       }
     }
@@ -222,16 +231,17 @@ SurfacePoint2 ChartSurface::evaluate2(Vec2 p) const {
   const Place at = locate(p);
   const SurfacePoint facet = data_->on_facet(at);
   const Corners& c = data_->chart.corners[at.triangle];
-  Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();
   Vec3 mean{};
   double sum = 0;
   for (int k = 0; k < 3; ++k) {
     const double weight = std::clamp(at.weight[k], 0.0, 1.0);
-    bend += weight * data_->bend[c[k]];
     mean += weight * data_->chart.normal[c[k]];
     sum += weight;
   }
   const Vec3 normal = normalized(mean);
+  Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k)
+    bend += std::clamp(at.weight[k], 0.0, 1.0) * turned(data_->bend[c[k]], data_->chart.normal[c[k]], normal);
   const Vec3 du = facet.du - dot(facet.du, normal) * normal, dv = facet.dv - dot(facet.dv, normal) * normal;
   const Eigen::Vector3d u = to_eigen(du), v = to_eigen(dv);
   return {

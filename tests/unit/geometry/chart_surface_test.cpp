@@ -64,6 +64,18 @@ TEST_F(ChartOfSphere, has_the_curvature_of_the_sphere) {
   }
 }
 
+TEST(ChartSurface, has_the_curvature_of_a_cylinder_of_few_facets) {
+  const Chart chart = test::flat_chart(test::cylinder_patch(2, 3, radians(150), 5, 2));  // 30 degrees each
+  const ChartSurface surface(chart);
+  for (const Corners& n : chart.corners)
+    for (const double share : {0.0, 0.2, 1.0 / 3}) {
+      const Vec2 uv = share * (chart.uv[n[0]] + chart.uv[n[1]]) + (1 - 2 * share) * chart.uv[n[2]];
+      const Curvature c = principal_curvature(surface.evaluate2(uv));
+      EXPECT_NEAR(c.k1, -1 / 2.0, 0.01);
+      EXPECT_NEAR(c.k2, 0, 1e-9);
+    }
+}
+
 TEST_F(ChartOfSphere, has_feet_on_itself) {
   for (std::size_t t = 0; t < chart_.corners.size(); t += 5) {
     const auto [uv, x] = inside(t);

@@ -8,6 +8,7 @@
 
 #include "base/log.h"
 #include "judge/cad_corners.h"
+#include "judge/edge_angles.h"
 #include "support/meshed.h"
 
 namespace st {
@@ -94,6 +95,34 @@ TEST(ShapeCauses, blame_a_short_edge_or_a_strip_of_the_cad) {
   EXPECT_EQ(c.sharp.free(), 0);
   const CausePlace& p = c.sharp.worst[static_cast<std::size_t>(ShapeCause::kShortEdge)][0];
   ASSERT_NE(p.edge, kNone);
+}
+
+TEST(ShapeCauses, name_the_edge_beside_and_how_much_it_turns) {
+  const ShapeCauses c = MeshedShape("thin_plate", 1).causes();
+  ASSERT_GE(c.sharp.total(), 1);
+  for (const CausePlace& p : c.sharp.worst[static_cast<std::size_t>(ShapeCause::kStrip)]) {
+    ASSERT_NE(p.beside, kNone);
+    EXPECT_NEAR(p.beside_deg, 90, 1e-6);
+  }
+  EXPECT_EQ(c.sharp.n_smooth, 0);
+}
+
+TEST(ShapeCauses, count_what_stands_at_smooth_edges) {
+  MeshedShape m("wing_of_8", 1);
+  const auto is_on = [&](NodeId n) { return m.mesh.node_entity_dim[n] == 1; };
+  EdgeAngles edges(m.model);
+  std::int64_t n_smooth = 0;
+  for (const Triangle& t : m.mesh.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const NodeId a = t.n[k], b = t.n[(k + 1) % 3], c = t.n[(k + 2) % 3];
+      if (n_smooth > 0 || !is_on(a) || b != a + 1 || !is_on(b) || m.mesh.node_entity_dim[c] != 2) continue;
+      if (m.mesh.node_entity[a] != m.mesh.node_entity[b] || edges.largest_deg(m.mesh.node_entity[a]) > 3) continue;
+      m.mesh.node_xyz[c] =
+          0.5 * (m.mesh.node_xyz[a] + m.mesh.node_xyz[b]) + 0.02 * (m.mesh.node_xyz[c] - m.mesh.node_xyz[a]);
+      ++n_smooth;
+    }
+  ASSERT_EQ(n_smooth, 1);
+  EXPECT_GE(m.causes().sharp.n_smooth, 1);
 }
 
 TEST(ShapeCauses, are_free_where_a_node_inside_a_face_lies_badly) {
