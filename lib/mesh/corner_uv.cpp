@@ -27,22 +27,26 @@ Vec2 corner_uv(const FacePatch& patch, std::size_t corner) {
 }
 
 std::vector<Vec2> corner_uvs(const FacePatch& patch, std::size_t begin, std::size_t end) {
-  std::vector<Vec2> uvs;
-  uvs.reserve(3 * (end - begin));
-  for (std::size_t c = 3 * begin, own = first_own(patch, c); c < 3 * end; ++c)
-    uvs.push_back(is_own(patch, own, c) ? patch.own_uv[own++] : patch.inner_uv[node_at(patch, c) - patch.n_boundary]);
+  std::vector<Vec2> uvs(3 * (end - begin));
+  Vec2* uv = uvs.data();
+  std::size_t c = 3 * begin, own = first_own(patch, c);
+  for (std::size_t t = begin; t < end; ++t)
+    for (const NodeId n : patch.triangles[t].n)
+      *uv++ = is_own(patch, own, c++) ? patch.own_uv[own++] : patch.inner_uv[n - patch.n_boundary];
   return uvs;
 }
 
 void set_corner_uvs(std::span<const Vec2> all, FacePatch& patch) {
   patch.uv_corner.clear();
   patch.own_uv.clear();
-  for (std::size_t c = 0; c < all.size(); ++c) {
-    const NodeId n = node_at(patch, c);
-    if (n >= patch.n_boundary && patch.inner_uv[n - patch.n_boundary] == all[c]) continue;
-    patch.uv_corner.push_back(static_cast<std::int32_t>(c));
-    patch.own_uv.push_back(all[c]);
-  }
+  std::int32_t c = 0;
+  for (const Triangle& t : patch.triangles)
+    for (const NodeId n : t.n) {
+      const Vec2 uv = all[c++];
+      if (n >= patch.n_boundary && patch.inner_uv[n - patch.n_boundary] == uv) continue;
+      patch.uv_corner.push_back(c - 1);
+      patch.own_uv.push_back(uv);
+    }
 }
 
 bool has_all_uv(const FacePatch& patch) {

@@ -1,6 +1,7 @@
 #include "mesh/merge.h"
 
 #include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "base/assert.h"
@@ -78,42 +79,38 @@ std::vector<double> vertex_sizes(const MergeInput& in) {
   return size;
 }
 
-/// What a mesh says of its next node.
-void describe_node(SurfaceMesh& mesh, EntityDim dim, std::int32_t entity, double t, double size) {
-  mesh.node_entity_dim.push_back(static_cast<std::uint8_t>(dim));
-  mesh.node_entity.push_back(entity);
-  mesh.node_t.push_back(t);
-  mesh.node_size.push_back(size);
-}
-
-/// What the mesh says of the inner nodes and the triangles of one face. `number`: of its nodes in the mesh.
-void describe_patch(const MergeInput& in, const FacePatch& p, std::span<const NodeId> number, SurfaceMesh& mesh) {
-  for (std::size_t i = 0; i < p.inner_xyz.size(); ++i) {
-    const NodeId n = number[p.n_boundary + i];
-    if (n == kNone) continue;
-    describe_node(mesh, EntityDim::kFace, p.face, 0, p.inner_size[i]);
-    if (!mesh.node_previous.empty() && !p.inner_previous.empty()) mesh.node_previous[n] = p.inner_previous[i];
-  }
-  const std::vector<Vec2> uv = corner_uvs(p);
-  mesh.corner_uv.insert(mesh.corner_uv.end(), uv.begin(), uv.end());
-  const bool has_group = static_cast<std::size_t>(p.face) < in.face_group.size();
-  mesh.triangle_group.insert(mesh.triangle_group.end(), p.triangles.size(), has_group ? in.face_group[p.face] : 0);
-  if (mesh.node_previous.empty()) return;
-  if (p.triangle_previous.empty())
-    mesh.triangle_previous.resize(mesh.triangle_previous.size() + p.triangles.size(), kNone);
-  else
-    mesh.triangle_previous.insert(mesh.triangle_previous.end(), p.triangle_previous.begin(), p.triangle_previous.end());
-}
-
-void reserve_descriptions(SurfaceMesh& mesh, bool has_previous) {
+/// What a mesh says of its nodes and triangles, beside their places.
+void make_room(SurfaceMesh& mesh, bool has_previous) {
   const std::size_t n_nodes = mesh.node_xyz.size(), n_triangles = mesh.triangles.size();
-  mesh.node_entity_dim.reserve(n_nodes);
-  mesh.node_entity.reserve(n_nodes);
-  mesh.node_t.reserve(n_nodes);
-  mesh.node_size.reserve(n_nodes);
-  mesh.triangle_group.reserve(n_triangles);
-  mesh.corner_uv.reserve(3 * n_triangles);
-  if (has_previous) mesh.triangle_previous.reserve(n_triangles);
+  mesh.node_entity_dim.resize(n_nodes);
+  mesh.node_entity.resize(n_nodes);
+  mesh.node_t.resize(n_nodes, 0);
+  mesh.node_size.resize(n_nodes);
+  mesh.triangle_group.resize(n_triangles, 0);
+  mesh.corner_uv.resize(3 * n_triangles);
+  if (!has_previous) return;
+  mesh.node_previous.resize(n_nodes, kNone);
+  mesh.triangle_previous.resize(n_triangles, kNone);
+}
+
+/// Of the inner nodes and the triangles of patch i.
+void describe_patch(const MergeInput& in, const PatchNumbers& numbers, const FacePatch& p, std::size_t i,
+                    SurfaceMesh& mesh) {
+  const NodeId first = numbers.inner_begin[i], end = numbers.inner_begin[i + 1];
+  std::fill(mesh.node_entity_dim.begin() + first, mesh.node_entity_dim.begin() + end,
+            static_cast<std::uint8_t>(EntityDim::kFace));
+  std::fill(mesh.node_entity.begin() + first, mesh.node_entity.begin() + end, p.face);
+  const std::vector<NodeId> number = numbers.of_patch(in.edges, p, i);
+  for (std::size_t k = 0; k < p.inner_xyz.size(); ++k)
+    if (const NodeId n = number[p.n_boundary + k]; n != kNone) {
+      mesh.node_size[n] = p.inner_size[k];
+      if (!mesh.node_previous.empty() && !p.inner_previous.empty()) mesh.node_previous[n] = p.inner_previous[k];
+    }
+  const TriangleId begin = numbers.triangle_begin[i];
+  if (static_cast<std::size_t>(p.face) < in.face_group.size())
+    std::fill_n(mesh.triangle_group.begin() + begin, p.triangles.size(), in.face_group[p.face]);
+  std::ranges::copy(corner_uvs(p), mesh.corner_uv.begin() + 3 * static_cast<std::ptrdiff_t>(begin));
+  if (!mesh.triangle_previous.empty()) std::ranges::copy(p.triangle_previous, mesh.triangle_previous.begin() + begin);
 }
 
 }  // namespace
@@ -152,12 +149,13 @@ void PatchNumbers::number() {
 
 std::vector<NodeId> PatchNumbers::of_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i) const {
   const auto n_vertices = static_cast<VertexId>(boundary.size() - edges.node_xyz.size());
-  const std::vector<std::uint8_t> is_used = used_nodes(shape);
-  std::vector<NodeId> number(is_used.size(), kNone);
+  std::vector<NodeId> number(shape.n_boundary + shape.inner_xyz.size(), kNone);
   for (std::int32_t n = 0; n < shape.n_boundary; ++n) number[n] = boundary[boundary_id_of(n_vertices, edges, shape, n)];
   NodeId next = inner_begin[i];
+  const bool has_all = inner_begin[i + 1] - next == std::ssize(shape.inner_xyz);
+  const std::vector<std::uint8_t> is_used = has_all ? std::vector<std::uint8_t>() : used_nodes(shape);
   for (std::size_t n = shape.n_boundary; n < number.size(); ++n)
-    if (is_used[n]) number[n] = next++;
+    if (has_all || is_used[n]) number[n] = next++;
   return number;
 }
 
@@ -204,20 +202,22 @@ WeldedPatches weld_patches(const EdgeMesh& edges, std::span<const Vec3> vertex_x
 
 void describe_boundary(const MergeInput& in, const PatchNumbers& numbers, SurfaceMesh& mesh) {
   const bool has_previous = !in.edges.node_previous.empty();
-  reserve_descriptions(mesh, has_previous);
+  make_room(mesh, has_previous);
   const std::vector<NodeId>& number = numbers.boundary;
   const std::vector<double> size = vertex_sizes(in);
   const auto n_vertices = static_cast<VertexId>(in.vertex_xyz.size());
-  for (VertexId v = 0; v < n_vertices; ++v)
-    if (number[v] != kNone) describe_node(mesh, EntityDim::kVertex, v, 0, size[v]);
-  for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
-    for (const std::int32_t i : in.edges.nodes(e))
-      if (number[n_vertices + i] != kNone)
-        describe_node(mesh, EntityDim::kEdge, e, in.edges.node_t[i], in.edges.requests()[i]);
-  if (!has_previous) return;
-  mesh.node_previous.assign(mesh.node_xyz.size(), kNone);
+  const auto describe = [&](NodeId n, EntityDim dim, std::int32_t entity, double t, double h) {
+    if (n == kNone) return;
+    mesh.node_entity_dim[n] = static_cast<std::uint8_t>(dim);
+    mesh.node_entity[n] = entity;
+    mesh.node_t[n] = t;
+    mesh.node_size[n] = h;
+  };
+  for (VertexId v = 0; v < n_vertices; ++v) describe(number[v], EntityDim::kVertex, v, 0, size[v]);
   for (EdgeId e = 0; e < in.edges.n_edges(); ++e)
     for (const std::int32_t i : in.edges.nodes(e)) {
+      describe(number[n_vertices + i], EntityDim::kEdge, e, in.edges.node_t[i], in.edges.requests()[i]);
+      if (!has_previous) continue;
       const IdRange nodes = in.edges.nodes(e);
       const bool is_first = i == nodes.first(), is_last = i + 1 == nodes.first() + nodes.size();
       const NodeId n = number[is_first || is_last ? in.edge_vertices[2 * e + (is_first ? 0 : 1)] : n_vertices + i];
@@ -231,8 +231,9 @@ SurfaceMesh weld_mesh(const MergeInput& input) {
   WeldedPatches welded = weld_patches(input.edges, input.vertex_xyz, patches);
   auto& [mesh, numbers] = welded;
   describe_boundary(input, numbers, mesh);
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    describe_patch(input, *patches[i], numbers.of_patch(input.edges, *patches[i], i), mesh);
+  parallel_for(patches.size(), 1, [&, &m = mesh, &all = numbers](std::size_t i, std::size_t) {
+    describe_patch(input, all, *patches[i], i, m);
+  });
   return std::move(mesh);
 }
 

@@ -25,7 +25,8 @@ constexpr int kGrowth[] = {2, 6};  // layers by which a hole grows when it canno
 
 }  // namespace
 
-std::vector<FacePatch> HoleRounds::all_patches() const {
+std::vector<FacePatch> HoleRounds::take_patches() {
+  if (failed_faces_.empty()) return std::move(patches_);
   return insert_fills(*numbering_, holes_.marks(), fills_, failed_faces_);
 }
 
@@ -227,7 +228,8 @@ void HoleRounds::join() {
   if (!failed_faces_.empty() || !executor_.is_root()) return;
   renew_surrounded_nodes();
   result_.edges = update_.edges;
-  result_.mesh = weld_filled(*numbering_, all_patches());
+  patches_ = insert_fills(*numbering_, holes_.marks(), fills_);
+  result_.mesh = weld_filled(*numbering_, patches_);
 }
 
 /// Nodes that stay although all their triangles are new were asked for by the new sizes as well.

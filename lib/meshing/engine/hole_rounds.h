@@ -32,8 +32,8 @@ class HoleRounds : public MeshRounds {
   const std::vector<FaceId>& failed_faces() const { return failed_faces_; }
   /// [n_edges] 1: stays where these are meshed; empty: none.
   std::vector<char> edges_to_keep() const { return paired_.with_edges_of_pairs(holes_.options().keep_edge); }
-  /// Local, on rank 0, after run(). Patches of all faces, those that stay included; none of failed faces.
-  std::vector<FacePatch> all_patches() const;
+  /// Local, on rank 0, after run(), once. Patches of all faces, those that stay included; none of failed faces.
+  std::vector<FacePatch> take_patches();
 
  private:
   void mesh_edges() override;
@@ -64,6 +64,7 @@ class HoleRounds : public MeshRounds {
   EdgeUpdate update_;
   std::optional<HoleNumbering> numbering_;  // of update_
   std::vector<std::vector<Piece>> fills_;   // [n_faces] on rank 0: of its holes; none: as it was, or failed
+  std::vector<FacePatch> patches_;          // likewise: of result_.mesh
   std::vector<FaceId> failed_faces_;
   std::vector<TriangleId> crossing_;  // triangles of the old mesh that cross new ones, of the last search
 };

@@ -35,11 +35,11 @@ void carry_previous(const EdgeMesh& before, EdgeMesh& after) {
 }
 
 /// Collective. Faces whose holes could not be filled, as wholes.
-void mesh_failed_faces(const HoleMarker& holes, const HoleRounds& rounds, const SizeField& field,
-                       const MeshOptions& options, const Executor& executor, MeshResult& result) {
+void mesh_failed_faces(const HoleMarker& holes, HoleRounds& rounds, const SizeField& field, const MeshOptions& options,
+                       const Executor& executor, MeshResult& result) {
   const EdgeMesh before = result.edges;
   std::vector<FacePatch> patches;
-  if (executor.is_root()) patches = rounds.all_patches();
+  if (executor.is_root()) patches = rounds.take_patches();
   run_faces(
       holes.model(), holes.mesh().topology, field,
       plan_again(holes.mesh().topology, rounds.failed_faces(), before, std::move(patches), rounds.edges_to_keep()),
@@ -88,7 +88,7 @@ MeshResult mesh_regions(HoleMarker& holes, const SizeField& field, HoleOutput ou
     mesh_failed_faces(holes, rounds, field, options, executor, result);
     if (executor.is_root() && output == HoleOutput::kMesh) result.mesh = merge_result(holes.mesh().tables, result);
   } else if (executor.is_root() && output == HoleOutput::kPatches) {
-    result.patches = rounds.all_patches();
+    result.patches = rounds.take_patches();
     result.mesh = {};
     if (result.edges.node_request == result.edges.node_size) result.edges.node_request.clear();
   }

@@ -1,6 +1,7 @@
 #include "meshing/hole/hole_rim.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -50,15 +51,15 @@ class RimFinder {
     const NodeId first_inner = cad_.inner_begin[face_];
     std::vector<std::int32_t> of_inner(cad_.inner_begin[face_ + 1] - first_inner, kNone), on_edges;
     local_.resize(3 * triangles_.size());
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      const std::int32_t corner = 3 * triangles_[i / 3] + static_cast<std::int32_t>(i % 3);
-      const NodeId n = node_at(corner);
+    for (std::int32_t i = 0; i < std::ssize(local_); ++i) {
+      const std::int32_t t = triangles_[i / 3], k = i % 3;
+      const NodeId n = mesh_.triangles[t].n[k];
       if (n < first_inner) {
-        on_edges.push_back(static_cast<std::int32_t>(i));
+        on_edges.push_back(i);
         continue;
       }
       std::int32_t& number = of_inner[n - first_inner];
-      if (number == kNone) number = add_node(corner);
+      if (number == kNone) number = add_node(3 * t + k);
       local_[i] = number;
     }
     number_on_edges(on_edges);
@@ -117,16 +118,20 @@ class RimFinder {
     collect_face_edges();
     begin_.assign(node_corner_.size() + 1, 0);
     std::vector<Side> open;
-    for (std::size_t i = 0; i < local_.size(); ++i) {
-      const Side s{local_[i], local_[i - i % 3 + (i + 1) % 3]};
-      if (is_cad_side(node_at(node_corner_[s.first]), node_at(node_corner_[s.second]))) {
-        HoleRim& rim = rims_[part_[connected_.find(s.first)]];
-        rim.cad_sides.push_back(in_rim(rim, s));
-        continue;
+    open.reserve(local_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t next = (k + 1) % 3;
+        const Side s{local_[3 * t + k], local_[3 * t + next]};
+        const NodeId* const n = mesh_.triangles[triangles_[t]].n;
+        if (is_cad_side(n[k], n[next])) {
+          HoleRim& rim = rims_[part_[connected_.find(s.first)]];
+          rim.cad_sides.push_back(in_rim(rim, s));
+          continue;
+        }
+        open.push_back(s);
+        ++begin_[std::min(s.first, s.second) + 1];
       }
-      open.push_back(s);
-      ++begin_[std::min(s.first, s.second) + 1];
-    }
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     sides_.resize(open.size());
     std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
@@ -137,12 +142,15 @@ class RimFinder {
   void drop_inner_sides() {
     for (std::size_t n = 0; n + 1 < begin_.size(); ++n)
       for (std::int32_t i = begin_[n]; i < begin_[n + 1]; ++i) {
-        const auto is_same = [&](const Side& s) {
-          return std::max(s.first, s.second) == std::max(sides_[i].first, sides_[i].second);
-        };
-        const auto begin = sides_.begin() + begin_[n], end = sides_.begin() + begin_[n + 1];
-        if (std::find_if(begin, end, is_same) != sides_.begin() + i || std::count_if(begin, end, is_same) % 2 == 0)
-          continue;
+        const std::int32_t upper = std::max(sides_[i].first, sides_[i].second);
+        if (upper == kNone) continue;  // counted with an earlier one
+        bool is_odd = true;
+        for (std::int32_t j = i + 1; j < begin_[n + 1]; ++j)
+          if (std::max(sides_[j].first, sides_[j].second) == upper) {
+            is_odd = !is_odd;
+            sides_[j] = {kNone, kNone};
+          }
+        if (!is_odd) continue;
         HoleRim& rim = rims_[part_[connected_.find(sides_[i].first)]];
         rim.free_sides.push_back(in_rim(rim, sides_[i]));
       }
