@@ -23,8 +23,8 @@ constexpr double kSampleX = 0.9371, kSampleY = 0.9423, kSampleZ = 0.9497, kSampl
 constexpr std::int8_t kNoFlow = -1;
 constexpr std::size_t kCellsPerPiece = 8'192;
 constexpr std::size_t kCutCellsPerPiece = 1'024;  // likewise of cells that take microseconds each
-constexpr double kRounded = 1e-6;     // half edges: far more than clipped corners are rounded by
-constexpr double kSheetCosine = 0.8;  // of triangles with their mean normal: no two of them face each other
+constexpr double kRounded = 1e-6;                 // half edges: far more than clipped corners are rounded by
+constexpr double kSheetCosine = 0.8;              // of triangles with their mean normal: no two of them face each other
 
 /// A leaf as a cube.
 struct Cube {

@@ -6,6 +6,7 @@
 #include <Storage_StreamTypeMismatchError.hxx>
 #include <bit>
 #include <charconv>
+#include <cstring>
 #include <istream>
 #include <system_error>
 
@@ -33,6 +34,15 @@ bool read_at_hand(std::istream& in, double& number) {
   const auto [end, error] = std::from_chars(begin, last, number);
   if (error != std::errc() || end == last || !is_blank(*end) || end - begin > kLongestWord) return false;
   AtHand::take(from, end - first);
+  return true;
+}
+
+/// Takes the bytes of a number where all of them are at hand.
+bool take_at_hand(std::streambuf& from, double& number) {
+  const char* const begin = AtHand::begin(from);
+  if (AtHand::end(from) - begin < static_cast<std::ptrdiff_t>(sizeof number)) return false;
+  std::memcpy(&number, begin, sizeof number);
+  AtHand::take(from, sizeof number);
   return true;
 }
 
@@ -97,6 +107,7 @@ void GeomTools::GetReal(Standard_IStream& in, Standard_Real& value) {
 Standard_IStream& BinTools::GetReal(Standard_IStream& in, Standard_Real& value) {
   static_assert(std::endian::native == std::endian::little);  // as the files are
   constexpr std::streamsize kBytes = sizeof value;
+  if (in.good() && st::occt::take_at_hand(*in.rdbuf(), value)) return in;
   if (!in.good() || in.rdbuf()->sgetn(reinterpret_cast<char*>(&value), kBytes) != kBytes) {
     in.setstate(std::ios_base::eofbit | std::ios_base::failbit);
     throw Storage_StreamTypeMismatchError();

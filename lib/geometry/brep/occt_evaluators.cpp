@@ -24,6 +24,7 @@
 #include <Geom_ToroidalSurface.hxx>
 #include <Geom_TrimmedCurve.hxx>
 
+#include "geometry/brep/kept_surfaces.h"
 #include "geometry/shape/analytic.h"
 #include "geometry/shape/bspline.h"
 
@@ -150,7 +151,7 @@ std::unique_ptr<Curve> bspline_curve(const Handle(Geom_BSplineCurve) & original,
                                         t_min, t_max);
 }
 
-std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface) & original, const UvBounds& b) {
+SplineInput input_of(const Handle(Geom_BSplineSurface) & original) {
   Handle(Geom_BSplineSurface) s = original;
   if (s->IsUPeriodic() || s->IsVPeriodic()) s = Handle(Geom_BSplineSurface)::DownCast(original->Copy());
   const double u_period = s->IsUPeriodic() ? s->UPeriod() : 0, v_period = s->IsVPeriodic() ? s->VPeriod() : 0;
@@ -158,15 +159,19 @@ std::unique_ptr<Surface> bspline_surface(const Handle(Geom_BSplineSurface) & ori
   if (s->IsVPeriodic()) s->SetVNotPeriodic();
   // SetUNotPeriodic leaves a surface without weights with weights that are all zero (OpenCASCADE 7.6)
   const bool is_rational = original->IsURational() || original->IsVRational();
-  std::vector<Pole> poles;
-  poles.reserve(static_cast<std::size_t>(s->NbUPoles()) * s->NbVPoles());
+  SplineInput in{.u_degree = s->UDegree(),
+                 .v_degree = s->VDegree(),
+                 .u_period = u_period,
+                 .v_period = v_period,
+                 .u_flat = flat(s->UKnotSequence()),
+                 .v_flat = flat(s->VKnotSequence()),
+                 .poles = {},
+                 .is_rational = is_rational};
+  in.poles.reserve(static_cast<std::size_t>(s->NbUPoles()) * s->NbVPoles());
   const TColgp_Array2OfPnt& given = s->Poles();
   for (int i = 1; i <= s->NbUPoles(); ++i)
-    for (int j = 1; j <= s->NbVPoles(); ++j) poles.push_back(pole(given(i, j), is_rational ? s->Weight(i, j) : 1.0));
-  return std::make_unique<BsplineSurface>(KnotSpans(s->UDegree(), flat(s->UKnotSequence()), u_period),
-                                          KnotSpans(s->VDegree(), flat(s->VKnotSequence()), v_period), std::move(poles),
-                                          s->NbVPoles(), is_rational,
-                                          BsplineSurface::Bounds{b.u_min, b.u_max, b.v_min, b.v_max});
+    for (int j = 1; j <= s->NbVPoles(); ++j) in.poles.push_back(pole(given(i, j), is_rational ? s->Weight(i, j) : 1.0));
+  return in;
 }
 
 }  // namespace
@@ -236,9 +241,11 @@ std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, cons
     return axial(SurfaceType::kSphere, sphere->Position(), sphere->Radius(), 0);
   if (const auto torus = Handle(Geom_ToroidalSurface)::DownCast(s))
     return axial(SurfaceType::kTorus, torus->Position(), torus->MajorRadius(), torus->MinorRadius());
-  if (const auto bspline = Handle(Geom_BSplineSurface)::DownCast(s)) return bspline_surface(bspline, b);
+  const BsplineSurface::Bounds bounds{b.u_min, b.u_max, b.v_min, b.v_max};
+  if (const auto bspline = Handle(Geom_BSplineSurface)::DownCast(s))
+    return surface_of(bspline, input_of(bspline), bounds);
   if (const auto bezier = Handle(Geom_BezierSurface)::DownCast(s))
-    return bspline_surface(GeomConvert::SurfaceToBSplineSurface(bezier), b);
+    return surface_of(input_of(GeomConvert::SurfaceToBSplineSurface(bezier)), bounds);
   return std::make_unique<AdaptorSurface>(s, surface_type(s), b);
 }
 

@@ -13,6 +13,7 @@
 #include "base/required_unit.h"
 #include "base/text.h"
 #include "base/threads.h"
+#include "geometry/brep/kept_surfaces.h"
 #include "geometry/brep/read_back.h"
 #include "geometry/import/air_roles.h"
 #include "geometry/import/body_relations.h"
@@ -345,6 +346,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
 
 ImportResult import_model(const std::string& path, const ImportOptions& options) {
   try {
+    const occt::KeptSurfaces kept;
     return run_import(path, options);
   } catch (const Standard_Failure& e) {
     throw Error(ExitCode::kGeometry,

@@ -163,8 +163,10 @@ BsplineSurface::Data::~Data() {
   for (const auto& p : patch) delete[] p.load(std::memory_order_relaxed);
 }
 
-std::unique_ptr<Surface> BsplineSurface::copy() const {
-  return std::unique_ptr<Surface>(new BsplineSurface(data_, n_v_, is_rational_, {u_min_, u_max_, v_min_, v_max_}));
+std::unique_ptr<Surface> BsplineSurface::copy() const { return within({u_min_, u_max_, v_min_, v_max_}); }
+
+std::unique_ptr<BsplineSurface> BsplineSurface::within(Bounds bounds) const {
+  return std::unique_ptr<BsplineSurface>(new BsplineSurface(data_, n_v_, is_rational_, bounds));
 }
 
 BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, Bounds bounds)

@@ -109,6 +109,8 @@ class BsplineSurface : public Surface {
   BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational, Bounds bounds);
   /// Shares the spans that are converted, on any thread.
   std::unique_ptr<Surface> copy() const override;
+  /// The same within other bounds.
+  std::unique_ptr<BsplineSurface> within(Bounds bounds) const;
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
   SurfacePoint2 evaluate2(Vec2 uv) const override;
