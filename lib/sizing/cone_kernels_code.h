@@ -283,8 +283,9 @@ struct EightCones {
   static F8 dot(const F8 (&a)[3], const F8 (&b)[3]) { return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1]; }
 };
 
-/// The eight of a list from the k-th on, or the last one again.
-EightCones eight_of(const float* cones, const std::int32_t* own, std::int32_t n, std::int32_t k) {
+/// The eight of a list from the k-th on, or the last one again. Inlined: they stay in registers.
+[[gnu::always_inline]] inline EightCones eight_of(const float* cones, const std::int32_t* own, std::int32_t n,
+                                                  std::int32_t k) {
   const float* cone[8];
   for (std::int32_t i = 0; i < 8; ++i)
     cone[i] = cones + kConeNumbers * static_cast<std::int64_t>(own[k + i < n ? k + i : n - 1]);
@@ -293,8 +294,9 @@ EightCones eight_of(const float* cones, const std::int32_t* own, std::int32_t n,
 
 /// See ConeKernels::least. Calls f(k, eight, rise) for each eight that it asks.
 template <class F>
-float least_of_cones(const float* cones, const std::int32_t* own, std::int32_t n, const float* place, float largest,
-                     std::int32_t* winner, const F& f) {
+[[gnu::always_inline]] inline float least_of_cones(const float* cones, const std::int32_t* own, std::int32_t n,
+                                                   const float* place, float largest, std::int32_t* winner,
+                                                   const F& f) {
   F8 best = all(largest);
   I8 from = where(best >= best, -1, I8{});  // where in `own` the eight begin that tell it
   float result = largest;

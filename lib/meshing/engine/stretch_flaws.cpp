@@ -19,6 +19,7 @@ constexpr int kGentleTries = 3;             // then lengths along become those a
 constexpr double kLast = 0.9;               // of lengths that are alike, then
 constexpr double kAlike = 1.05;             // along over across: less is about the same
 constexpr double kAround = 0.75;            // of the longest side: so far about a triangle
+const double kMostCosine = std::cos(kMostAngle), kFarCosine = std::cos(kFarAngle);
 
 class FlawFinder {
  public:
@@ -28,17 +29,19 @@ class FlawFinder {
         present_(present),
         is_late_(n_tries > kGentleTries),
         factor_(triangles.size(), 1),
-        is_obtuse_(triangles.size(), 0) {}
+        is_obtuse_(triangles.size(), 0) {
+    for (const Triangle& t : triangles) area_.push_back(0.5 * norm(cross(x(t, 1) - x(t, 0), x(t, 2) - x(t, 0))));
+  }
 
   StretchFlaws run() {
-    for (std::size_t t = 0; t < triangles_.size(); ++t) is_obtuse_[t] = is_obtuse(triangles_[t], kMostAngle);
+    for (std::size_t t = 0; t < triangles_.size(); ++t) is_obtuse_[t] = is_obtuse(triangles_[t], kMostCosine);
     compare_neighbours();
     StretchFlaws flaws;
     bool is_long = false;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (!is_obtuse_[t] && factor_[t] == 1) continue;
       ++(is_obtuse_[t] ? flaws.n_obtuse : flaws.n_large);
-      if (is_obtuse_[t] && is_obtuse(triangles_[t], kFarAngle)) ++flaws.n_far;
+      if (is_obtuse_[t] && is_obtuse(triangles_[t], kFarCosine)) ++flaws.n_far;
       const RefinementPoint place = place_at(t, is_long);
       if (is_long)
         flaws.stretched.push_back(place);
@@ -51,16 +54,13 @@ class FlawFinder {
  private:
   Vec3 x(const Triangle& t, int k) const { return points_[t.n[k % 3]]; }
 
-  bool is_obtuse(const Triangle& t, double most) const {
+  /// Has it an angle with a cosine below this one, which is negative?
+  bool is_obtuse(const Triangle& t, double cosine) const {
     for (int k = 0; k < 3; ++k) {
       const Vec3 a = x(t, k + 1) - x(t, k), b = x(t, k + 2) - x(t, k);
-      if (dot(a, b) < std::cos(most) * norm(a) * norm(b)) return true;
+      if (const double product = dot(a, b); product < 0 && product < cosine * norm(a) * norm(b)) return true;
     }
     return false;
-  }
-  double area(TriangleId t) const {
-    const Triangle& r = triangles_[t];
-    return 0.5 * norm(cross(x(r, 1) - x(r, 0), x(r, 2) - x(r, 0)));
   }
 
   /// The larger one of two neighbours becomes smaller.
@@ -69,7 +69,7 @@ class FlawFinder {
     edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
       if (sides.size() != 2) return;
       TriangleId small = sides[0] / 3, large = sides[1] / 3;
-      double low = area(small), high = area(large);
+      double low = area_[small], high = area_[large];
       if (low > high) {
         std::swap(small, large);
         std::swap(low, high);
@@ -92,7 +92,7 @@ class FlawFinder {
     is_long = local.along > kAlike * local.length;
     const double factor = is_obtuse_[t] ? std::min(kShorter, factor_[t]) : factor_[t];
     const double shorter = factor * std::min(local.along, longest);
-    const bool is_last = is_late_ && is_obtuse_[t] && is_obtuse(r, kFarAngle);
+    const bool is_last = is_late_ && is_obtuse_[t] && is_obtuse(r, kFarCosine);
     if (is_last)
       place.length = is_long ? 0 : kLast * local.length;
     else
@@ -107,6 +107,7 @@ class FlawFinder {
   bool is_late_;                 // after a few gentle rounds
   std::vector<double> factor_;   // [triangles] of lengths along, by neighbours; 1: none is asked for
   std::vector<char> is_obtuse_;  // [triangles]
+  std::vector<double> area_;     // [triangles]
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/threads.h"
 
 namespace st {
 namespace {
@@ -31,7 +32,26 @@ void TiledRegions::choose(const std::vector<std::int32_t>& regions, const std::v
   tile_triangles_ = tile_triangles;
   std::copy_if(regions.begin(), regions.end(), std::back_inserter(chosen_),
                [&](std::int32_t r) { return expected[r] > kWorthCutting * tile_triangles; });
+  drop_stretched();
   chosen_cuts_.resize(chosen_.size());
+}
+
+/// Of those chosen: faces that stay whole in any case need not wait until others are cut.
+void TiledRegions::drop_stretched() {
+  if (!field_.is_stretched()) return;
+  std::vector<char> is_stretched(chosen_.size(), 0);
+  parallel_for(chosen_.size(), 1, [&](std::size_t i, std::size_t) {
+    const FaceId f = regions_.face(chosen_[i]);
+    try {
+      const auto surface = model_.surface(f);
+      is_stretched[i] = has_long_edges(*surface, regions_.boundary(chosen_[i], *surface), field_of(f).get());
+    } catch (const Error&) {  // cut_of() will see
+    }
+  });
+  std::vector<std::int32_t> kept;
+  for (std::size_t i = 0; i < chosen_.size(); ++i)
+    if (!is_stretched[i]) kept.push_back(chosen_[i]);
+  chosen_ = std::move(kept);
 }
 
 Bytes TiledRegions::cut(std::int32_t i) const { return packed(cut_of(chosen_[i])); }

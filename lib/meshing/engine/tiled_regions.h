@@ -120,6 +120,7 @@ class TiledRegions {
   }
 
  private:
+  void drop_stretched();
   std::vector<Piece> gather(std::int32_t region, const std::array<std::int32_t, 2>& members, bool wants_bands,
                             const Executor& executor);
   Piece take_part(const Section& section, bool wants_band);

@@ -166,7 +166,7 @@ class TileCutter {
         coarse_(surface, boundary, places, field) {}
 
   TileCut run() {
-    if (is_stretched()) return {};  // rows would end at cuts
+    if (has_long_edges(surface_, boundary_, field_)) return {};
     const auto widest = static_cast<unsigned>(std::max(1.0, std::sqrt(tile_triangles_ / kCoarsePerTile)));
     for (unsigned step = std::bit_floor(widest); step >= 1; step /= 2)
       if (coarse_.make(static_cast<std::int32_t>(step))) return cut();
@@ -174,25 +174,6 @@ class TileCutter {
   }
 
  private:
-  /// At a node of the loops or a place inside.
-  bool is_stretched() const {
-    if (!field_.is_stretched()) return false;
-    if (field_.has_metrics()) return true;  // cuts do not know their plane
-    int hint = 0;
-    const auto is_long_at = [&](Vec3 x) {
-      const LocalSize size = field_.local(x, hint);
-      return size.along > size.length;
-    };
-    if (std::any_of(boundary_.nodes.begin(), boundary_.nodes.end(), [&](const FaceNode& n) { return is_long_at(n.x); }))
-      return true;
-    const double u_step = (surface_.u_max() - surface_.u_min()) / kProbes, v0 = surface_.v_min();
-    const double v_step = (surface_.v_max() - v0) / kProbes;
-    for (int i = 0; i < kProbes; ++i)
-      for (int k = 0; k < kProbes; ++k)
-        if (is_long_at(surface_.point({surface_.u_min() + (i + 0.5) * u_step, v0 + (k + 0.5) * v_step}))) return true;
-    return false;
-  }
-
   TileCut cut() {
     const CoarseParts parts(coarse_, field_, tile_triangles_);
     if (parts.n_parts() < 2) return {};
@@ -362,6 +343,23 @@ std::vector<BoundaryPlace> boundary_places(const FaceBoundary& boundary, const B
   std::vector<BoundaryPlace> places;
   for (const FaceNode& n : boundary.nodes) places.push_back(place_on_edge(n.id, numbering));
   return places;
+}
+
+bool has_long_edges(const Surface& surface, const FaceBoundary& boundary, const SizeField& field) {
+  if (!field.is_stretched()) return false;
+  if (field.has_metrics()) return true;  // cuts do not know their plane
+  int hint = 0;
+  const auto is_long_at = [&](Vec3 x) {
+    const LocalSize size = field.local(x, hint);
+    return size.along > size.length;
+  };
+  if (std::ranges::any_of(boundary.nodes, [&](const FaceNode& n) { return is_long_at(n.x); })) return true;
+  const double u_step = (surface.u_max() - surface.u_min()) / kProbes, v0 = surface.v_min();
+  const double v_step = (surface.v_max() - v0) / kProbes;
+  for (int i = 0; i < kProbes; ++i)
+    for (int k = 0; k < kProbes; ++k)
+      if (is_long_at(surface.point({surface.u_min() + (i + 0.5) * u_step, v0 + (k + 0.5) * v_step}))) return true;
+  return false;
 }
 
 TileCut cut_face(const Surface& surface, const SurfaceMaker& make_surface, const FaceBoundary& boundary,

@@ -45,6 +45,10 @@ struct TileCut {
   static auto fields(auto& x) { return std::tie(x.nodes, x.tiles, x.n_boundary, x.shared, x.number); }
 };
 
+/// Whether edges may be longer along a direction, at a node of the loops or a place inside: such a face stays whole, as
+/// rows would end at cuts. Local, pure.
+bool has_long_edges(const Surface& surface, const FaceBoundary& boundary, const SizeField& field);
+
 /// Cuts a face along edges of a coarse mesh of itself into tiles of about `tile_triangles` triangles (Chen, Zhao, Zheng
 /// et al., Proc. 22nd International Meshing Roundtable, 2013, cut a background mesh likewise). `places`: of the
 /// boundary's nodes. `make_surface`: see improve_seams(). Local, pure. Cost: the coarse mesh, 24 to 96 triangles per

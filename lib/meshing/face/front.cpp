@@ -199,6 +199,7 @@ class Front {
       } else {
         along_.pop();
       }
+      if (is_surrounded(node)) continue;
       for (const double sign : {1.0, -1.0}) step_from(node, is_across, sign);
     }
   }
@@ -213,6 +214,14 @@ class Front {
       if (std::abs(dot(d, node.squeeze)) > kAligned * norm(node.squeeze)) across_.push_back(n);
       along_.push({-node.h, -n});
     }
+  }
+
+  /// By what is outside, and by laid rows: nothing can be placed from it.
+  bool is_surrounded(std::int32_t node) const {
+    bool is_free = false;
+    return m_.visit_ring(node, [&](std::int32_t, std::int32_t t) {
+      is_free |= m_.triangles[t].state != kOutside && m_.triangles[t].state != kLaid;
+    }) && !is_free;
   }
 
   void step_from(std::int32_t from, bool is_across, double sign) {

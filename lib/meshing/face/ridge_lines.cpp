@@ -212,23 +212,29 @@ class RidgeLayer {
       MeshNode p = from;
       if (const auto move = tangent_step(from.du, from.dv, way * across)) p.p = from.p + *move;
       w_.evaluate(p);
-      w_.ask_sizes(p);
       return p;
+    };
+    const auto request_at = [&](double way) {
+      MeshNode p = at(way);
+      if (!w_.field->has_metrics()) return w_.field->size(p.x, w_.hint);
+      w_.ask_sizes(p);
+      return p.request;
     };
     double reach = std::max(kWindow * from.request, kWindowOfStep * step);
     for (int i = 0; i <= kWidenings; ++i, reach *= 2) {
       std::array<double, 2 * kProbes + 1> request;
-      for (int k = -kProbes; k <= kProbes; ++k) request[k + kProbes] = at(k * reach / kProbes).request;
+      for (int k = -kProbes; k <= kProbes; ++k) request[k + kProbes] = request_at(k * reach / kProbes);
       const auto least = std::min_element(request.begin(), request.end());
       if (std::min(request.front(), request.back()) < kLonger * *least) continue;
       const double middle = (static_cast<double>(least - request.begin()) - kProbes) * reach / kProbes;
       const double level = kLonger * *least;
       const auto end = [&](double outside) {  // of where lengths are below the level
         double low = middle, high = outside;
-        for (int n = 0; n < kHalvings; ++n) (at(0.5 * (low + high)).request < level ? low : high) = 0.5 * (low + high);
+        for (int n = 0; n < kHalvings; ++n) (request_at(0.5 * (low + high)) < level ? low : high) = 0.5 * (low + high);
         return low;
       };
       node = at(0.5 * (end(-reach) + end(reach)));
+      w_.ask_sizes(node);
       return true;
     }
     return false;

@@ -51,6 +51,7 @@ class TriangleShape {
   /// 1, less for a triangle whose largest angle in space is obtuse: what the metric does not see. Squares of its sides.
   static double angle_share(double a2, double b2, double c2) {
     const double longest = std::max({a2, b2, c2}), others = a2 + b2 + c2 - longest;
+    if (others >= longest) return 1;  // no angle is obtuse
     const double product = longest == a2 ? b2 * c2 : longest == b2 ? a2 * c2 : a2 * b2;
     const double cosine = 0.5 * (others - longest) / std::sqrt(std::max(product, 1e-300));
     return 1 - kWorstAngleLoss * std::clamp((kObtuse - cosine) / (1 + kObtuse), 0.0, 1.0);
