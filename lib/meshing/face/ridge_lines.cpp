@@ -31,10 +31,11 @@ constexpr double kClearBeside = 20;        // likewise, to such edges along the 
 constexpr double kBesideCosine = 0.8;      // between such an edge and the line
 constexpr std::size_t kLeastNodes = 4;
 // lines that reach no loop
-constexpr std::size_t kSections = 64;  // of the face, at most, along which lengths are looked at
-constexpr int kSamples = 16;           // of each
-constexpr double kLower = 0.8;         // a length there over those at both sides: less is looked at
-constexpr int kMostInside = 12;        // lines that are tried
+constexpr std::size_t kSections = 12;     // of the face, at most, along which lengths are looked at
+constexpr double kStep = 3;               // lengths between two of these
+constexpr double kLeastStep = 1.0 / 128;  // likewise, of a section
+constexpr double kMostStep = 1.0 / 16;
+constexpr int kMostInside = 12;  // lines that are tried
 
 class RidgeLayer {
  public:
@@ -61,20 +62,19 @@ class RidgeLayer {
     Vec3 inward;
   };
 
-  /// A place inside the face where the length is least, and a node of a loop from which it is seen.
+  /// A place inside the face where the length is least, and a node from which it is seen.
   struct Inside {
     MeshNode place;
     std::int32_t seed;
   };
 
-  /// On sections from loop to loop, the sides of the triangles so far: those with the least lengths first.
+  /// On sections between loops and lines, the sides of the triangles so far: those with the least lengths first.
   std::vector<Inside> find_inside() {
     std::vector<std::pair<std::int32_t, std::int32_t>> sections;
     for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
       const PlaneTriangle& t = m_.triangles[i];
       for (int k = 0; k < 3 && t.state == kUnfinished; ++k)
-        if (const std::int32_t a = t.v[k], b = t.v[(k + 1) % 3];
-            a < b && b < m_.n_boundary && !(t.constrained >> k & 1))
+        if (const std::int32_t a = t.v[k], b = t.v[(k + 1) % 3]; a < b && !(t.constrained >> k & 1))
           sections.push_back({a, b});
     }
     std::vector<Inside> found;
@@ -93,13 +93,18 @@ class RidgeLayer {
       w_.ask_sizes(p);
       return p;
     };
-    std::array<MeshNode, kSamples + 1> samples;
-    for (int k = 0; k <= kSamples; ++k) samples[k] = at(static_cast<double>(k) / kSamples);
-    for (int k = 1; k < kSamples; ++k) {
-      const double own = samples[k].request;
-      if (own > samples[k - 1].request || own >= samples[k + 1].request) continue;
-      if (own > kLower * std::max(samples[k - 1].request, samples[k + 1].request)) continue;
-      double low = static_cast<double>(k - 1) / kSamples, high = static_cast<double>(k + 1) / kSamples;
+    const Vec2 way = m_.nodes[b].p - m_.nodes[a].p;
+    std::vector<std::pair<double, double>> samples;  // shares and lengths
+    for (double share = 0; share < 1;) {
+      const MeshNode p = at(share);
+      samples.push_back({share, p.request});
+      share += std::clamp(kStep * p.request / norm(way.x * p.du + way.y * p.dv), kLeastStep, kMostStep);
+    }
+    samples.push_back({1, at(1).request});
+    for (std::size_t k = 1; k + 1 < samples.size(); ++k) {
+      const double own = samples[k].second;
+      if (own > samples[k - 1].second || own >= samples[k + 1].second) continue;
+      double low = samples[k - 1].first, high = samples[k + 1].first;
       for (int n = 0; n < 2 * kHalvings; ++n) {  // by thirds
         const double one = low + (high - low) / 3, two = high - (high - low) / 3;
         (at(one).request < at(two).request ? high : low) = at(one).request < at(two).request ? two : one;
