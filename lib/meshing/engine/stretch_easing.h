@@ -71,7 +71,7 @@ class StretchEasing {
   Refinements& refinements_;
   const FindUnheld& find_unheld_;
   RefinementTrials::MeshAgain mesh_again_;
-  std::int64_t n_bad_ = 0;            // at the beginning
+  std::int64_t n_bad_ = 0;            // at the beginning, or not clearly more
   std::int64_t n_first_ = 0;          // triangles, likewise
   std::int64_t n_again_ = 0;          // that were meshed since then
   std::vector<Refinement> spoiling_;  // lengths are not shortened within their reach
