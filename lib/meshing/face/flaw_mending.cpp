@@ -9,14 +9,16 @@
 
 #include "base/predicates.h"
 #include "meshing/face/swap_quad.h"
+#include "meshing/face/triangle_shape.h"
 
 namespace st {
 namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
-constexpr int kMostSweeps = 4;        // what mends one may flaw its neighbour
-constexpr double kLeastGain = 0.02;   // of the cost: less is no change
-constexpr double kSteepCosine = 0.5;  // between the normals of a triangle and of the surface: no change makes less
+constexpr int kMostSweeps = 4;         // what mends one may flaw its neighbour
+constexpr double kLeastGain = 0.02;    // of the cost: less is no change
+constexpr double kSteepCosine = 0.5;   // between the normals of a triangle and of the surface: no change makes less
+constexpr double kAlongCosine = 0.95;  // likewise of two nodes, if the third has a wrong one
 // costs: squares of what is above, in these units
 constexpr double kAngleFrom = 0.75;  // of the negative cosine of the largest angle
 constexpr double kAngleUnit = 0.1;
@@ -25,6 +27,9 @@ constexpr double kGrowthUnit = 0.4;
 constexpr double kFlawCost = 0.5;                  // more where an angle or a step is above what is asked for
 constexpr double kMostCost = 10;                   // of one angle or step
 constexpr std::array<double, 2> kSteps{0.5, 0.2};  // of the way to a node beside, or to the middle of all
+// where a node goes onto one beside it
+constexpr double kLongEdge = 1.45;  // of the lengths asked for: no such edge comes where there is none
+constexpr double kPoor = 0.4;       // quality: what comes is no worse, or no worse than what was there
 
 double cost_above(double value, double from, double unit) {
   const double above = std::max(0.0, (value - from) / unit);
@@ -44,7 +49,7 @@ class FlawMending {
         const auto t = static_cast<std::int32_t>(i);
         if (!std::exchange(is_due_[i], 0) || !is_flawed(t)) continue;
         is_due_[i] = 1;  // what others change may help
-        changes |= mend(t);
+        changes |= mend(t) || mend_at_pole(t);
       }
     }
   }
@@ -55,7 +60,8 @@ class FlawMending {
     double gain = kLeastGain;
     int edge = -1;                // that is swapped, or:
     std::int32_t node = kNone;    // that moves
-    MeshNode moved = MeshNode();  // there
+    MeshNode moved = MeshNode();  // there, or:
+    int onto = -1;                // goes onto this one of its ring
   };
 
   Vec3 x(std::int32_t node) const { return m_.nodes[node].x; }
@@ -106,11 +112,13 @@ class FlawMending {
     return sum;
   }
 
-  /// Against the surface's normals, or nearly.
+  /// Against the surface's normals, or nearly. One of these may be wrong, as where the parametrisation is singular.
   bool is_steep(const Corners& c) const {
     const Vec3 n = cross(x(c[1]) - x(c[0]), x(c[2]) - x(c[0]));
-    return std::ranges::any_of(c,
-                               [&](std::int32_t i) { return !(dot(n, m_.nodes[i].normal) > kSteepCosine * norm(n)); });
+    std::array<double, 3> along;
+    std::ranges::transform(c, along.begin(), [&](std::int32_t i) { return dot(n, m_.nodes[i].normal); });
+    std::ranges::sort(along);
+    return !(along[0] > kSteepCosine * norm(n) || along[1] > kAlongCosine * norm(n));
   }
 
   bool mend(std::int32_t t) {
@@ -118,6 +126,7 @@ class FlawMending {
     for (int k = 0; k < 3; ++k) {
       consider_swap(t, k, best);
       consider_moves(m_.triangles[t].v[k], best);
+      consider_collapses(m_.triangles[t].v[k], best);
     }
     if (best.edge >= 0) {
       const std::int32_t other = m_.triangles[t].n[best.edge];
@@ -125,11 +134,35 @@ class FlawMending {
       look_again_at(t);
       look_again_at(other);
     } else if (best.node != kNone) {
-      m_.nodes[best.node] = best.moved;
       m_.ring_of(best.node, around_, tris_);
       for (const std::int32_t r : tris_) look_again_at(r);
+      if (best.onto < 0)
+        m_.nodes[best.node] = best.moved;
+      else
+        m_.collapse(best.node, best.onto, around_, tris_);
     }
     return best.edge >= 0 || best.node != kNone;
+  }
+
+  /// A triangle of no area, between two nodes of a pole, may part it from the one to swap with. It goes to the other
+  /// side first.
+  bool mend_at_pole(std::int32_t t) {
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t o = m_.triangles[t].n[k];
+      if (o == kNone || !is_between_poles(o) || is_between_poles(t)) continue;
+      if ((m_.triangles[t].constrained >> k & 1) || !m_.can_swap(t, k)) continue;
+      m_.swap(t, k);
+      const std::int32_t own = is_between_poles(t) ? o : t;
+      if (mend(own)) return true;
+      for (int i = 0; i < 3; ++i)
+        if (m_.triangles[own].n[i] == (own == t ? o : t)) return m_.swap(own, i), false;
+    }
+    return false;
+  }
+  bool is_between_poles(std::int32_t t) const {
+    const Corners c = corners(m_.triangles[t]);
+    const auto are_one = [&](int i, int k) { return are_one_pole(m_.nodes[c[i]], m_.nodes[c[k]]); };
+    return are_one(0, 1) || are_one(1, 2) || are_one(2, 0);
   }
 
   /// A triangle that changed, and those whose steps to it did.
@@ -181,6 +214,79 @@ class FlawMending {
     }
   }
 
+  void consider_collapses(std::int32_t node, Change& best) {
+    const MeshNode& n = m_.nodes[node];
+    if (node < m_.n_boundary + 4 || n.is_laid || n.is_kept || !m_.ring_of(node, around_, tris_)) return;
+    if (std::ranges::any_of(around_, [&](std::int32_t i) { return m_.nodes[i].is_pole; })) return;
+    const double before = cost(tris_);
+    longest_ = before > best.gain ? longest_about(node) : 0;
+    for (int onto = 0; onto < std::ssize(around_) && before > best.gain; ++onto) {
+      const double gain = before - cost_after(onto);
+      if (gain > best.gain && may_collapse(onto)) best = {.gain = gain, .edge = -1, .node = node, .onto = onto};
+    }
+  }
+
+  /// Of the ring, the one that lies so many steps behind a node of it.
+  std::size_t behind(int onto, std::size_t steps) const { return (onto + steps) % around_.size(); }
+  /// Likewise of the triangles that are left where the ring's node goes there: the first has one step.
+  Corners left(int onto, std::size_t i) const {
+    return {around_[onto], around_[behind(onto, i)], around_[behind(onto, i + 1)]};
+  }
+  double area_outside(std::size_t ring_side) const {
+    const PlaneTriangle& t = m_.triangles[tris_[ring_side]];
+    for (int k = 0; k < 3; ++k)
+      if (t.v[k] == around_[ring_side]) return area(t.n[k]);
+    return 0;
+  }
+
+  /// As cost() of what is left of the ring.
+  double cost_after(int onto) const {
+    const std::size_t n_left = around_.size() - 2;
+    double sum = 0, last = area_outside(onto);
+    for (std::size_t i = 1; i <= n_left; ++i) {
+      const Corners own = left(onto, i);
+      const double here = area(own);
+      const bool is_inside = i > 1;
+      sum += angle_cost(bluntness(own)) + growth_cost(here, area_outside(behind(onto, i)));
+      sum += (is_inside ? 2 : 1) * growth_cost(here, last);
+      last = here;
+    }
+    return sum + growth_cost(last, area_outside(behind(onto, n_left + 1)));
+  }
+
+  bool may_collapse(int onto) const {
+    const MeshNode& target = m_.nodes[around_[onto]];
+    double worst_before = kPoor, worst = kPoor;
+    for (const std::int32_t t : tris_) worst_before = std::min(worst_before, quality(corners(m_.triangles[t])));
+    for (std::size_t i = 1; i + 1 < around_.size(); ++i) {
+      const Corners c = left(onto, i);
+      if (orient2d(target.p, m_.nodes[c[1]].p, m_.nodes[c[2]].p) <= 0 || is_steep(c)) return false;
+      worst = std::min(worst, quality(c));
+      if (i > 1 && !may_join(around_[onto], c[1])) return false;
+    }
+    return worst >= worst_before;
+  }
+  double quality(const Corners& c) const {
+    return TriangleShape<true>::quality(m_.nodes[c[0]], m_.nodes[c[1]], m_.nodes[c[2]]);
+  }
+  /// Of the lengths asked for.
+  double relative_length(std::int32_t i, std::int32_t j) const {
+    return std::sqrt(w_.edge_length2<true>(i, j)) / (0.5 * (m_.nodes[i].h + m_.nodes[j].h));
+  }
+  double longest_about(std::int32_t node) const {
+    double longest = kLongEdge;
+    for (std::size_t i = 0; i < around_.size(); ++i)
+      longest = std::max(
+          {longest, relative_length(node, around_[i]), relative_length(around_[i], around_[behind(0, i + 1)])});
+    return longest;
+  }
+  /// May there be an edge?
+  bool may_join(std::int32_t i, std::int32_t j) const {
+    const MeshNode &a = m_.nodes[i], &b = m_.nodes[j];
+    if (a.id != kNone && a.id == b.id) return false;
+    return relative_length(i, j) <= longest_ && dot(a.normal, b.normal) > std::cos(w_.max_turning);
+  }
+
   bool is_valid_at(Vec2 p) const {
     const std::size_t n = around_.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -191,6 +297,7 @@ class FlawMending {
   FaceWork& w_;
   Triangulation& m_;
   std::vector<std::int32_t> around_, tris_;
+  double longest_ = 0;        // sides about the node that may go, of the lengths asked for
   std::vector<char> is_due_;  // [triangles] may be flawed
 };
 

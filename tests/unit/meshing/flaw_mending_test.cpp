@@ -93,6 +93,42 @@ TEST(FlawMending, leaves_no_obtuse_triangle_about_an_odd_node) {
   }
 }
 
+/// Between two rows that must stay, half a column beside all others.
+struct PlateWithNodeBetween : Plate {
+  std::int32_t between = kNone;
+  PlateWithNodeBetween() {
+    for (const double row : {2, 3}) EXPECT_TRUE(mesh().force_side(node_at({3, row}), node_at({4, row})));
+    for (MeshNode& n : mesh().nodes) {
+      made->work.ask_sizes(n);
+      n.is_laid = true;
+    }
+    between = made->insert(at(3.5, 2.5));
+    EXPECT_NE(between, kNone);
+    EXPECT_GT(largest_angle(), 150);
+  }
+  std::int32_t node_at(Vec2 p) {
+    const auto is_there = [&](const MeshNode& n) { return norm(n.uv - at(p.x, p.y)) < 1e-9; };
+    return static_cast<std::int32_t>(std::ranges::find_if(mesh().nodes, is_there) - mesh().nodes.begin());
+  }
+};
+
+TEST(FlawMending, takes_out_a_node_between_two_columns) {
+  PlateWithNodeBetween plate;
+  const BoundaryWatch watch(*plate.made);
+  mend_flaws(plate.made->work);
+  EXPECT_EQ(plate.mesh().triangle_at(plate.between), kNone);
+  EXPECT_LE(plate.largest_angle(), 140);
+  watch.expect_unchanged();
+  expect_valid(plate.boundary, plate.made->mesh());
+}
+
+TEST(FlawMending, takes_out_no_node_that_is_kept) {
+  PlateWithNodeBetween plate;
+  plate.mesh().nodes[plate.between].is_kept = true;
+  mend_flaws(plate.made->work);
+  EXPECT_NE(plate.mesh().triangle_at(plate.between), kNone);
+}
+
 TEST(FlawMending, moves_no_node_of_a_row) {
   Plate plate({3.45, 2.4});
   for (MeshNode& n : plate.mesh().nodes) n.is_laid = true;
