@@ -24,13 +24,13 @@ inline Float4 four(float v) { return v - Float4{}; }
 inline Float4 min_of(Float4 a, Float4 b) { return a < b ? a : b; }
 
 // The probes of a cell, see cone_kernels.h.
-inline constexpr int kGroups = kProbes / 4;
-using Lengths = std::array<Float4, kGroups>;
+inline constexpr int kProbeGroups = kProbes / 4;
+using Lengths = std::array<Float4, kProbeGroups>;
 
 /// Whether lengths are below a share of others at any probe.
 inline bool is_below(const Lengths& lengths, float share, const Lengths& others) {
   Int4 is_below{};
-  for (int g = 0; g < kGroups; ++g) is_below |= lengths[g] < share * others[g];
+  for (int g = 0; g < kProbeGroups; ++g) is_below |= lengths[g] < share * others[g];
   return is_any(is_below);
 }
 

@@ -24,7 +24,7 @@ struct alignas(64) ConeSite {
   std::uint64_t may_have = 0;  // a bit for each of its samples, the same one for some
   std::array<Int4, 2> own{Int4{} + kNone, Int4{} + kNone};
   Int4 refused = Int4{} + kNone;                 // the last samples that were, which others may offer again
-  std::array<Int4, kGroups> winner;              // the sample of `best`; kNone: the largest length
+  std::array<Int4, kProbeGroups> winner;         // the sample of `best`; kNone: the largest length
   std::pair<std::int32_t, std::int32_t> beside;  // first and after the last in beside_
 
   /// Asks the memory for it. Inlined: else it is taken for a function without effect.
@@ -43,12 +43,12 @@ struct alignas(64) ConeSite {
   }
   /// The sides with a probe where a sample wins.
   std::int32_t sides_won(std::int32_t sample) const {
-    constexpr Int4 kSides[kGroups] = {{1 + 4 + 16, 2 + 4 + 16, 1 + 8 + 16, 2 + 8 + 16},
-                                      {1 + 4 + 32, 2 + 4 + 32, 1 + 8 + 32, 2 + 8 + 32},
-                                      {1, 2, 4, 8},
-                                      {16, 32, 0, 0}};
+    constexpr Int4 kSides[kProbeGroups] = {{1 + 4 + 16, 2 + 4 + 16, 1 + 8 + 16, 2 + 8 + 16},
+                                           {1 + 4 + 32, 2 + 4 + 32, 1 + 8 + 32, 2 + 8 + 32},
+                                           {1, 2, 4, 8},
+                                           {16, 32, 0, 0}};
     Int4 sides{};
-    for (int g = 0; g < kGroups; ++g) sides |= (winner[g] == sample) & kSides[g];
+    for (int g = 0; g < kProbeGroups; ++g) sides |= (winner[g] == sample) & kSides[g];
     return sides[0] | sides[1] | sides[2] | sides[3];
   }
   bool is_winner(std::int32_t sample) const {

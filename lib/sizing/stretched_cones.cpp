@@ -186,7 +186,7 @@ class StretchSpread {
     const auto cones = cones_of(site);
     own.lengths.clear();
     for (const std::int32_t c : cones) own.lengths.push_back(cell.lengths(kernels_, table_.cone[c]));
-    const std::array<Int4, kGroups> told_by = winners_at_probes(cones, own.lengths);
+    const std::array<Int4, kProbeGroups> told_by = winners_at_probes(cones, own.lengths);
     Directions directions{};
     bool is_turning = false;
     for (int i = 0; i < kProbes; ++i) {
@@ -207,14 +207,14 @@ class StretchSpread {
   }
 
   /// Which cones, of such lengths, tell the lengths there; kNone: the largest length.
-  static std::array<Int4, kGroups> winners_at_probes(std::span<const std::int32_t> cones,
-                                                     std::span<const Lengths> lengths) {
+  static std::array<Int4, kProbeGroups> winners_at_probes(std::span<const std::int32_t> cones,
+                                                          std::span<const Lengths> lengths) {
     Lengths least;
     least.fill(four(kInfinity));
-    std::array<Int4, kGroups> winner;
+    std::array<Int4, kProbeGroups> winner;
     winner.fill(Int4{} + kNone);
     for (std::size_t k = 0; k < cones.size(); ++k)
-      for (int g = 0; g < kGroups; ++g) {
+      for (int g = 0; g < kProbeGroups; ++g) {
         winner[g] = lengths[k][g] < least[g] ? Int4{} + cones[k] : winner[g];
         least[g] = min_of(lengths[k][g], least[g]);
       }

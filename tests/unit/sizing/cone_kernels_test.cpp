@@ -53,10 +53,10 @@ TEST(ConeKernels, tell_the_lengths_of_a_cone_at_the_probes) {
       EXPECT_NEAR(lengths[k / 4][k % 4], cone.length_at(x), 1e-6);
       least = std::min(least, cone.length_at(x));
     }
-    EXPECT_NEAR(lengths[kGroups - 1][3], cone.length_at({cell.c[0], cell.c[1], cell.c[2]}), 1e-6);
+    EXPECT_NEAR(lengths[kProbeGroups - 1][3], cone.length_at({cell.c[0], cell.c[1], cell.c[2]}), 1e-6);
     Lengths best;
     best.fill(four(10));
-    std::array<Int4, kGroups> winner{};
+    std::array<Int4, kProbeGroups> winner{};
     EXPECT_LE(cone_kernels().take(numbers(lengths), 7, numbers(best), numbers(winner)), least + 1e-6);
     EXPECT_EQ(winner[0][0], 7);
     Lengths own;
@@ -342,7 +342,7 @@ TEST(ConeKernels, give_the_same_bits_on_every_processor) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     const RandomCones all(seed);
     Lengths best[2];
-    std::array<Int4, kGroups> winner[2];
+    std::array<Int4, kProbeGroups> winner[2];
     for (int k = 0; k < 2; ++k) {
       best[k].fill(four(0.2F));
       winner[k].fill(Int4{} + kNone);
