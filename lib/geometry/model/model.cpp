@@ -150,22 +150,23 @@ std::unique_ptr<Curve> Model::Impl::chain(EdgeId edge) const {
   return std::make_unique<ChainCurve>(parameters_of(cad->tables(), pieces), std::move(curves));
 }
 
-std::unique_ptr<Surface> Model::Impl::composite(std::int32_t i, SurfaceType type, const double* bounds) const {
-  const Chart chart = composites.chart(i);
-  if (type == SurfaceType::kPlane) return plane_of(chart, bounds);
+std::unique_ptr<Surface> Model::Impl::composite(std::int32_t i, SurfaceType type, const double* bounds) {
+  if (type == SurfaceType::kPlane) return plane_of(composites.chart(i), bounds);
   const std::span<const FaceId> faces = composites.members(i);
   std::vector<std::unique_ptr<Surface>> members;
   for (const FaceId f : faces) members.push_back(cad->surface(f));
-  CompositeSupport support;
-  for (auto t = static_cast<std::size_t>(composites.triangle_offsets[i]);
-       t < static_cast<std::size_t>(composites.triangle_offsets[i + 1]); ++t) {
-    const auto at = std::ranges::lower_bound(faces, composites.triangle_face[t]) - faces.begin();
-    support.member.push_back(static_cast<std::int32_t>(at));
-    support.corner_uv.push_back(composites.triangle_uv[t]);
-    support.pole.push_back(composites.triangle_pole[t]);
-  }
-  return std::make_unique<CompositeSurface>(chart, std::move(support), std::move(members),
-                                            std::array{bounds[0], bounds[1], bounds[2], bounds[3]});
+  return composite_charts.get(i, std::move(members), [&](std::vector<std::unique_ptr<Surface>> own) {
+    CompositeSupport support;
+    for (auto t = static_cast<std::size_t>(composites.triangle_offsets[i]);
+         t < static_cast<std::size_t>(composites.triangle_offsets[i + 1]); ++t) {
+      const auto at = std::ranges::lower_bound(faces, composites.triangle_face[t]) - faces.begin();
+      support.member.push_back(static_cast<std::int32_t>(at));
+      support.corner_uv.push_back(composites.triangle_uv[t]);
+      support.pole.push_back(composites.triangle_pole[t]);
+    }
+    return std::make_unique<CompositeSurface>(composites.chart(i), std::move(support), std::move(own),
+                                              std::array{bounds[0], bounds[1], bounds[2], bounds[3]});
+  });
 }
 
 std::unique_ptr<Curve2d> Model::Impl::rim(std::int32_t i, CoedgeId coedge) const {

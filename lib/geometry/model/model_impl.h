@@ -14,6 +14,7 @@
 
 #include "geometry/model/joined_tables.h"
 #include "geometry/model/model.h"
+#include "geometry/shape/composite_surface.h"
 
 namespace st {
 
@@ -63,11 +64,36 @@ class MadeCurves2d {
   std::unordered_map<CoedgeId, Handle(Geom2d_Curve)> own_;
 };
 
+/// Charts of composites that were made once, by composite, without members: some of these cannot be copied. For any
+/// thread.
+class CompositeCharts {
+ public:
+  /// Of `members`; `make` returns one with members.
+  template <class Make>
+  std::unique_ptr<Surface> get(std::int32_t id, std::vector<std::unique_ptr<Surface>> members, const Make& make) {
+    const CompositeSurface* known = nullptr;
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto own = own_.find(id); own != own_.end()) known = own->second.get();
+    }
+    if (known) return known->with_members(std::move(members));
+    std::unique_ptr<CompositeSurface> made = make(std::move(members));  // perhaps by several threads, all the same
+    const std::lock_guard lock(mutex_);
+    own_.try_emplace(id, made->with_members({}));
+    return made;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unordered_map<std::int32_t, std::unique_ptr<CompositeSurface>> own_;
+};
+
 struct Model::Impl {
   TopoDS_Shape shape;
   TopTools_IndexedMapOfShape faces, edges;  ///< TopExp order of `shape`: the order of ids
   Originals<Curve> curves;
   Originals<Surface> surfaces;
+  CompositeCharts composite_charts;
   MadeCurves2d pcurves_on_planes;
   // of a model with composites; its own shape and maps are empty then
   std::unique_ptr<const Model> cad;
@@ -81,7 +107,7 @@ struct Model::Impl {
     return {members.begin(), members.end()};
   }
   std::unique_ptr<Curve> chain(EdgeId edge) const;
-  std::unique_ptr<Surface> composite(std::int32_t composite, SurfaceType type, const double* bounds) const;
+  std::unique_ptr<Surface> composite(std::int32_t composite, SurfaceType type, const double* bounds);
   std::unique_ptr<Curve2d> trimming(FaceId face, CoedgeId coedge, EdgeId edge) const;
   std::unique_ptr<Curve2d> rim(std::int32_t composite, CoedgeId cad_coedge) const;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <utility>
 
 #include "base/assert.h"
@@ -60,23 +61,17 @@ double stretch(const Chart& c, const Corners& n) {
 }
 
 struct ChartSurface::Data {
-  explicit Data(Chart c) : chart(std::move(c)), bend(chart.x.size(), Eigen::Matrix3d::Zero()) {
-    std::vector<Box3> in_plane, in_space;
+  explicit Data(Chart c) : chart(std::move(c)) {
+    std::vector<Box3> in_plane;
     for (const Corners& t : chart.corners) {
       in_plane.emplace_back();
-      in_space.emplace_back();
-      for (const std::int32_t n : t) {
-        in_plane.back().add(flat(chart.uv[n]));
-        in_space.back().add(chart.x[n]);
-      }
+      for (const std::int32_t n : t) in_plane.back().add(flat(chart.uv[n]));
     }
     plane_tree = BoxTree(in_plane);
-    space_tree = BoxTree(in_space);
     neighbours = find_neighbours(chart.corners);
     for (const Vec2 p : chart.uv) bounds.add(p);
     for (const Corners& t : chart.corners)
       if (!is_needle(chart, t)) largest_stretch = std::max(largest_stretch, stretch(chart, t));
-    find_bend();
     find_seeds();
   }
 
@@ -119,7 +114,8 @@ struct ChartSurface::Data {
 
   /// The second fundamental form at the nodes, as a form on vectors in space: the mean of their triangles', in each of
   /// which the normal is linear.
-  void find_bend() {
+  std::vector<Eigen::Matrix3d> find_bend() const {
+    std::vector<Eigen::Matrix3d> bend(chart.x.size(), Eigen::Matrix3d::Zero());
     std::vector<double> total(chart.x.size(), 0);
     for (const Corners& t : chart.corners) {
       const Vec3 a = chart.x[t[0]], b = chart.x[t[1]], c = chart.x[t[2]], n2 = cross(b - a, c - a);
@@ -140,6 +136,7 @@ struct ChartSurface::Data {
     }
     for (std::size_t i = 0; i < bend.size(); ++i)
       if (total[i] > 0) bend[i] /= total[i];
+    return bend;
   }
 
   /// The closest of those triangles that `is_candidate`, and the weights of its corners there.
@@ -147,7 +144,7 @@ struct ChartSurface::Data {
   Place closest(Vec3 p, const IsCandidate& is_candidate) const {
     Place best;
     double best2 = std::numeric_limits<double>::infinity();
-    space_tree.visit_near(
+    tree_in_space().visit_near(
         p, [&](std::int32_t, double d2) { return d2 < best2; },
         [&](std::int32_t t) {
           if (!is_candidate(t)) return;
@@ -157,6 +154,22 @@ struct ChartSurface::Data {
           if (d2 < best2) best = {t, w}, best2 = d2;
         });
     return best;
+  }
+
+  /// This and tree_in_space() are made when they are first asked for: many only ask which triangle holds (u,v).
+  const std::vector<Eigen::Matrix3d>& bend() const {
+    std::call_once(has_bend_, [&] { bend_ = find_bend(); });
+    return bend_;
+  }
+
+  const BoxTree& tree_in_space() const {
+    std::call_once(has_space_tree_, [&] {
+      std::vector<Box3> boxes(chart.corners.size());
+      for (std::size_t t = 0; t < boxes.size(); ++t)
+        for (const std::int32_t n : chart.corners[t]) boxes[t].add(chart.x[n]);
+      space_tree_ = BoxTree(boxes);
+    });
+    return space_tree_;
   }
 
   std::optional<Vec2> uv_of(const Place& at) const {
@@ -182,13 +195,17 @@ struct ChartSurface::Data {
   }
 
   Chart chart;
-  std::vector<Eigen::Matrix3d> bend;  ///< [n_nodes] times two tangents: the normal part of a second derivative
-  BoxTree plane_tree, space_tree;     ///< of triangles, in (u,v) and in space
+  BoxTree plane_tree;  ///< of triangles in (u,v)
   std::vector<Corners> neighbours;
   Box2 bounds;                      ///< of (u,v)
   std::int32_t n_cells = 1;         ///< along each axis
   std::vector<std::int32_t> seeds;  ///< [n_cells^2] where walks begin
   double largest_stretch = 0;
+
+ private:
+  mutable std::once_flag has_bend_, has_space_tree_;
+  mutable std::vector<Eigen::Matrix3d> bend_;  // [n_nodes] times two tangents: the normal part of a second derivative
+  mutable BoxTree space_tree_;                 // of triangles in space
 };
 
 ChartSurface::ChartSurface(Chart chart) : ChartSurface(std::make_shared<const Data>(std::move(chart))) {}
@@ -239,9 +256,10 @@ SurfacePoint2 ChartSurface::evaluate2(Vec2 p) const {
     sum += weight;
   }
   const Vec3 normal = normalized(mean);
+  const std::vector<Eigen::Matrix3d>& bends = data_->bend();
   Eigen::Matrix3d bend = Eigen::Matrix3d::Zero();
   for (int k = 0; k < 3; ++k)
-    bend += std::clamp(at.weight[k], 0.0, 1.0) * turned(data_->bend[c[k]], data_->chart.normal[c[k]], normal);
+    bend += std::clamp(at.weight[k], 0.0, 1.0) * turned(bends[c[k]], data_->chart.normal[c[k]], normal);
   const Vec3 du = facet.du - dot(facet.du, normal) * normal, dv = facet.dv - dot(facet.dv, normal) * normal;
   const Eigen::Vector3d u = to_eigen(du), v = to_eigen(dv);
   return {

@@ -54,7 +54,12 @@ std::unique_ptr<Surface> CompositeSurface::copy() const {
     members.push_back(member->copy());
     if (!members.back()) return nullptr;
   }
-  return std::unique_ptr<Surface>(new CompositeSurface(data_, std::move(members), {u_min_, u_max_, v_min_, v_max_}));
+  return with_members(std::move(members));
+}
+
+std::unique_ptr<CompositeSurface> CompositeSurface::with_members(std::vector<std::unique_ptr<Surface>> members) const {
+  return std::unique_ptr<CompositeSurface>(
+      new CompositeSurface(data_, std::move(members), {u_min_, u_max_, v_min_, v_max_}));
 }
 
 namespace {

@@ -36,6 +36,8 @@ class CompositeSurface final : public Surface {
   std::optional<Vec2> exact_foot(Vec3 p) const override;
   std::optional<Vec2> foot_near(Vec3 p, Vec2 guess) const override;
   std::unique_ptr<Surface> copy() const override;
+  /// The same chart on other evaluators of the same faces.
+  std::unique_ptr<CompositeSurface> with_members(std::vector<std::unique_ptr<Surface>> members) const;
 
   /// A place on a member.
   struct MemberPlace {

@@ -117,6 +117,13 @@ TEST(CompositeSurface, copies_are_the_same_and_go_on_beside_the_chart) {
     EXPECT_EQ(distance(copy->point(uv), surface.point(uv)), 0);
   }
   EXPECT_EQ(copy->u_max(), 2);
+  std::vector<Vec3> lifted;
+  for (const Vec3 p : x) lifted.push_back(p + Vec3{0, 0, 1});
+  std::vector<std::unique_ptr<Surface>> others;
+  others.push_back(std::make_unique<ChartSurface>(Chart{lifted, normal, own, {{0, 1, 3}, {0, 3, 2}}}));
+  const auto above = surface.with_members(std::move(others));
+  EXPECT_EQ(distance(above->point({0.4, 0.4}), surface.point({0.4, 0.4}) + Vec3{0, 0, 1}), 0);
+  EXPECT_EQ(above->u_max(), 2);
 }
 
 /// x = (u, v, u v + u^2).
