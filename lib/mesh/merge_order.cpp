@@ -10,26 +10,19 @@
 #include "base/error.h"
 #include "base/threads.h"
 #include "mesh/adjacency.h"
+#include "mesh/inner_edges.h"
 #include "mesh/orient.h"
 
 namespace st {
 namespace {
 
 constexpr std::int64_t kTrianglesAtOnce = 1'000'000;  // in memory, of several patches
-constexpr std::size_t kNodesPerWindow = 262'144;      // of a patch, whose sides are sorted together; at least
-constexpr std::size_t kMostWindows = 16;              // each looks at all triangles of the patch
 
 /// A side of a triangle between two nodes on edges or vertices.
 struct BoundarySide {
   std::int32_t low, high;  // boundary ids
   std::int32_t patch;
   std::int32_t runs_up;  // from low to high: 1
-};
-
-/// Uses of mesh edges with a node inside the patch.
-struct InnerEdges {
-  std::int64_t n_open = 0, n_nonmanifold = 0, n_misoriented = 0;
-  bool is_balanced = true;  // as many sides run one way as the other, along each
 };
 
 /// What the mesh as a whole needs of one patch.
@@ -75,57 +68,6 @@ class PatchNodes {
   const FacePatch& p_;
   std::vector<std::int32_t> id_;
 };
-
-/// Counts the edges whose lower node is in [begin, end).
-InnerEdges count_window(const FacePatch& p, NodeId begin, NodeId end) {
-  const auto for_each_side = [&](const auto& visit) {
-    for (const Triangle& t : p.triangles)
-      for (int k = 0; k < 3; ++k) {
-        const NodeId a = t.n[k], b = t.n[(k + 1) % 3], low = std::min(a, b), high = std::max(a, b);
-        if (low >= begin && low < end && high >= p.n_boundary && !has_repeated_node(t)) visit(low, high, a == low);
-      }
-  };
-  std::vector<std::size_t> offsets(static_cast<std::size_t>(end - begin) + 2, 0);
-  for_each_side([&](NodeId low, NodeId, bool) { ++offsets[low - begin + 2]; });
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  std::vector<std::int64_t> sides(offsets.back());  // higher node, and which way
-  for_each_side([&](NodeId low, NodeId high, bool runs_up) {
-    sides[offsets[low - begin + 1]++] = 2 * static_cast<std::int64_t>(high) + runs_up;
-  });
-  InnerEdges found;
-  for (NodeId low = 0; low < end - begin; ++low) {
-    const auto last = sides.begin() + static_cast<std::ptrdiff_t>(offsets[low + 1]);
-    auto side = sides.begin() + static_cast<std::ptrdiff_t>(offsets[low]);
-    std::sort(side, last);
-    while (side != last) {
-      const std::int64_t high = *side / 2;
-      std::int64_t n = 0, n_up = 0;
-      for (; side != last && *side / 2 == high; ++side) ++n, n_up += *side % 2;
-      found.n_open += n == 1;
-      found.n_nonmanifold += n > 2;
-      found.n_misoriented += n == 2 && n_up != 1;
-      found.is_balanced = found.is_balanced && 2 * n_up == n;
-    }
-  }
-  return found;
-}
-
-InnerEdges count_inner_edges(const FacePatch& p) {
-  const std::size_t n_nodes = p.n_boundary + p.inner_xyz.size();
-  const std::size_t n_per_window = std::max(kNodesPerWindow, n_nodes / kMostWindows + 1);
-  std::vector<InnerEdges> windows(n_nodes / n_per_window + 1);
-  parallel_for(n_nodes, n_per_window, [&](std::size_t begin, std::size_t end) {
-    windows[begin / n_per_window] = count_window(p, static_cast<NodeId>(begin), static_cast<NodeId>(end));
-  });
-  InnerEdges all;
-  for (const InnerEdges& w : windows) {
-    all.n_open += w.n_open;
-    all.n_nonmanifold += w.n_nonmanifold;
-    all.n_misoriented += w.n_misoriented;
-    all.is_balanced = all.is_balanced && w.is_balanced;
-  }
-  return all;
-}
 
 void find_components(const FacePatch& p, const PatchNodes& nodes, const std::vector<std::uint8_t>& is_used,
                      PatchFacts& facts) {
@@ -209,19 +151,27 @@ class OrderFinder {
   PatchNumbers& numbers() { return order_.numbers; }
   FaceId n_faces() const { return source_.face.empty() ? 0 : source_.face.back() + 1; }
 
-  void look_at_all() {
-    area_.assign(n_faces(), 0);
+  /// visit(begin, end) for patches that are in memory together.
+  template <class Visit>
+  void for_each_batch(const Visit& visit) const {
     for (std::size_t begin = 0, end = 0; begin < source_.size(); begin = end) {
       std::int64_t n = 0;
       for (end = begin; end < source_.size() && (end == begin || n + source_.n_triangles[end] <= kTrianglesAtOnce);
            ++end)
         n += source_.n_triangles[end];
+      visit(begin, end);
+    }
+  }
+
+  void look_at_all() {
+    area_.assign(n_faces(), 0);
+    for_each_batch([&](std::size_t begin, std::size_t end) {
       std::vector<PatchFacts> facts(end - begin);
       parallel_for(facts.size(), 1, [&](std::size_t i, std::size_t) {
         facts[i] = facts_of(in_, source_.shape(begin + i), static_cast<std::int32_t>(begin + i));
       });
       for (std::size_t i = 0; i < facts.size(); ++i) take(begin + i, facts[i]);
-    }
+    });
     parallel_sort(sides_.begin(), sides_.end(), [](const BoundarySide& a, const BoundarySide& b) {
       return std::tie(a.low, a.high, a.patch, a.runs_up) < std::tie(b.low, b.high, b.patch, b.runs_up);
     });
@@ -298,24 +248,44 @@ class OrderFinder {
     });
   }
 
-  /// In the order of the triangles, as orient_outward() does.
-  void measure() {
+  /// What the triangles of a patch add to volumes, each by itself.
+  struct PatchVolumes {
+    std::vector<double> of_mesh, of_component;
+    Box3 box;  // of a component
+  };
+
+  PatchVolumes volumes_of(std::size_t patch) const {
     const Vec3 origin = box_.center();
+    const FacePatch p = source_.shape(patch);
+    const PatchNodes nodes(in_, p);
+    const bool is_turned = is_turned_[p.face] != 0;
+    PatchVolumes volumes;
+    for (auto* all : {&volumes.of_mesh, &volumes.of_component}) all->reserve(p.triangles.size());
+    for (const Triangle& t : p.triangles) {
+      const Vec3 a = nodes.xyz(t.n[0]), b = nodes.xyz(t.n[is_turned ? 2 : 1]), d = nodes.xyz(t.n[is_turned ? 1 : 2]);
+      volumes.of_mesh.push_back(dot(a - origin, cross(b - a, d - a)) / 6);
+      if (face_component_[p.face] == kNone) continue;
+      volumes.of_component.push_back(volume_of(a, b, d, origin));
+      for (const Vec3 x : {a, b, d}) volumes.box.add(x);
+    }
+    return volumes;
+  }
+
+  /// Sums in the order of the triangles, as orient_outward() does.
+  void measure() {
     for (FaceComponent& c : components_) c.volume = 0;
     order_.facts.volume = 0;
-    for (std::size_t i = 0; i < source_.size(); ++i) {
-      const FacePatch p = source_.shape(i);
-      const PatchNodes nodes(in_, p);
-      const bool is_turned = is_turned_[p.face] != 0;
-      const std::int32_t c = face_component_[p.face];
-      for (const Triangle& t : p.triangles) {
-        const Vec3 a = nodes.xyz(t.n[0]), b = nodes.xyz(t.n[is_turned ? 2 : 1]), d = nodes.xyz(t.n[is_turned ? 1 : 2]);
-        order_.facts.volume += dot(a - origin, cross(b - a, d - a)) / 6;
-        if (c == kNone) continue;
-        components_[c].volume += volume_of(a, b, d, origin);
-        for (const Vec3 x : {a, b, d}) components_[c].box.add(x);
+    for_each_batch([&](std::size_t begin, std::size_t end) {
+      std::vector<PatchVolumes> volumes(end - begin);
+      parallel_for(volumes.size(), 1, [&](std::size_t i, std::size_t) { volumes[i] = volumes_of(begin + i); });
+      for (std::size_t i = 0; i < volumes.size(); ++i) {
+        for (const double v : volumes[i].of_mesh) order_.facts.volume += v;
+        if (volumes[i].box.is_empty()) continue;
+        FaceComponent& c = components_[face_component_[source_.face[begin + i]]];
+        for (const double v : volumes[i].of_component) c.volume += v;
+        c.box.add(volumes[i].box);
       }
-    }
+    });
   }
 
   /// Places, triangles and their faces, as they are turned now.
