@@ -11,6 +11,7 @@
 #include "meshing/face/face_patch.h"
 #include "support/backward_executor.h"
 #include "support/meshed.h"
+#include "unit/meshing/faces.h"
 
 namespace st {
 namespace {
@@ -42,6 +43,20 @@ TEST(TiledFaces, make_the_same_mesh_in_whatever_order_tiles_are_done) {
   for (std::size_t f = 0; f < a.patches.size(); ++f) {
     ASSERT_FALSE(a.patches[f].triangles.empty()) << f;
     EXPECT_EQ(packed(a.patches[f]), packed(b.patches[f])) << f;
+  }
+}
+
+TEST(TiledFaces, that_are_stretched_do_not_wait_for_a_cut) {
+  const Model model = test::make_model("drilled_block");
+  for (const bool is_stretched : {false, true}) {
+    const test::BackwardExecutor counter;
+    if (is_stretched)
+      mesh(model, test::StretchedField({0.35, 1, {0, 0, 1}}), 0.35, 1000, counter);
+    else
+      mesh(model, UniformField(0.35), 0.35, 1000, counter);
+    EXPECT_EQ(counter.n_of["cut"] > 0, !is_stretched);
+    EXPECT_EQ(counter.n_of["tile"] > 0, !is_stretched);
+    EXPECT_EQ(counter.n_of["face"] > 0, is_stretched);
   }
 }
 
