@@ -236,12 +236,12 @@ JoinRequest join_request(const Model& cad, bool is_harm_only) {
   return request;
 }
 
-std::string compose(GeometryArtifact& geometry, bool is_harm_only, const LoadedBrep* loaded) {
+std::string compose(GeometryArtifact& geometry, bool is_harm_only) {
   FoundComposites found;
   {
     Progress progress("joining faces", 1);
     progress.step("charts", 0);
-    const Model cad = loaded ? Model(geometry.tables, geometry.brep, *loaded) : Model(geometry.tables, geometry.brep);
+    const Model cad(geometry.tables, geometry.brep);
     found = find_composites(cad, join_request(cad, is_harm_only));
   }
   if (!found.composites.empty()) {

@@ -17,8 +17,8 @@ bool asks_for_composites(const std::string& word, const std::string& path);
 /// Local. Cost: some evaluations per edge, and the recognition of wing edges.
 JoinRequest join_request(const Model& cad, bool is_harm_only);
 
-/// Fills composites of an artifact that has tables and B-Rep, which is not read where it is `loaded`. Returns what was
-/// done, for people; what was refused is logged.
-std::string compose(GeometryArtifact& geometry, bool is_harm_only, const LoadedBrep* loaded = nullptr);
+/// Fills composites of an artifact that has tables and B-Rep. Returns what was done, for people; what was refused is
+/// logged.
+std::string compose(GeometryArtifact& geometry, bool is_harm_only);
 
 }  // namespace st

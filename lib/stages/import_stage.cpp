@@ -113,10 +113,7 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"box", {box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z}}};
 }
 
-Model model_of(const ImportResult& r) {
-  if (!r.facets.empty()) return Model(r.tables, r.facets);
-  return r.loaded ? Model(r.tables, r.brep, *r.loaded) : Model(r.tables, r.brep);
-}
+Model model_of(const ImportResult& r) { return r.facets.empty() ? Model(r.tables, r.brep) : Model(r.tables, r.facets); }
 
 /// Says what the shape suggests; the file's text.
 std::string suggest(const ImportStageOptions& o, const ImportResult& r) {
@@ -466,10 +463,10 @@ std::string composite_word(const ImportStageOptions& o) {
   return o.check || !o.mirror.empty() || !triangulation_format(o.model).empty() ? "none" : "harm";
 }
 
-/// Unless it was asked for, nothing is said where no faces are joined. `loaded`: the B-Rep of the artifact, or null.
-void join_faces(const ImportStageOptions& o, const LoadedBrep* loaded, GeometryArtifact& g, StageSummary& s,
+/// Unless it was asked for, nothing is said where no faces are joined.
+void join_faces(const ImportStageOptions& o, const std::string& word, GeometryArtifact& g, StageSummary& s,
                 nlohmann::json& used, nlohmann::json& json) {
-  const std::string word = composite_word(o), said = compose(g, word == "harm", loaded);
+  const std::string said = compose(g, word == "harm");
   if (o.composite.empty() && g.composites.empty()) return;
   s.line += "; " + said;
   used["composite"] = word;
@@ -479,7 +476,8 @@ void join_faces(const ImportStageOptions& o, const LoadedBrep* loaded, GeometryA
 
 StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) {
   const Timer timer;
-  const bool is_composed = asks_for_composites(composite_word(o), o.model);
+  const std::string composite = composite_word(o);
+  const bool is_composed = asks_for_composites(composite, o.model);
   if (is_composed) require_composable(o);
   ImportResult r = import_file(o, import_options(o, groups));
   say(o, r);
@@ -521,7 +519,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     g.mirror = std::move(r.mirror);
     g.tables = std::move(r.tables);
     std::tie(g.brep, g.facets) = std::tuple(std::move(r.brep), std::move(r.facets));
-    if (is_composed) join_faces(o, r.loaded.get(), g, s, used, json);
+    if (is_composed) join_faces(o, composite, g, s, used, json);
     g.header.options_json = json_text(used);
     json["hash"] = write_geometry(o.output, g);
     json["output"] = o.output;

@@ -14,7 +14,6 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "geometry/brep/kept_surfaces.h"
-#include "geometry/brep/read_back.h"
 #include "geometry/import/air_roles.h"
 #include "geometry/import/body_relations.h"
 #include "geometry/import/cad_reader.h"
@@ -336,7 +335,6 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   if (options.check_only) occt::report_validity(model, result);
   if (options.require_closed) occt::require_closed(result, path);
   if (mirrored) result.mirror = mirrored->numbers_in(model.shape, path);
-  if (occt::is_read_back_equal(model.shape)) result.loaded = std::make_shared<const LoadedBrep>(model.shape);
   name_parts(model, result);
   for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
   return result;

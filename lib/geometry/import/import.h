@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,12 +52,11 @@ struct ImportResult {
   std::string format;                    ///< "STEP", "IGES", "BREP"
   bool is_closed = false;                ///< at least one shell and no free edge
   int n_free_edges = 0, n_nonmanifold_edges = 0, n_repairs = 0;
-  int n_contradictory_edges = 0;             ///< at which both faces disagree which side is outside
-  Mirror mirror;                             ///< empty: not asked for
-  AirFaces air;                              ///< none where the import made it
-  bool has_assumed_unit = false;             ///< the file names no unit, and that of ImportOptions was taken as it
-  double area = 0, volume = 0;               ///< model unit squared, cubed (volume 0 when open)
-  std::shared_ptr<const LoadedBrep> loaded;  ///< what `brep` would be read as; null where last digits might differ
+  int n_contradictory_edges = 0;  ///< at which both faces disagree which side is outside
+  Mirror mirror;                  ///< empty: not asked for
+  AirFaces air;                   ///< none where the import made it
+  bool has_assumed_unit = false;  ///< the file names no unit, and that of ImportOptions was taken as it
+  double area = 0, volume = 0;    ///< model unit squared, cubed (volume 0 when open)
 };
 
 /// Reads a STEP, IGES or BREP file (recognised by content). Throws Error(kInput) for a missing, empty or unreadable

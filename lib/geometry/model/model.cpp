@@ -94,11 +94,8 @@ std::vector<std::byte> occt::brep_bytes(const TopoDS_Shape& shape) {
 }
 
 Model::Model(ModelTables tables, std::vector<std::byte> brep)
-    : Model(std::move(tables), std::move(brep), LoadedBrep{}) {}
-
-Model::Model(ModelTables tables, std::vector<std::byte> brep, const LoadedBrep& loaded)
     : tables_(std::move(tables)), brep_(std::move(brep)), impl_(std::make_unique<Impl>()) {
-  impl_->shape = loaded.shape.IsNull() ? shape_of(brep_) : loaded.shape;
+  impl_->shape = shape_of(brep_);
   if (!impl_->shape.IsNull()) {
     TopExp::MapShapes(impl_->shape, TopAbs_FACE, impl_->faces);
     TopExp::MapShapes(impl_->shape, TopAbs_EDGE, impl_->edges);

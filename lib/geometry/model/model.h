@@ -97,9 +97,6 @@ struct FaceContact {
   static auto fields(auto& c) { return std::tie(c.points, c.passes_through); }
 };
 
-/// A B-Rep that import_model() has in memory.
-struct LoadedBrep;
-
 /// Tables plus evaluators, of a B-Rep or of facets. Creating evaluators is const and cheap (tens of microseconds);
 /// create, use, drop.
 class Model {
@@ -107,8 +104,6 @@ class Model {
   /// `brep`: the bytes that import_model() made. Throws Error(kInput) when they cannot be read or do not fit the
   /// tables.
   Model(ModelTables tables, std::vector<std::byte> brep);
-  /// The same where it is known what the bytes would be read as.
-  Model(ModelTables tables, std::vector<std::byte> brep, const LoadedBrep& loaded);
   /// `facets`: those that make_facet_model() made. Throws Error(kInput) when they do not fit the tables.
   Model(ModelTables tables, FacetShape facets);
   /// `cad` and `brep` as above; tables() are those in which the composites are faces. Throws Error(kInput) where they

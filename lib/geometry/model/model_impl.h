@@ -18,10 +18,6 @@
 
 namespace st {
 
-struct LoadedBrep {
-  TopoDS_Shape shape;  ///< null: not in memory
-};
-
 /// Curves or surfaces that were made once, by id: the next ones are their copies. For any thread.
 template <class Shape>
 class Originals {

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <limits>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "geometry/model/joined_tables.h"
 #include "io/hdf5/artifact.h"
@@ -136,23 +134,6 @@ TEST(Compose, says_both_numbers_of_faces) {
   EXPECT_LT(left.faces, n);
   EXPECT_EQ(geometry.cad.n_faces(), n);
   EXPECT_NE(said.find(std::to_string(left.faces) + " faces and "), std::string::npos) << said;
-}
-
-TEST(Compose, finds_the_same_in_a_loaded_shape_as_in_its_bytes) {
-  const ImportResult cad = test::import_shape("wing_of_8");
-  ASSERT_TRUE(cad.loaded);
-  const TemporaryDirectory folder;
-  std::vector<std::string> hashes;
-  for (const LoadedBrep* loaded : {static_cast<const LoadedBrep*>(nullptr), cad.loaded.get()}) {
-    GeometryArtifact geometry;
-    geometry.header.tool = "st-import";
-    geometry.tables = cad.tables;
-    geometry.brep = cad.brep;
-    compose(geometry, false, loaded);
-    EXPECT_FALSE(geometry.composites.empty());
-    hashes.push_back(write_geometry(folder / "geometry.hdf", geometry));
-  }
-  EXPECT_EQ(hashes[0], hashes[1]);
 }
 
 TEST(Compose, says_that_nothing_is_joined) {
