@@ -57,15 +57,6 @@ void require_valid(const EdgeMesh& edges, std::size_t n_vertices, const FacePatc
   if (!has_all_uv(p)) throw_bad_patch(p.face, "lacks the (u,v) of corners on its boundary");
 }
 
-PatchUse use_of(const EdgeMesh& edges, VertexId n_vertices, const FacePatch& p) {
-  const std::vector<std::uint8_t> is_used = used_nodes(p);
-  PatchUse use{
-      {}, std::count(is_used.begin() + p.n_boundary, is_used.end(), 1), static_cast<std::int64_t>(p.triangles.size())};
-  for (std::int32_t i = 0; i < p.n_boundary; ++i)
-    if (is_used[i]) use.boundary.push_back(boundary_id_of(n_vertices, edges, p, i));
-  return use;
-}
-
 /// Requested length at each vertex: from the edge of lowest id that ends there.
 std::vector<double> vertex_sizes(const MergeInput& in) {
   std::vector<double> size(in.vertex_xyz.size(), 0);
@@ -93,26 +84,6 @@ void make_room(SurfaceMesh& mesh, bool has_previous) {
   mesh.triangle_previous.resize(n_triangles, kNone);
 }
 
-/// Of the inner nodes and the triangles of patch i.
-void describe_patch(const MergeInput& in, const PatchNumbers& numbers, const FacePatch& p, std::size_t i,
-                    SurfaceMesh& mesh) {
-  const NodeId first = numbers.inner_begin[i], end = numbers.inner_begin[i + 1];
-  std::fill(mesh.node_entity_dim.begin() + first, mesh.node_entity_dim.begin() + end,
-            static_cast<std::uint8_t>(EntityDim::kFace));
-  std::fill(mesh.node_entity.begin() + first, mesh.node_entity.begin() + end, p.face);
-  const std::vector<NodeId> number = numbers.of_patch(in.edges, p, i);
-  for (std::size_t k = 0; k < p.inner_xyz.size(); ++k)
-    if (const NodeId n = number[p.n_boundary + k]; n != kNone) {
-      mesh.node_size[n] = p.inner_size[k];
-      if (!mesh.node_previous.empty() && !p.inner_previous.empty()) mesh.node_previous[n] = p.inner_previous[k];
-    }
-  const TriangleId begin = numbers.triangle_begin[i];
-  if (static_cast<std::size_t>(p.face) < in.face_group.size())
-    std::fill_n(mesh.triangle_group.begin() + begin, p.triangles.size(), in.face_group[p.face]);
-  std::ranges::copy(corner_uvs(p), mesh.corner_uv.begin() + 3 * static_cast<std::ptrdiff_t>(begin));
-  if (!mesh.triangle_previous.empty()) std::ranges::copy(p.triangle_previous, mesh.triangle_previous.begin() + begin);
-}
-
 }  // namespace
 
 std::int32_t boundary_id_of(VertexId n_vertices, const EdgeMesh& edges, const FacePatch& p, std::int32_t i) {
@@ -126,6 +97,15 @@ std::vector<std::uint8_t> used_nodes(const FacePatch& p) {
   for (const Triangle& t : p.triangles)
     for (const NodeId n : t.n) is_used[n] = 1;
   return is_used;
+}
+
+PatchUse use_of(const EdgeMesh& edges, VertexId n_vertices, const FacePatch& p) {
+  const std::vector<std::uint8_t> is_used = used_nodes(p);
+  PatchUse use{
+      {}, std::count(is_used.begin() + p.n_boundary, is_used.end(), 1), static_cast<std::int64_t>(p.triangles.size())};
+  for (std::int32_t i = 0; i < p.n_boundary; ++i)
+    if (is_used[i]) use.boundary.push_back(boundary_id_of(n_vertices, edges, p, i));
+  return use;
 }
 
 void PatchNumbers::add(const PatchUse& use) {
@@ -166,6 +146,15 @@ void PatchNumbers::place_boundary(const EdgeMesh& edges, std::span<const Vec3> v
       node_xyz[boundary[i]] = i < vertex_xyz.size() ? vertex_xyz[i] : edges.node_xyz[i - vertex_xyz.size()];
 }
 
+SurfaceMesh PatchNumbers::make_mesh(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz) const {
+  SurfaceMesh mesh;
+  mesh.node_xyz.resize(n_nodes());
+  mesh.triangles.resize(n_triangles());
+  mesh.triangle_face.resize(n_triangles());
+  place_boundary(edges, vertex_xyz, mesh.node_xyz);
+  return mesh;
+}
+
 void PatchNumbers::place_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i, SurfaceMesh& mesh) const {
   constexpr std::size_t kPerPiece = 65'536;
   const std::vector<NodeId> number = of_patch(edges, shape, i);
@@ -191,10 +180,7 @@ WeldedPatches weld_patches(const EdgeMesh& edges, std::span<const Vec3> vertex_x
   auto& [mesh, numbers] = welded;
   for (const PatchUse& use : uses) numbers.add(use);
   numbers.number();
-  mesh.node_xyz.resize(numbers.n_nodes());
-  mesh.triangles.resize(numbers.n_triangles());
-  mesh.triangle_face.resize(numbers.n_triangles());
-  numbers.place_boundary(edges, vertex_xyz, mesh.node_xyz);
+  mesh = numbers.make_mesh(edges, vertex_xyz);
   parallel_for(patches.size(), 1,
                [&](std::size_t i, std::size_t) { numbers.place_patch(edges, *patches[i], i, mesh); });
   return welded;
@@ -223,6 +209,25 @@ void describe_boundary(const MergeInput& in, const PatchNumbers& numbers, Surfac
       const NodeId n = number[is_first || is_last ? in.edge_vertices[2 * e + (is_first ? 0 : 1)] : n_vertices + i];
       if (n != kNone) mesh.node_previous[n] = in.edges.node_previous[i];
     }
+}
+
+void describe_patch(const MergeInput& in, const PatchNumbers& numbers, const FacePatch& p, std::size_t i,
+                    SurfaceMesh& mesh) {
+  const NodeId first = numbers.inner_begin[i], end = numbers.inner_begin[i + 1];
+  std::fill(mesh.node_entity_dim.begin() + first, mesh.node_entity_dim.begin() + end,
+            static_cast<std::uint8_t>(EntityDim::kFace));
+  std::fill(mesh.node_entity.begin() + first, mesh.node_entity.begin() + end, p.face);
+  const std::vector<NodeId> number = numbers.of_patch(in.edges, p, i);
+  for (std::size_t k = 0; k < p.inner_xyz.size(); ++k)
+    if (const NodeId n = number[p.n_boundary + k]; n != kNone) {
+      mesh.node_size[n] = p.inner_size[k];
+      if (!mesh.node_previous.empty() && !p.inner_previous.empty()) mesh.node_previous[n] = p.inner_previous[k];
+    }
+  const TriangleId begin = numbers.triangle_begin[i];
+  if (static_cast<std::size_t>(p.face) < in.face_group.size())
+    std::fill_n(mesh.triangle_group.begin() + begin, p.triangles.size(), in.face_group[p.face]);
+  std::ranges::copy(corner_uvs(p), mesh.corner_uv.begin() + 3 * static_cast<std::ptrdiff_t>(begin));
+  if (!mesh.triangle_previous.empty()) std::ranges::copy(p.triangle_previous, mesh.triangle_previous.begin() + begin);
 }
 
 SurfaceMesh weld_mesh(const MergeInput& input) {

@@ -30,6 +30,8 @@ struct PatchUse {
   std::int64_t n_triangles = 0;
 };
 
+PatchUse use_of(const EdgeMesh& edges, VertexId n_vertices, const FacePatch& p);
+
 /// What nodes and triangles of patches are called in the mesh of all: add() each, then number(). Nodes by (entity dim,
 /// entity id, index), only those that a triangle has; triangles by (patch, position in it).
 struct PatchNumbers {
@@ -43,8 +45,11 @@ struct PatchNumbers {
   TriangleId n_triangles() const { return triangle_begin.back(); }
   /// Of each node of patch i; kNone: no triangle has it.
   std::vector<NodeId> of_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i) const;
-  /// Puts the nodes on vertices and edges into their places, and what is inside patch i, with its triangles.
+  /// Puts the nodes on vertices and edges into their places.
   void place_boundary(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, std::vector<Vec3>& node_xyz) const;
+  /// Places of these, and room for those of all patches.
+  SurfaceMesh make_mesh(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz) const;
+  /// Puts what is inside patch i, with its triangles, into their places.
   void place_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i, SurfaceMesh& mesh) const;
 
   std::vector<NodeId> boundary;                  ///< node by boundary_id; kNone: no triangle has it
@@ -94,6 +99,9 @@ SurfaceMesh weld_mesh(const MergeInput& input);
 /// Describes the nodes on vertices and edges of a mesh that has places alone. node_previous is filled where `edges`
 /// have it. Of `input` the patches are not used.
 void describe_boundary(const MergeInput& input, const PatchNumbers& numbers, SurfaceMesh& mesh);
+/// Likewise, after it, the nodes inside patch i, and its triangles.
+void describe_patch(const MergeInput& input, const PatchNumbers& numbers, const FacePatch& p, std::size_t i,
+                    SurfaceMesh& mesh);
 
 /// The orientation step alone: turns triangles (and their corner uv, if any) of `mesh` in place.
 OrientationReport orient_outward(SurfaceMesh& mesh);

@@ -291,11 +291,7 @@ class OrderFinder {
   /// Places, triangles and their faces, as they are turned now.
   SurfaceMesh all_triangles() const {
     const PatchNumbers& numbers = order_.numbers;
-    SurfaceMesh mesh;
-    mesh.node_xyz = order_.boundary.node_xyz;
-    mesh.node_xyz.resize(numbers.n_nodes());
-    mesh.triangles.resize(numbers.n_triangles());
-    mesh.triangle_face.resize(numbers.n_triangles());
+    SurfaceMesh mesh = numbers.make_mesh(in_.edges, in_.vertex_xyz);
     for (std::size_t i = 0; i < source_.size(); ++i) {
       numbers.place_patch(in_.edges, source_.shape(i), i, mesh);
       for (TriangleId t = numbers.triangle_begin[i]; is_turned_[source_.face[i]] && t < numbers.triangle_begin[i + 1];

@@ -26,8 +26,9 @@ constexpr int kGrowth[] = {2, 6};  // layers by which a hole grows when it canno
 }  // namespace
 
 std::vector<FacePatch> HoleRounds::take_patches() {
-  if (failed_faces_.empty()) return std::move(patches_);
-  return insert_fills(*numbering_, holes_.marks(), fills_, failed_faces_);
+  if (!failed_faces_.empty()) patches_ = insert_fills(*numbering_, holes_.marks(), fills_);
+  add_old_patches(*numbering_, failed_faces_, patches_);
+  return std::move(patches_);
 }
 
 void HoleRounds::mesh_edges() {

@@ -64,7 +64,7 @@ class HoleRounds : public MeshRounds {
   EdgeUpdate update_;
   std::optional<HoleNumbering> numbering_;  // of update_
   std::vector<std::vector<Piece>> fills_;   // [n_faces] on rank 0: of its holes; none: as it was, or failed
-  std::vector<FacePatch> patches_;          // likewise: of result_.mesh
+  std::vector<FacePatch> patches_;          // likewise: of faces with fills
   std::vector<FaceId> failed_faces_;
   std::vector<TriangleId> crossing_;  // triangles of the old mesh that cross new ones, of the last search
 };

@@ -1,6 +1,7 @@
 #include "meshing/hole/hole_merger.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -64,11 +65,14 @@ class FilledFace {
     return place;
   }
 
+  [[noreturn]] void throw_strange_node(TriangleId of) const {
+    throw Error(ExitCode::kInput, "triangle " + std::to_string(of + 1) + " of face " + std::to_string(face_ + 1) +
+                                      " has a node inside another face; the mesh is damaged: make it again");
+  }
+
   NodeId kept_corner(NodeId n, TriangleId of) {
     if (n < cad_.inner_begin[0]) return on_boundary(numbering_.of_node[n]);
-    if (n < first_old_ || n - first_old_ >= n_old_)
-      throw Error(ExitCode::kInput, "triangle " + std::to_string(of + 1) + " of face " + std::to_string(face_ + 1) +
-                                        " has a node inside another face; the mesh is damaged: make it again");
+    if (n < first_old_ || n - first_old_ >= n_old_) throw_strange_node(of);
     return inside(n - first_old_);
   }
 
@@ -156,28 +160,100 @@ class FilledFace {
   std::vector<NodeId> place_;           // of nodes inside, in the patch; kNone: no triangle has it
 };
 
+/// A face that is as it was: it goes from mesh to mesh without a patch, by its numbers there.
+class OldFace {
+ public:
+  OldFace(const HoleNumbering& numbering, FaceId f) : numbering_(numbering), cad_(numbering.mesh), face_(f) {}
+
+  PatchUse use() const {
+    PatchUse use{{}, cad_.inner_begin[face_ + 1] - cad_.inner_begin[face_], cad_.face_size(face_)};
+    for (TriangleId i = cad_.face_begin[face_]; i < cad_.face_begin[face_ + 1]; ++i)
+      for (const NodeId n : cad_.mesh.triangles[i].n)
+        if (n < cad_.inner_begin[0]) use.boundary.push_back(numbering_.of_node[n]);
+    return use;
+  }
+
+  void copy_to(const PatchNumbers& numbers, SurfaceMesh& mesh) const {
+    const SurfaceMesh& old = cad_.mesh;
+    const NodeId first = cad_.inner_begin[face_], end = cad_.inner_begin[face_ + 1], to = numbers.inner_begin[face_];
+    const auto copy = [](const auto& from, std::ptrdiff_t begin, std::ptrdiff_t end, auto& into, std::ptrdiff_t at) {
+      std::copy(from.begin() + begin, from.begin() + end, into.begin() + at);
+    };
+    copy(old.node_xyz, first, end, mesh.node_xyz, to);
+    copy(old.node_size, first, end, mesh.node_size, to);
+    copy(old.node_entity_dim, first, end, mesh.node_entity_dim, to);
+    copy(old.node_entity, first, end, mesh.node_entity, to);
+    std::iota(mesh.node_previous.begin() + to, mesh.node_previous.begin() + to + (end - first), first);
+    const std::ptrdiff_t begin = cad_.face_begin[face_], last = cad_.face_begin[face_ + 1],
+                         at = numbers.triangle_begin[face_];
+    copy(old.triangle_face, begin, last, mesh.triangle_face, at);
+    copy(old.triangle_group, begin, last, mesh.triangle_group, at);
+    copy(old.corner_uv, 3 * begin, 3 * last, mesh.corner_uv, 3 * at);
+    std::iota(mesh.triangle_previous.begin() + at, mesh.triangle_previous.begin() + at + (last - begin),
+              static_cast<TriangleId>(begin));
+    for (std::ptrdiff_t i = begin; i < last; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const NodeId n = old.triangles[i].n[k];
+        mesh.triangles[at + i - begin].n[k] =
+            n < cad_.inner_begin[0] ? numbers.boundary[numbering_.of_node[n]] : n - first + to;
+      }
+  }
+
+ private:
+  const HoleNumbering& numbering_;
+  const HoleMesh& cad_;
+  const FaceId face_;
+};
+
 }  // namespace
 
 std::vector<FacePatch> insert_fills(const HoleNumbering& numbering, const HoleMarks& marks,
-                                    std::span<const std::vector<Piece>> fills, std::span<const FaceId> left_out) {
+                                    std::span<const std::vector<Piece>> fills) {
   std::vector<FacePatch> patches(fills.size());
-  parallel_for(fills.size(), 1, [&](std::size_t i, std::size_t) {
-    const auto f = static_cast<FaceId>(i);
-    if (std::binary_search(left_out.begin(), left_out.end(), f))
-      patches[i].face = f;
-    else
-      patches[i] = FilledFace(numbering, marks, fills[i], f).run();
+  parallel_for(fills.size(), 1, [&](std::size_t f, std::size_t) {
+    if (!fills[f].empty()) patches[f] = FilledFace(numbering, marks, fills[f], static_cast<FaceId>(f)).run();
   });
   return patches;
 }
 
+void add_old_patches(const HoleNumbering& numbering, std::span<const FaceId> left_out,
+                     std::vector<FacePatch>& patches) {
+  const HoleMarks none;
+  parallel_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
+    const auto f = static_cast<FaceId>(i);
+    if (std::binary_search(left_out.begin(), left_out.end(), f)) {
+      patches[i] = FacePatch();
+      patches[i].face = f;
+    } else if (patches[i].face == kNone) {
+      patches[i] = FilledFace(numbering, none, {}, f).run();
+    }
+  });
+}
+
 SurfaceMesh weld_filled(const HoleNumbering& numbering, std::span<const FacePatch> patches) {
   const HoleMesh& cad = numbering.mesh;
+  const ModelTables& t = cad.tables;
+  const EdgeMesh& edges = numbering.update.edges;
   std::vector<std::int32_t> group(patches.size(), 0);
-  for (std::size_t f = 0; f < group.size(); ++f)
-    if (cad.face_size(static_cast<FaceId>(f)) > 0) group[f] = cad.mesh.triangle_group[cad.face_begin[f]];
-  SurfaceMesh mesh =
-      weld_mesh({numbering.update.edges, cad.tables.vertex_xyz, cad.tables.edge_vertices, patches, group});
+  std::vector<PatchUse> uses(patches.size());
+  parallel_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
+    const auto f = static_cast<FaceId>(i);
+    if (cad.face_size(f) > 0) group[i] = cad.mesh.triangle_group[cad.face_begin[f]];
+    uses[i] = patches[i].face == kNone ? OldFace(numbering, f).use() : use_of(edges, t.n_vertices(), patches[i]);
+  });
+  PatchNumbers numbers(edges, t.vertex_xyz.size());
+  for (const PatchUse& use : uses) numbers.add(use);
+  numbers.number();
+  const MergeInput input{edges, t.vertex_xyz, t.edge_vertices, {}, group};
+  SurfaceMesh mesh = numbers.make_mesh(edges, t.vertex_xyz);
+  describe_boundary(input, numbers, mesh);
+  mesh.node_previous.resize(mesh.node_xyz.size(), kNone);
+  mesh.triangle_previous.resize(mesh.triangles.size(), kNone);
+  parallel_for(patches.size(), 1, [&](std::size_t i, std::size_t) {
+    if (patches[i].face == kNone) return OldFace(numbering, static_cast<FaceId>(i)).copy_to(numbers, mesh);
+    numbers.place_patch(edges, patches[i], i, mesh);
+    describe_patch(input, numbers, patches[i], i, mesh);
+  });
   mesh.labels = cad.mesh.labels;
   return mesh;
 }

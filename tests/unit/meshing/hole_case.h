@@ -39,9 +39,13 @@ struct Refilled {
   Refilled& operator=(const Refilled&) = delete;
 
   std::vector<FacePatch> patches(std::span<const FaceId> left_out = {}) const {
-    return insert_fills(numbering, marks, fills, left_out);
+    std::vector<FacePatch> all = insert_fills(numbering, marks, fills);
+    add_old_patches(numbering, left_out, all);
+    return all;
   }
   SurfaceMesh welded(std::span<const FaceId> left_out = {}) const { return weld_filled(numbering, patches(left_out)); }
+  /// Without patches of faces that are as they were.
+  SurfaceMesh inserted() const { return weld_filled(numbering, insert_fills(numbering, marks, fills)); }
   SurfaceMesh merged() const {
     const ModelTables& t = solid.model.tables();
     OrientationReport report;

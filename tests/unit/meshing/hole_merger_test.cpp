@@ -16,7 +16,7 @@ TEST_P(InsertedFills, are_the_mesh_that_merging_the_patches_gives) {
   const ShapeMesh solid(GetParam(), 0.05);
   const LinearField finer = finer_at_a_corner(solid);
   const Refilled hole(solid, finer);
-  const SurfaceMesh inserted = hole.welded(), merged = hole.merged();
+  const SurfaceMesh inserted = hole.inserted(), merged = hole.merged();
   EXPECT_TRUE(shapes::same(inserted, merged));
   EXPECT_EQ(inserted.node_previous, merged.node_previous);
   EXPECT_EQ(inserted.triangle_previous, merged.triangle_previous);
@@ -26,7 +26,7 @@ TEST_P(InsertedFills, are_the_mesh_that_merging_the_patches_gives) {
 TEST_P(InsertedFills, of_no_holes_are_the_old_mesh) {
   const ShapeMesh solid(GetParam(), 0.1);
   const Refilled none(solid, solid.field, nothing_changes());
-  EXPECT_TRUE(shapes::same(none.welded(), solid.mesh));
+  EXPECT_TRUE(shapes::same(none.inserted(), solid.mesh));
 }
 
 TEST_P(InsertedFills, leave_faces_out_and_only_their_triangles) {
@@ -71,8 +71,8 @@ TEST(FilledPatches, refuse_triangles_with_nodes_inside_another_face) {
   const HoleMesh holes(solid.mesh, solid.model.tables());
   const EdgeUpdate update = update_edges(holes, {}, EdgeMesh::of_edges(0));
   const HoleNumbering numbering(holes, update);
-  const std::vector<std::vector<Piece>> fills(6);
-  EXPECT_THROW(insert_fills(numbering, {}, fills), Error);
+  std::vector<FacePatch> patches(6);
+  EXPECT_THROW(add_old_patches(numbering, {}, patches), Error);
 }
 
 TEST(FilledPatches, leave_nodes_out_that_no_triangle_has) {
@@ -87,8 +87,8 @@ TEST(FilledPatches, leave_nodes_out_that_no_triangle_has) {
   const HoleMesh holes(m, solid.model.tables());
   const EdgeUpdate update = update_edges(holes, {}, EdgeMesh::of_edges(0));
   const HoleNumbering numbering(holes, update);
-  const std::vector<std::vector<Piece>> fills(6);
-  const std::vector<FacePatch> patches = insert_fills(numbering, {}, fills);
+  std::vector<FacePatch> patches(6);
+  add_old_patches(numbering, {}, patches);
   EXPECT_EQ(weld_filled(numbering, patches).node_xyz.size(), n);
   EXPECT_EQ(std::ssize(patches[5].inner_xyz), holes.inner_begin[6] - holes.inner_begin[5] - 1);
 }
