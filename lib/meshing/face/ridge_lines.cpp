@@ -90,7 +90,7 @@ class RidgeLayer {
       MeshNode p;
       p.p = (1 - share) * m_.nodes[a].p + share * m_.nodes[b].p;
       w_.evaluate(p);
-      w_.ask_sizes(p);
+      p.request = length_across(p);
       return p;
     };
     const Vec2 way = m_.nodes[b].p - m_.nodes[a].p;
@@ -107,9 +107,11 @@ class RidgeLayer {
       double low = samples[k - 1].first, high = samples[k + 1].first;
       for (int n = 0; n < 2 * kHalvings; ++n) {  // by thirds
         const double one = low + (high - low) / 3, two = high - (high - low) / 3;
-        (at(one).request < at(two).request ? high : low) = at(one).request < at(two).request ? two : one;
+        const bool is_lower = at(one).request < at(two).request;
+        (is_lower ? high : low) = is_lower ? two : one;
       }
       Inside inside{at(0.5 * (low + high)), a};
+      w_.ask_sizes(inside.place);
       if (!is_long(inside.place)) continue;
       const Vec3 across = normalized(cross(inside.place.normal, inside.place.squeeze));
       if (!to_least(inside.place, across, inside.place.request) || !is_long(inside.place)) continue;
@@ -210,6 +212,13 @@ class RidgeLayer {
     return next;
   }
 
+  /// The length across, without its direction where that is not needed for it.
+  double length_across(MeshNode p) const {
+    if (!w_.field->has_metrics()) return w_.field->size(p.x, w_.hint);
+    w_.ask_sizes(p);
+    return p.request;
+  }
+
   /// Moves it across to where the length is least, or to the middle of where it is about that; false: there is none.
   bool to_least(MeshNode& node, Vec3 across, double step) {
     const MeshNode from = node;
@@ -219,12 +228,7 @@ class RidgeLayer {
       w_.evaluate(p);
       return p;
     };
-    const auto request_at = [&](double way) {
-      MeshNode p = at(way);
-      if (!w_.field->has_metrics()) return w_.field->size(p.x, w_.hint);
-      w_.ask_sizes(p);
-      return p.request;
-    };
+    const auto request_at = [&](double way) { return length_across(at(way)); };
     double reach = std::max(kWindow * from.request, kWindowOfStep * step);
     for (int i = 0; i <= kWidenings; ++i, reach *= 2) {
       std::array<double, 2 * kProbes + 1> request;
