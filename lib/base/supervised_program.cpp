@@ -31,11 +31,12 @@ extern "C" void pass_on(int signal, siginfo_t* info, void*) {
   if (info->si_code <= 0 && g_program > 0) kill(g_program, signal);
 }
 
-/// Passes signals on as long as it lives; those that are ignored (nohup) stay ignored.
+/// Passes signals on as long as it lives; those that are ignored (nohup) stay ignored. Made before the program is: a
+/// thread that does not hold signals back may take one meanwhile.
 class SignalPassing {
  public:
-  explicit SignalPassing(pid_t program) {
-    g_program = program;
+  SignalPassing() {
+    g_program = 0;
     g_passed_signal = 0;
     for (std::size_t i = 0; i < kPassedOn.size(); ++i) {
       sigaction(kPassedOn[i], nullptr, &old_[i]);
@@ -46,7 +47,14 @@ class SignalPassing {
       sigaction(kPassedOn[i], &action, nullptr);
     }
   }
-  ~SignalPassing() {
+  ~SignalPassing() { stop(); }
+  /// From now on, and what came before.
+  void begin(pid_t program) const {
+    g_program = program;
+    if (g_passed_signal != 0) kill(program, g_passed_signal);
+  }
+  /// In the program as well, which has signals of its own.
+  void stop() const {
     for (std::size_t i = 0; i < kPassedOn.size(); ++i) sigaction(kPassedOn[i], &old_[i], nullptr);
     g_program = 0;
   }
@@ -221,12 +229,14 @@ ProgramEnd run_supervised(const std::vector<std::string>& words,
   Pipe errors, failure;
   std::fflush(nullptr);
   const HeldSignals signals;
+  const SignalPassing passing;
   const pid_t self = getpid(), program = fork_or_throw();
   if (program == 0) {
+    passing.stop();
     signals.release();
     become(words, self, errors.ends[1], failure.ends[1]);
   }
-  const SignalPassing passing(program);
+  passing.begin(program);
   signals.release();
   errors.close_end(1);
   failure.close_end(1);
@@ -241,8 +251,10 @@ ProgramEnd run_forked(const std::function<int()>& work) {
   std::fflush(nullptr);
   prctl(PR_SET_CHILD_SUBREAPER, 1);
   const HeldSignals signals;
+  const SignalPassing passing;
   const pid_t self = getpid(), child = fork_or_throw();
   if (child == 0) {
+    passing.stop();
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != self) _exit(128 + SIGTERM);
     signals.release();
@@ -250,7 +262,7 @@ ProgramEnd run_forked(const std::function<int()>& work) {
     std::fflush(nullptr);
     _exit(code);
   }
-  const SignalPassing passing(child);
+  passing.begin(child);
   signals.release();
   const int status = wait_for_end(child);
   while (waitpid(-1, nullptr, 0) > 0 || errno == EINTR) {  // children that it had, ended as it ended

@@ -5,7 +5,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
+#include <thread>
+#include <vector>
 
 #include "base/error.h"
 
@@ -99,6 +102,28 @@ TEST(SupervisedProgram, signals_are_passed_on_to_a_fork) {
   });
   EXPECT_EQ(end.exit_code, 3);
   EXPECT_EQ(end.passed_signal, SIGTERM);
+}
+
+/// A signal goes to any thread that does not hold it back.
+TEST(SupervisedProgram, signals_are_passed_on_whatever_thread_takes_them) {
+  std::atomic<bool> is_done = false;
+  std::vector<std::thread> busy;  // so that the process waits for its turn between any two steps
+  for (int i = 0; i < 8; ++i)
+    busy.emplace_back([&] {
+      while (!is_done) std::this_thread::yield();
+    });
+  for (int i = 0; i < 500; ++i) {
+    const ProgramEnd end = run_forked([] {
+      signal(SIGTERM, [](int) { _exit(3); });
+      kill(getppid(), SIGTERM);
+      for (;;) pause();
+      return 0;
+    });
+    EXPECT_EQ(end.exit_code, 3);
+    EXPECT_EQ(end.passed_signal, SIGTERM);
+  }
+  is_done = true;
+  for (std::thread& t : busy) t.join();
 }
 
 TEST(SupervisedProgram, its_end_is_seen_where_a_daemon_left_ends_of_children_ignored) {
