@@ -399,7 +399,7 @@ class Campaign(RunTest):
         self.expect_only("bad.step", "sub")
 
     def test_a_signal_ends_all_of_them(self):
-        process = subprocess.Popen([BIN / "st-run", "box.step", "sub/box.step", "--jobs", "2", "--lmax", "0.2%"],
+        process = subprocess.Popen([BIN / "st-run", "box.step", "sub/box.step", "--jobs", "2", "--lmax", "0.08%"],
                                    cwd=self.folder, stderr=subprocess.DEVNULL, start_new_session=True)
         time.sleep(1.5)
         process.send_signal(signal.SIGTERM)
