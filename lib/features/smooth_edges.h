@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/executor.h"
+#include "geometry/model/edge_angles.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -14,23 +15,15 @@ namespace st {
 class SmoothEdges {
  public:
   /// `model` outlives it.
-  explicit SmoothEdges(const Model& model);
+  explicit SmoothEdges(const Model& model) : angles_(model, kSmoothEdgeDeg) {}
 
   /// Whether two coedges use the edge, of two faces or along a seam, and at nine places on it the normals on both
   /// sides differ by 3 degrees at most. Degenerate edges are not smooth. Cost: up to 18 evaluations, at the first
   /// call for each edge.
-  bool operator()(EdgeId e);
+  bool operator()(EdgeId e) { return angles_.largest_deg(e) <= kSmoothEdgeDeg; }
 
  private:
-  struct Use {
-    FaceId face;
-    CoedgeId coedge;
-  };
-  enum class Answer : std::uint8_t { kNotAsked, kSmooth, kSharp };
-
-  const Model& model_;
-  std::vector<std::vector<Use>> uses_;  // [n_edges]
-  std::vector<Answer> answer_;          // [n_edges]
+  EdgeAngles angles_;
 };
 
 /// Collective. [n_edges] 1: the edge is smooth; complete on rank 0.

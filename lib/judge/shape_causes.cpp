@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/sort_once.h"
+#include "geometry/model/edge_angles.h"
 #include "judge/cad_corners.h"
-#include "judge/edge_angles.h"
 
 namespace st {
 

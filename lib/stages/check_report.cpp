@@ -7,7 +7,7 @@
 
 #include "base/length.h"
 #include "base/text.h"
-#include "judge/edge_angles.h"
+#include "geometry/model/edge_angles.h"
 #include "stages/text_table.h"
 #include "stages/wing_table.h"
 

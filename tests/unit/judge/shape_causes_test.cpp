@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "base/log.h"
+#include "geometry/model/edge_angles.h"
 #include "judge/cad_corners.h"
-#include "judge/edge_angles.h"
 #include "support/meshed.h"
 
 namespace st {

@@ -1,4 +1,4 @@
-#include "judge/edge_angles.h"
+#include "geometry/model/edge_angles.h"
 
 #include <gtest/gtest.h>
 

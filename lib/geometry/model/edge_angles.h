@@ -14,10 +14,11 @@ inline constexpr double kSmoothEdgeDeg = 3;
 /// Looks up the CAD's edges as they are asked for.
 class EdgeAngles {
  public:
-  /// `model` outlives it.
-  explicit EdgeAngles(const Model& model);
+  /// `model` outlives it. Of an edge that turns by more than `most_deg` one such angle is enough.
+  explicit EdgeAngles(const Model& model, double most_deg = 180);
   /// Largest angle between the normals on both sides at nine places along it, degrees in [0, 180]; 180 where not
-  /// exactly two coedges use the edge, or a normal is missing at a place.
+  /// exactly two coedges use the edge, it is degenerate, or a normal is missing at a place. Cost: up to 18 evaluations,
+  /// at the first call for each edge. For different edges at the same time.
   double largest_deg(EdgeId e);
 
  private:
@@ -28,6 +29,7 @@ class EdgeAngles {
   double measure(EdgeId e) const;
 
   const Model& model_;
+  double most_deg_;
   std::vector<std::vector<Use>> uses_;  // [n_edges]
   std::vector<double> largest_;         // [n_edges] below 0: not asked yet
 };
