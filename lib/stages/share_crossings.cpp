@@ -111,7 +111,7 @@ ShareCrossings::NearLists ShareCrossings::near_of(const Boxes& boxes, const Cove
   for (auto& [other, triangles] : near) {
     std::sort(triangles.begin(), triangles.end());
     triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
-    lists.all.push_back({k, other, std::move(triangles)});
+    lists.all.push_back({k, other, AscendingNumbers(triangles)});
   }
   return lists;
 }
@@ -142,18 +142,19 @@ void ShareCrossings::find(CheckParts& parts) {
   Pairs own;
   int turn = 0;
   const NearMap near = find_near();
-  for (const auto& [shares, triangles] : near) {
+  for (const auto& [shares, first] : near) {
     const auto other = near.find({shares.second, shares.first});
     if (shares.first > shares.second || other == near.end()) continue;
     if (turn++ % ranks_.size() != ranks_.rank()) continue;
-    std::vector<TriangleId> both = triangles;
-    both.insert(both.end(), other->second.begin(), other->second.end());
+    std::vector<TriangleId> both = first.all();
+    const auto n_first = static_cast<std::int32_t>(both.size());
+    const std::vector<TriangleId> second = other->second.all();
+    both.insert(both.end(), second.begin(), second.end());
     const MeshSelection share = file_.select(std::move(both), MeshFile::Rows::kPlaces);
     bool was_ended = false;
     std::int64_t n_compared = 0;
     for (const TrianglePair& p :
-         find_crossings_between(share.mesh.node_xyz, share.mesh.triangles, static_cast<std::int32_t>(triangles.size()),
-                                was_ended, &n_compared))
+         find_crossings_between(share.mesh.node_xyz, share.mesh.triangles, n_first, was_ended, &n_compared))
       own.all.push_back({share.triangle_number[p.a], share.triangle_number[p.b], p.n_shared});
     own.n_compared += n_compared;
     own.was_ended |= was_ended;

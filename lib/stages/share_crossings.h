@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/ascending_numbers.h"
 #include "base/box_tree.h"
 #include "base/executor.h"
 #include "io/hdf5/mesh_file.h"
@@ -49,14 +50,14 @@ class ShareCrossings {
   /// Triangles of one share that are near those of another, ascending.
   struct Near {
     std::int32_t share = 0, other = 0;
-    std::vector<TriangleId> triangles;
+    AscendingNumbers triangles;
     static auto fields(auto& n) { return std::tie(n.share, n.other, n.triangles); }
   };
   struct NearLists {
     std::vector<Near> all;
     static auto fields(auto& n) { return std::tie(n.all); }
   };
-  using NearMap = std::map<std::pair<std::int32_t, std::int32_t>, std::vector<TriangleId>>;  // of a share, to another
+  using NearMap = std::map<std::pair<std::int32_t, std::int32_t>, AscendingNumbers>;  // of a share, to another
 
   /// Those of all shares.
   struct Boxes {
