@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <string>
 
 #include "base/assert.h"
@@ -108,6 +109,14 @@ PatchUse use_of(const EdgeMesh& edges, VertexId n_vertices, const FacePatch& p) 
   return use;
 }
 
+PatchNumbers PatchNumbers::of_sections(std::int32_t n_boundary, std::span<const std::int32_t> n_own) {
+  PatchNumbers numbers(static_cast<std::size_t>(n_boundary));
+  std::iota(numbers.boundary.begin(), numbers.boundary.end(), 0);
+  numbers.inner_begin = {n_boundary};
+  for (const std::int32_t n : n_own) numbers.inner_begin.push_back(numbers.inner_begin.back() + n);
+  return numbers;
+}
+
 void PatchNumbers::add(const PatchUse& use) {
   for (const std::int32_t id : use.boundary) {
     ST_ASSERT(id >= 0 && id < static_cast<std::int64_t>(boundary.size()));
@@ -139,6 +148,15 @@ std::vector<NodeId> PatchNumbers::of_patch(const EdgeMesh& edges, const FacePatc
   return number;
 }
 
+std::vector<NodeId> PatchNumbers::of_piece(std::size_t i, std::span<const std::int32_t> ids, std::int32_t n_own,
+                                           std::span<const InnerNode> owner) const {
+  std::vector<NodeId> number(ids.size() + n_own + owner.size());
+  auto at = std::ranges::transform(ids, number.begin(), [&](std::int32_t id) { return boundary[id]; }).out;
+  std::iota(at, at + n_own, inner_begin[i]);
+  std::ranges::transform(owner, at + n_own, [&](const InnerNode& n) { return inner_begin[n.section] + n.number; });
+  return number;
+}
+
 void PatchNumbers::place_boundary(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz,
                                   std::vector<Vec3>& node_xyz) const {
   for (std::size_t i = 0; i < boundary.size(); ++i)
@@ -146,20 +164,30 @@ void PatchNumbers::place_boundary(const EdgeMesh& edges, std::span<const Vec3> v
       node_xyz[boundary[i]] = i < vertex_xyz.size() ? vertex_xyz[i] : edges.node_xyz[i - vertex_xyz.size()];
 }
 
-SurfaceMesh PatchNumbers::make_mesh(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz) const {
+SurfaceMesh PatchNumbers::make_mesh() const {
   SurfaceMesh mesh;
   mesh.node_xyz.resize(n_nodes());
   mesh.triangles.resize(n_triangles());
   mesh.triangle_face.resize(n_triangles());
+  return mesh;
+}
+
+SurfaceMesh PatchNumbers::make_mesh(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz) const {
+  SurfaceMesh mesh = make_mesh();
   place_boundary(edges, vertex_xyz, mesh.node_xyz);
   return mesh;
 }
 
 void PatchNumbers::place_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i, SurfaceMesh& mesh) const {
-  constexpr std::size_t kPerPiece = 65'536;
   const std::vector<NodeId> number = of_patch(edges, shape, i);
   for (std::size_t k = 0; k < shape.inner_xyz.size(); ++k)
     if (const NodeId n = number[shape.n_boundary + k]; n != kNone) mesh.node_xyz[n] = shape.inner_xyz[k];
+  place_triangles(shape, i, number, mesh);
+}
+
+void PatchNumbers::place_triangles(const FacePatch& shape, std::size_t i, std::span<const NodeId> number,
+                                   SurfaceMesh& mesh) const {
+  constexpr std::size_t kPerPiece = 65'536;
   const TriangleId first = triangle_begin[i];
   std::fill_n(mesh.triangle_face.begin() + first, shape.triangles.size(), shape.face);
   parallel_for(shape.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {

@@ -34,8 +34,14 @@ PatchUse use_of(const EdgeMesh& edges, VertexId n_vertices, const FacePatch& p);
 
 /// What nodes and triangles of patches are called in the mesh of all: add() each, then number(). Nodes by (entity dim,
 /// entity id, index), only those that a triangle has; triangles by (patch, position in it).
+///
+/// A patch may be in sections; and what other patches may have of it may be known by other ids than boundary_id().
 struct PatchNumbers {
-  PatchNumbers(const EdgeMesh& edges, std::size_t n_vertices) : boundary(n_vertices + edges.node_xyz.size(), kNone) {}
+  /// `n_ids`: of nodes that several patches may have.
+  explicit PatchNumbers(std::size_t n_ids) : boundary(n_ids, kNone) {}
+  PatchNumbers(const EdgeMesh& edges, std::size_t n_vertices) : PatchNumbers(n_vertices + edges.node_xyz.size()) {}
+  /// Of the sections of one patch, which keeps its `n_boundary` nodes: [n_sections] nodes of their own inside.
+  static PatchNumbers of_sections(std::int32_t n_boundary, std::span<const std::int32_t> n_own);
 
   /// The next patch. Throws Error when the mesh has more than ids can count.
   void add(const PatchUse& use);
@@ -45,14 +51,21 @@ struct PatchNumbers {
   TriangleId n_triangles() const { return triangle_begin.back(); }
   /// Of each node of patch i; kNone: no triangle has it.
   std::vector<NodeId> of_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i) const;
+  /// Of each node of piece i: those with these ids, its own ones, and those that other pieces own.
+  std::vector<NodeId> of_piece(std::size_t i, std::span<const std::int32_t> ids, std::int32_t n_own,
+                               std::span<const InnerNode> owner = {}) const;
   /// Puts the nodes on vertices and edges into their places.
   void place_boundary(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, std::vector<Vec3>& node_xyz) const;
-  /// Places of these, and room for those of all patches.
+  /// Room for all patches.
+  SurfaceMesh make_mesh() const;
+  /// Likewise, with the places of nodes on vertices and edges.
   SurfaceMesh make_mesh(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz) const;
   /// Puts what is inside patch i, with its triangles, into their places.
   void place_patch(const EdgeMesh& edges, const FacePatch& shape, std::size_t i, SurfaceMesh& mesh) const;
+  /// Its triangles alone. `number`: of each of its nodes.
+  void place_triangles(const FacePatch& shape, std::size_t i, std::span<const NodeId> number, SurfaceMesh& mesh) const;
 
-  std::vector<NodeId> boundary;                  ///< node by boundary_id; kNone: no triangle has it
+  std::vector<NodeId> boundary;                  ///< node by id; kNone: no triangle has it
   std::vector<NodeId> inner_begin = {0};         ///< [n_patches+1] the first node inside each
   std::vector<TriangleId> triangle_begin = {0};  ///< [n_patches+1]
 };

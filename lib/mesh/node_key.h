@@ -11,10 +11,6 @@ namespace st {
 /// ascending by (dimension, entity, index).
 enum class NodeKey : std::int64_t {};
 
-struct InnerNode {
-  std::int32_t section, number;
-};
-
 namespace detail {
 
 inline constexpr int kKeyShift = 31;
@@ -22,12 +18,8 @@ inline constexpr std::int64_t kKeyOnEdge = std::int64_t{1} << (2 * kKeyShift);
 
 }  // namespace detail
 
-inline NodeKey inner_key(std::int32_t section, std::int32_t number) {
-  return NodeKey{-1 - (std::int64_t{section} << detail::kKeyShift | number)};
-}
-inline InnerNode inner_node(NodeKey key) {
-  const std::int64_t place = -1 - static_cast<std::int64_t>(key), rest = (std::int64_t{1} << detail::kKeyShift) - 1;
-  return {static_cast<std::int32_t>(place >> detail::kKeyShift), static_cast<std::int32_t>(place & rest)};
+inline NodeKey inner_key(InnerNode n) {
+  return NodeKey{-1 - (std::int64_t{n.section} << detail::kKeyShift | n.number)};
 }
 
 inline NodeKey boundary_key(EntityDim dim, std::int32_t entity, std::int32_t index) {

@@ -9,8 +9,10 @@
 #include "base/morton.h"
 #include "base/parallel_reserve.h"
 #include "base/radix_sort.h"
+#include "base/sort_once.h"
 #include "base/threads.h"
-#include "mesh/patch_section.h"
+#include "mesh/merge.h"
+#include "mesh/node_key.h"
 
 namespace st {
 namespace {
@@ -54,61 +56,31 @@ Box3 box_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FaceP
   return all;
 }
 
-/// Those of the triangles that meet the box.
-void add_block(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
-               std::span<const std::int32_t> triangles, const Box3& others, bool is_of_one_face, PatchPart& part) {
-  const FacePatch& p = section.patch;
-  const auto add_key = [&](NodeKey key) {
-    part.corner.push_back(static_cast<std::int32_t>(part.xyz.size()));
-    part.key.push_back(key);
-  };
-  const auto add_corner = [&](NodeId n, Vec3 x) {
-    if (n < p.n_boundary) {
-      add_key(boundary_key(p, n));
-    } else if (is_of_one_face) {
-      const auto& shared = section.shared;
-      const auto it = std::lower_bound(shared.begin(), shared.end(), n - p.n_boundary);
-      if (it != shared.end() && *it == n - p.n_boundary) add_key(section.shared_key[it - shared.begin()]);
-    }
-    part.xyz.push_back(x);
-  };
-  Box3 all;
-  for (const std::int32_t t : triangles) {
-    Vec3 x[3];
-    Box3 box;
-    for (int k = 0; k < 3; ++k) box.add(x[k] = node_place(edges, vertex_xyz, p, p.triangles[t].n[k]));
-    if (!meet(box, others)) continue;
-    all.add(box);
-    for (int k = 0; k < 3; ++k) add_corner(p.triangles[t].n[k], x[k]);
-    part.triangle.push_back(t);
-  }
-  if (!all.is_empty()) part.boxes.push_back(all);
+/// Numbers of the triangles in blocks that meet the boxes there.
+std::vector<TriangleId> near_triangles(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& p,
+                                       const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near) {
+  constexpr std::size_t kBlocksPerPiece = 32;
+  std::vector<std::vector<TriangleId>> pieces(near.size() / kBlocksPerPiece + 1);
+  parallel_for(near.size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      for (const std::int32_t t : blocks.triangles(near[i].block)) {
+        Box3 box;
+        for (const NodeId n : p.triangles[t].n) box.add(node_place(edges, vertex_xyz, p, n));
+        if (meet(box, near[i].others)) pieces[begin / kBlocksPerPiece].push_back(t);
+      }
+  });
+  std::vector<TriangleId> all;
+  append_pieces(pieces, all);
+  return all;
 }
 
-/// One after the other.
-PatchPart joined(std::vector<PatchPart>&& parts) {
-  PatchPart all;
-  const auto append = [&](auto PatchPart::*rows) {
-    std::vector<std::size_t> first{0};
-    for (const PatchPart& part : parts) first.push_back(first.back() + (part.*rows).size());
-    parallel_reserve(all.*rows, first.back());
-    (all.*rows).resize(first.back());
-    parallel_for(parts.size(), 1, [&](std::size_t i, std::size_t) {
-      std::copy((parts[i].*rows).begin(), (parts[i].*rows).end(),
-                (all.*rows).begin() + static_cast<std::ptrdiff_t>(first[i]));
-    });
-  };
-  std::int32_t n_corners = 0;
-  for (PatchPart& part : parts) {
-    for (std::int32_t& corner : part.corner) corner += n_corners;
-    n_corners += static_cast<std::int32_t>(part.xyz.size());
-  }
-  append(&PatchPart::triangle);
-  append(&PatchPart::xyz);
-  append(&PatchPart::corner);
-  append(&PatchPart::key);
-  append(&PatchPart::boxes);
-  return all;
+/// Of the nodes that another part may have.
+std::vector<NodeKey> keys_of(const FacePatch& part) {
+  std::vector<NodeKey> keys;
+  keys.reserve(part.n_boundary + part.owner.size());
+  for (std::int32_t i = 0; i < part.n_boundary; ++i) keys.push_back(boundary_key(part, i));
+  for (const InnerNode& n : part.owner) keys.push_back(inner_key(n));
+  return keys;
 }
 
 }  // namespace
@@ -232,43 +204,61 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
   return pairs;
 }
 
-PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
-                  std::span<const PatchBlocks::Meeting> near, bool is_of_one_face) {
-  constexpr std::size_t kBlocksPerPiece = 32;
-  std::vector<PatchPart> parts(near.size() / kBlocksPerPiece + 1);
-  parallel_for(near.size(), kBlocksPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      add_block(edges, vertex_xyz, section, section.blocks.triangles(near[i].block), near[i].others, is_of_one_face,
-                parts[begin / kBlocksPerPiece]);
-  });
-  return joined(std::move(parts));
+FacePatch part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& section,
+                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, std::int32_t number) {
+  FacePatch part;
+  part.face = section.face;
+  part.triangle_previous = near_triangles(edges, vertex_xyz, section, blocks, near);
+  std::vector<NodeId> nodes, place(section.n_boundary + section.inner_xyz.size(), kNone);
+  for (const TriangleId t : part.triangle_previous)
+    for (const NodeId n : section.triangles[t].n)
+      if (std::exchange(place[n], 0) == kNone) nodes.push_back(n);
+  const auto inner = std::ranges::partition(nodes, [&](NodeId n) { return n < section.n_boundary; });
+  part.n_boundary = static_cast<std::int32_t>(inner.begin() - nodes.begin());
+  for (const NodeId n : std::span(nodes).first(part.n_boundary)) {
+    part.boundary_dim.push_back(section.boundary_dim[n]);
+    part.boundary_entity.push_back(section.boundary_entity[n]);
+    part.boundary_index.push_back(section.boundary_index[n]);
+  }
+  for (const NodeId n : inner) {
+    const std::int32_t i = n - section.n_boundary, n_own = section.n_own();
+    part.inner_xyz.push_back(section.inner_xyz[i]);
+    if (number != kNone) part.owner.push_back(i < n_own ? InnerNode{number, i} : section.owner[i - n_own]);
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = static_cast<NodeId>(i);
+  part.triangles.reserve(part.triangle_previous.size());
+  for (const TriangleId t : part.triangle_previous) {
+    const NodeId* n = section.triangles[t].n;
+    part.triangles.push_back({{place[n[0]], place[n[1]], place[n[2]]}});
+  }
+  return part;
 }
 
-SurfaceMesh join_parts(const PatchPart& a, const PatchPart& b) {
-  constexpr std::size_t kPerPart = 4096;
-  SurfaceMesh both;
-  const std::size_t n_a = a.xyz.size(), n = n_a + b.xyz.size();
-  parallel_reserve(both.node_xyz, n);
-  parallel_reserve(both.triangles, n / 3);
-  both.node_xyz.resize(n);
-  both.triangles.resize(n / 3);
-  parallel_for(n / 3, kPerPart, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
-      both.node_xyz[i] = i < n_a ? a.xyz[i] : b.xyz[i - n_a];
-      both.triangles[i / 3].n[i % 3] = static_cast<NodeId>(i);
-    }
-  });
-  std::vector<std::pair<NodeKey, NodeId>> on_boundary;
-  for (std::size_t i = 0; i < a.key.size(); ++i) on_boundary.push_back({a.key[i], a.corner[i]});
-  for (std::size_t i = 0; i < b.key.size(); ++i)
-    on_boundary.push_back({b.key[i], static_cast<NodeId>(n_a) + b.corner[i]});
-  std::sort(on_boundary.begin(), on_boundary.end());
-  const auto node = [&](std::size_t i) -> NodeId& {
-    return both.triangles[on_boundary[i].second / 3].n[on_boundary[i].second % 3];
-  };
-  for (std::size_t i = 1; i < on_boundary.size(); ++i)
-    if (on_boundary[i].first == on_boundary[i - 1].first) node(i) = node(i - 1);
-  return both;
+SurfaceMesh weld_parts(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& a,
+                       const FacePatch& b) {
+  const FacePatch* const parts[] = {&a, &b};
+  const std::vector<NodeKey> keys[] = {keys_of(a), keys_of(b)};
+  std::vector<NodeKey> all = keys[0];
+  all.insert(all.end(), keys[1].begin(), keys[1].end());
+  sort_once(all);
+  PatchNumbers numbers(all.size());
+  PatchUse uses[2];
+  for (int i = 0; i < 2; ++i) {
+    for (const NodeKey key : keys[i])
+      uses[i].boundary.push_back(static_cast<std::int32_t>(std::ranges::lower_bound(all, key) - all.begin()));
+    uses[i].n_inner = parts[i]->n_own();
+    uses[i].n_triangles = std::ssize(parts[i]->triangles);
+    numbers.add(uses[i]);
+  }
+  numbers.number();
+  SurfaceMesh mesh = numbers.make_mesh();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::vector<NodeId> number = numbers.of_piece(i, uses[i].boundary, parts[i]->n_own());
+    for (NodeId n = 0; n < std::ssize(number); ++n)
+      mesh.node_xyz[number[n]] = node_place(edges, vertex_xyz, *parts[i], n);
+    numbers.place_triangles(*parts[i], i, number, mesh);
+  }
+  return mesh;
 }
 
 }  // namespace st

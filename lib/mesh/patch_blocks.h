@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "base/vec.h"
-#include "mesh/node_key.h"
 #include "mesh/surface_mesh.h"
 
 namespace st {
@@ -62,26 +60,13 @@ class PatchBlocks {
 /// Every two boxes that meet, once, the lower number first; empty ones meet none. A sweep along the longest axis.
 std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const Box3> boxes);
 
-/// Some triangles of a patch.
-struct PatchPart {
-  std::vector<std::int32_t> triangle;  ///< places in the patch
-  std::vector<Vec3> xyz;               ///< [3*n_triangles] of the corners
-  std::vector<std::int32_t> corner;    ///< ascending: corners on the boundary, and at nodes that sections share
-  std::vector<NodeKey> key;            ///< likewise
-  std::vector<Box3> boxes;             ///< of some of them each, together of all
+/// The triangles of a section in its blocks `near` that meet the boxes there, with their places and boundary alone;
+/// triangle_previous: their numbers in the section. Linear in these and in its nodes. `number`: of the section, where
+/// they are compared with another one of the face: `owner` has all nodes inside then.
+FacePatch part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& section,
+                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, std::int32_t number = kNone);
 
-  static auto fields(auto& p) { return std::tie(p.triangle, p.xyz, p.corner, p.key, p.boxes); }
-};
-
-struct PatchSection;
-
-/// The triangles of its blocks `near` that meet the boxes there. Linear in these. `is_of_one_face`: what they are
-/// compared with is another section of the face.
-PatchPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const PatchSection& section,
-                  std::span<const PatchBlocks::Meeting> near, bool is_of_one_face = false);
-
-/// Two parts of different faces, or sections, as places and triangles of one mesh: those of `a`, then those of `b`,
-/// with common nodes by key. Corners elsewhere have nodes of their own, whoever shares them within a part.
-SurfaceMesh join_parts(const PatchPart& a, const PatchPart& b);
+/// Two such parts, of different faces or sections, as places and triangles of one mesh: those of `a`, then of `b`.
+SurfaceMesh weld_parts(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& a, const FacePatch& b);
 
 }  // namespace st

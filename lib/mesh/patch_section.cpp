@@ -1,9 +1,11 @@
 #include "mesh/patch_section.h"
 
-#include <algorithm>
+#include <numeric>
 #include <utility>
+#include <vector>
 
 #include "base/threads.h"
+#include "mesh/merge.h"
 
 namespace st {
 namespace {
@@ -12,27 +14,28 @@ constexpr std::size_t kPerPiece = 65'536;
 
 }  // namespace
 
-FacePatch rows_of(PatchSection&& section, std::span<const PatchPlace> places, std::size_t own) {
-  FacePatch p = std::move(section.patch);
+FacePatch rows_of(FacePatch&& section, std::span<const PatchPlace> places, std::size_t own) {
+  FacePatch p = std::move(section);
   if (places.size() == 1) return p;
-  const std::int32_t n_boundary = places.back().n_boundary;
-  const std::int32_t n_local = p.n_boundary, n_own = static_cast<std::int32_t>(p.inner_xyz.size()) - section.n_foreign;
-  std::vector<NodeId> foreign;  // where other sections have them
-  for (const NodeKey key : std::span(section.shared_key).last(section.n_foreign)) {
-    const InnerNode node = inner_node(key);
-    foreign.push_back(static_cast<NodeId>(n_boundary + places[node.section].inner_begin + node.number));
+  const std::int32_t n_boundary = places.back().n_boundary, n_own = p.n_own();
+  std::vector<std::int32_t> ids = std::exchange(p.boundary_number, {}), n_inner;
+  const bool has_all = ids.empty();
+  if (has_all) {
+    ids.resize(p.n_boundary);
+    std::iota(ids.begin(), ids.end(), 0);
   }
-  const SectionNumbers number(n_local, section.boundary_number, n_own,
-                              static_cast<NodeId>(n_boundary + places[own].inner_begin), std::move(foreign));
+  for (const PatchPlace& place : places) n_inner.push_back(place.n_inner);
+  const std::vector<NodeId> number = PatchNumbers::of_sections(n_boundary, n_inner).of_piece(own, ids, n_own, p.owner);
   parallel_for(p.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
-      for (NodeId& n : p.triangles[t].n) n = number(n);
+      for (NodeId& n : p.triangles[t].n) n = number[n];
   });
   for (std::int32_t& corner : p.uv_corner) corner += static_cast<std::int32_t>(3 * places[own].triangle_begin);
   p.inner_xyz.resize(n_own);
   p.inner_uv.resize(n_own);
   p.inner_size.resize(n_own);
-  if (!section.is_whole_boundary) {
+  p.owner = {};
+  if (!has_all) {
     p.boundary_dim.clear();
     p.boundary_entity.clear();
     p.boundary_index.clear();

@@ -19,8 +19,14 @@ struct Triangle {
   NodeId n[3];
 };
 
+/// A node inside a face, by the section of its patch that owns it and its number there.
+struct InnerNode {
+  std::int32_t section, number;
+};
+
 /// Triangulation of one CAD face. Nodes [0, n_boundary) lie on the face's edges and vertices and name their entity; the
-/// rest are inside.
+/// rest are inside. A section of it has some of its triangles, with the nodes of these: those inside that other
+/// sections own come last.
 struct FacePatch {
   FaceId face = kNone;
   std::int32_t n_boundary = 0;
@@ -37,10 +43,14 @@ struct FacePatch {
   std::vector<NodeId> inner_previous;   ///< empty, or [n_inner] number in the mesh that st-remesh started from, kNone:
                                         ///< new
   std::vector<TriangleId> triangle_previous;  ///< likewise [n_triangles]
+  std::vector<InnerNode> owner;               ///< of the last inner nodes of a section; none of a whole patch
+  std::vector<std::int32_t> boundary_number;  ///< of a section: [n_boundary] in the whole patch; empty: it has all
 
+  std::int32_t n_own() const { return static_cast<std::int32_t>(inner_xyz.size() - owner.size()); }
   static auto fields(auto& p) {
     return std::tie(p.face, p.n_boundary, p.boundary_dim, p.boundary_entity, p.boundary_index, p.inner_xyz, p.inner_uv,
-                    p.inner_size, p.triangles, p.uv_corner, p.own_uv, p.inner_previous, p.triangle_previous);
+                    p.inner_size, p.triangles, p.uv_corner, p.own_uv, p.inner_previous, p.triangle_previous, p.owner,
+                    p.boundary_number);
   }
 };
 

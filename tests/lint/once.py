@@ -28,7 +28,8 @@ ONCE = [
     ("whether a place is finite", r"\bbool is_finite\(|isfinite\(\w+(?:\.\w+)*\.x\)", "lib/base/finite.h"),
     ("the axis along which a box is longest", r"\.x >= \w+\.y && \w+\.x >= \w+\.z \? 0", "lib/base/axis.h"),
     ("a triangle that has a node twice", r"\bbool has_repeated_node\(", "lib/mesh/adjacency.h"),
-    ("what a section's nodes are called in the mesh of all", r"< n_own_? \? .*\+ \w+ :", "lib/mesh/patch_section.h"),
+    ("what a section's nodes are called in the mesh of all", r"inner_begin\[\w+\.section\]|< n_own_? \? .*\+ \w+ :",
+     "lib/mesh/merge.cpp"),
     ("whether a face is joined to another", r"\bloops\((?:[^()]|\([^()]*\))*\)\.empty\(\)",
      "lib/geometry/model/model.h"),
 ]
@@ -38,6 +39,7 @@ FEW = [
      ("lib/mesh", "lib/meshing"), 3, "FacePatch, or FaceMesh in a Piece"),
     ("addresses of patches", r"(?m)^struct (?:\w*Place\w* \{\n  FaceId face|FacePlace|Placed\w+|\w+Begin)\b",
      ("lib/mesh/patch", "lib/meshing/engine"), 1, "PatchPlace"),
+    ("weldings", r"(?m)^(?:struct|class) \w*(?:Numbers|Welder)\b", ("lib/mesh",), 1, "PatchNumbers"),
     ("keys of nodes", r"(?m)^(?:enum class \w*Key : std::int|(?:inline )?std::int64_t \w+_key\()", ("lib/",), 1,
      "NodeKey"),
 ]
@@ -121,6 +123,7 @@ PLANTS = [
     lint.Plant("lib/mesh/planted.h", "struct P { std::vector<Triangle> t; };\n", "types with triangles of their own"),
     lint.Plant("lib/meshing/engine/planted.h", "struct PlacedPatch {\n", "addresses of patches"),
     lint.Plant("lib/meshing/engine/planted.h", "struct TilePlace {\n  FaceId face;\n", "addresses of patches"),
+    lint.Plant("lib/mesh/planted.h", "class SectionNumbers {\n", "weldings"),
     lint.Plant("lib/mesh/planted.h", "std::int64_t node_key(NodeId n);\n", "keys of nodes"),
     lint.Plant("lib/mesh/planted.h", "struct P { int " + ", ".join(f"m{i}" for i in range(16)) + "; };\n",
                "classes have more than 15 members"),

@@ -4,27 +4,22 @@
 #include <vector>
 
 #include "mesh/corner_uv.h"
-#include "mesh/patch_section.h"
+#include "mesh/surface_mesh.h"
 
 namespace st::test {
 
 /// The first half of the triangles, which owns all nodes inside, and the other half.
-inline std::vector<PatchSection> in_two(const FacePatch& whole) {
+inline std::vector<FacePatch> in_two(const FacePatch& whole) {
   const std::vector<Vec2> uv = corner_uvs(whole);
   const std::size_t n = whole.triangles.size(), ends[] = {0, n / 2, n};
-  std::vector<PatchSection> two;
+  std::vector<FacePatch> two;
   for (int i = 0; i < 2; ++i) {
-    PatchSection s{whole};
-    s.patch.triangles.assign(whole.triangles.begin() + static_cast<std::ptrdiff_t>(ends[i]),
-                             whole.triangles.begin() + static_cast<std::ptrdiff_t>(ends[i + 1]));
-    s.is_whole_boundary = i == 1;
-    for (std::int32_t k = 0; k < whole.n_boundary; ++k) s.boundary_number.push_back(k);
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(whole.inner_xyz.size()); ++k) {
-      s.shared.push_back(k);
-      s.shared_key.push_back(inner_key(0, k));
-    }
-    s.n_foreign = i == 1 ? static_cast<std::int32_t>(whole.inner_xyz.size()) : 0;
-    set_corner_uvs(std::span(uv).subspan(3 * ends[i], 3 * s.patch.triangles.size()), s.patch);
+    FacePatch s = whole;
+    s.triangles.assign(whole.triangles.begin() + static_cast<std::ptrdiff_t>(ends[i]),
+                       whole.triangles.begin() + static_cast<std::ptrdiff_t>(ends[i + 1]));
+    for (std::int32_t k = 0; i == 0 && k < whole.n_boundary; ++k) s.boundary_number.push_back(k);
+    for (std::int32_t k = 0; i == 1 && k < std::ssize(whole.inner_xyz); ++k) s.owner.push_back({0, k});
+    set_corner_uvs(std::span(uv).subspan(3 * ends[i], 3 * s.triangles.size()), s);
     two.push_back(std::move(s));
   }
   return two;

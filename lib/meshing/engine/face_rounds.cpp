@@ -159,7 +159,7 @@ std::string FaceRounds::made_from() const {
 /// Local, on any rank: the patch, or its last section, stays here.
 FaceRounds::FaceReport FaceRounds::keep(FaceResult&& result) {
   PatchPlace& place = result.report.place;
-  place = faces_.keep(std::move(result.section), place.section, version_);
+  place = faces_.keep(std::move(result.patch), place.section, version_);
   return std::move(result.report);
 }
 
@@ -167,7 +167,7 @@ FaceRounds::FaceReport FaceRounds::keep(FaceResult&& result) {
 Bytes FaceRounds::record_whole(const Bytes& bytes) const {
   FaceReport report;
   unpack(bytes, report);
-  if (!report.place.is_there()) return packed(PatchSection(), report);
+  if (!report.place.is_there()) return packed(FacePatch(), report);
   return packed(*faces_.store().get(report.place), report);
 }
 
@@ -206,7 +206,7 @@ FaceRounds::FaceResult FaceRounds::mesh_seams_of(FaceId f, TiledRegions& tiled) 
   if (!is_parted || result.report.cause != FailureCause::kNone) return result;
   result.report.is_parted = true;
   result.report.place.section = tiled.n_sections_of(f);
-  set_owners(seams.owner, result.section);
+  result.patch.owner = std::move(seams.owner);
   return result;
 }
 
@@ -231,8 +231,8 @@ std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<Fac
       tasks,
       [&](std::int32_t task) {
         const auto [f, index] = tiled.section(sections[task]);
-        PatchSection section = make_section(tables(), f, index, tiled.take(sections[task]), faces_.numbering());
-        const char is_sound = has_numbers_only(section.patch);
+        FacePatch section = make_section(tables(), f, tiled.take(sections[task]), faces_.numbering());
+        const char is_sound = has_numbers_only(section);
         if (!is_sound) return packed(is_sound, PatchPlace());
         return packed(is_sound, faces_.keep(std::move(section), index, version_));
       },
@@ -264,7 +264,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
   FaceResult result;
   FaceReport& report = result.report;
   FaceBoundary boundary;
-  result.section.patch.face = f;
+  result.patch.face = f;
   try {
     if (const auto it = options_.left_out.find(f); it != options_.left_out.end())
       throw Error(ExitCode::kInternal, it->second);
@@ -273,11 +273,10 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
     const FaceField field(field_, refinements_, tables().face_box[f]);
     mesh = make_mesh(*surface, boundary, field.get());
     repair_folds(*surface, boundary, field.get(), options_.of_face(), mesh);
-    if (mesh.cause == FailureCause::kNone)
-      result.section.patch = make_patch(tables(), f, boundary, mesh, faces_.numbering());
-    if (!has_numbers_only(result.section.patch)) {
-      result.section.patch = FacePatch();
-      result.section.patch.face = f;
+    if (mesh.cause == FailureCause::kNone) result.patch = make_patch(tables(), f, boundary, mesh, faces_.numbering());
+    if (!has_numbers_only(result.patch)) {
+      result.patch = FacePatch();
+      result.patch.face = f;
       throw Error(ExitCode::kGeometry,
                   "a place or (u,v) of its mesh is no number; repair its surface in the CAD system");
     }

@@ -58,10 +58,10 @@ class FaceRounds : public MeshRounds {
     }
   };
   struct FaceResult {
-    PatchSection section;
+    FacePatch patch;  // or the last section of it
     FaceReport report;
 
-    static auto fields(auto& x) { return std::tie(x.section, x.report); }
+    static auto fields(auto& x) { return std::tie(x.patch, x.report); }
   };
   using MakeMesh = std::function<FaceMesh(const Surface&, const FaceBoundary&, const SizeField&)>;
   FaceResult make_face(FaceId f, const MakeMesh& make_mesh) const;

@@ -40,7 +40,7 @@ void MeshedFaces::set(FaceId f, FacePlace place, FaceOutcome outcome) {
 }
 
 void MeshedFaces::put(FaceId f, FacePatch&& patch) {
-  places_[f] = place_of(store_.put({std::move(patch)}, 0, --own_version_, edges_, tables_.vertex_xyz));
+  places_[f] = place_of(store_.put(std::move(patch), 0, --own_version_, edges_, tables_.vertex_xyz));
   crossings_.renew(f);
 }
 

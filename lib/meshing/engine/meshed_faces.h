@@ -54,7 +54,7 @@ class MeshedFaces {
   std::vector<Vec3> nodes_of(const FacePatch& patch) const;
   const PatchStore& store() const { return store_; }
   /// Local, on any rank: a section stays here, of the present edges. `version`: of the round, not below 0.
-  PatchPlace keep(PatchSection&& section, std::int32_t number, std::int64_t version) {
+  PatchPlace keep(FacePatch&& section, std::int32_t number, std::int64_t version) {
     return store_.put(std::move(section), number, version, edges_, tables_.vertex_xyz);
   }
   CrossingSearch& crossings() { return crossings_; }

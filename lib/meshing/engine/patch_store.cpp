@@ -23,30 +23,35 @@ std::int64_t n_triangles_of(const FacePlace& place) {
   return place.empty() ? 0 : place.back().triangle_begin + place.back().n_triangles;
 }
 
-PatchPlace PatchStore::put(PatchSection&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
+PatchPlace PatchStore::put(FacePatch&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
                            std::span<const Vec3> vertex_xyz) {
   PatchPlace place;
-  place.face = section.patch.face;
+  place.face = section.face;
   place.section = number;
-  if (section.patch.triangles.empty()) return place;
-  auto stored = std::make_shared<PatchSection>(std::move(section));
-  const FacePatch& p = stored->patch;
-  stored->blocks = PatchBlocks(edges, vertex_xyz, p);
+  if (section.triangles.empty()) return place;
+  auto stored = std::make_shared<FacePatch>(std::move(section));
+  const FacePatch& p = *stored;
+  auto blocks = std::make_shared<const PatchBlocks>(edges, vertex_xyz, p);
   place.rank = executor_.rank();
   place.version = version;
   place.n_boundary = p.n_boundary;
-  place.n_inner = stored->n_own();
+  place.n_inner = p.n_own();
   place.n_triangles = static_cast<std::int32_t>(p.triangles.size());
   place.n_own_uv = static_cast<std::int32_t>(p.uv_corner.size());
-  place.box = stored->blocks.box();
+  place.box = blocks->box();
   const std::lock_guard lock(mutex_);
-  patches_[key(place)] = std::move(stored);
+  patches_[key(place)] = {std::move(stored), std::move(blocks)};
   return place;
 }
 
-std::shared_ptr<const PatchSection> PatchStore::get(const PatchPlace& place) const {
+std::shared_ptr<const FacePatch> PatchStore::get(const PatchPlace& place) const {
   const std::lock_guard lock(mutex_);
-  return patches_.at(key(place));
+  return patches_.at(key(place)).first;
+}
+
+std::shared_ptr<const PatchBlocks> PatchStore::blocks(const PatchPlace& place) const {
+  const std::lock_guard lock(mutex_);
+  return patches_.at(key(place)).second;
 }
 
 FacePatch PatchStore::take(const FacePlace& place, std::size_t number) {
@@ -54,7 +59,7 @@ FacePatch PatchStore::take(const FacePlace& place, std::size_t number) {
   auto node = patches_.extract(key(place[number]));
   lock.unlock();
   ST_ASSERT(!node.empty());
-  return rows_of(std::move(*node.mapped()), place, number);
+  return rows_of(std::move(*node.mapped().first), place, number);
 }
 
 void PatchStore::keep_only(const std::vector<PatchPlace>& live) {
@@ -87,7 +92,7 @@ std::vector<FacePatch> PatchStore::bring(std::vector<FacePlace> wanted) const {
       tasks,
       [&](std::int32_t task) {
         const auto [face, number] = sections[task];
-        PatchSection copy = *get(wanted[face][number]);
+        FacePatch copy = *get(wanted[face][number]);
         return packed(rows_of(std::move(copy), wanted[face], number));
       },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, rows[sections[task].face][sections[task].number]); });

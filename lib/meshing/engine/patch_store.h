@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/executor.h"
+#include "mesh/patch_blocks.h"
 #include "mesh/patch_section.h"
 #include "mesh/surface_mesh.h"
 
@@ -32,11 +33,13 @@ class PatchStore {
   explicit PatchStore(const Executor& executor) : executor_(executor) {}
 
   /// Keeps a section whose boundary has its nodes on these edges; one without triangles is dropped.
-  PatchPlace put(PatchSection&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
+  PatchPlace put(FacePatch&& section, std::int32_t number, std::int64_t version, const EdgeMesh& edges,
                  std::span<const Vec3> vertex_xyz);
   bool is_own(const PatchPlace& place) const { return place.rank == executor_.rank(); }
   /// Precondition: it is kept here.
-  std::shared_ptr<const PatchSection> get(const PatchPlace& place) const;
+  std::shared_ptr<const FacePatch> get(const PatchPlace& place) const;
+  /// Likewise, of its triangles.
+  std::shared_ptr<const PatchBlocks> blocks(const PatchPlace& place) const;
   /// Takes what is not kept any more: section `number` of the patch that is there.
   FacePatch take(const FacePlace& place, std::size_t number);
   /// Drops all others. `live`: of other ranks, too.
@@ -52,7 +55,7 @@ class PatchStore {
 
   const Executor& executor_;
   mutable std::mutex mutex_;
-  std::map<Key, std::shared_ptr<PatchSection>> patches_;
+  std::map<Key, std::pair<std::shared_ptr<FacePatch>, std::shared_ptr<const PatchBlocks>>> patches_;
 };
 
 }  // namespace st

@@ -34,8 +34,6 @@ void FoundCrossings::append(const FoundCrossings& more) {
   ended.insert(ended.end(), more.ended.begin(), more.ended.end());
 }
 
-std::shared_ptr<const PatchSection> SectionSearch::own(std::int32_t s) const { return store_.get(sections_[s]); }
-
 /// The section that has the triangle.
 std::int32_t SectionSearch::section_of(const Facet& facet) const {
   const auto after = std::upper_bound(sections_.begin(), sections_.end(), facet, [](const Facet& f, const auto& s) {
@@ -60,8 +58,8 @@ double SectionSearch::weight(const SectionJob& job) const {
 }
 
 FoundCrossings SectionSearch::within(std::int32_t s) const {
-  const auto stored = own(s);
-  const FacePatch& p = stored->patch;
+  const auto stored = store_.get(sections_[s]);
+  const FacePatch& p = *stored;
   const std::vector<Vec3> xyz = node_places(numbering_.edges, numbering_.tables.vertex_xyz, p);
   const std::int32_t begin[] = {0, static_cast<std::int32_t>(p.triangles.size())}, body[] = {0};
   FoundCrossings found;
@@ -74,10 +72,21 @@ FoundCrossings SectionSearch::within(std::int32_t s) const {
 }
 
 /// Of `s`, at its rank: what is near `others`.
-PatchPart SectionSearch::near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const {
-  const auto stored = own(s);
-  return part_of(numbering_.edges, numbering_.tables.vertex_xyz, *stored, stored->blocks.meeting(others),
-                 is_of_one_face);
+FacePatch SectionSearch::near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const {
+  const PatchPlace& place = sections_[s];
+  const auto blocks = store_.blocks(place);
+  return part_of(numbering_.edges, numbering_.tables.vertex_xyz, *store_.get(place), *blocks, blocks->meeting(others),
+                 is_of_one_face ? place.section : kNone);
+}
+
+/// Some triangles each, which are near each other as they come from the blocks of a section.
+PatchBlocks SectionSearch::blocks_of(const FacePatch& part) const {
+  constexpr std::size_t kTriangles = 16;
+  std::vector<Box3> boxes((part.triangles.size() + kTriangles - 1) / kTriangles);
+  for (std::size_t t = 0; t < part.triangles.size(); ++t)
+    for (const NodeId n : part.triangles[t].n)
+      boxes[t / kTriangles].add(node_place(numbering_.edges, numbering_.tables.vertex_xyz, part, n));
+  return PatchBlocks(std::move(boxes));
 }
 
 Bytes SectionSearch::answer(const Bytes& request) const {
@@ -95,26 +104,22 @@ std::array<std::int32_t, 2> SectionSearch::here_and_there(const SectionJob& job)
   return store_.is_own(sections_[job.a]) ? std::array{job.a, job.b} : std::array{job.b, job.a};
 }
 
-bool SectionSearch::is_of_one_face(const SectionJob& job) const {
-  return sections_[job.a].face == sections_[job.b].face;
-}
-
-std::vector<PatchPart> SectionSearch::near_others(const std::vector<SectionJob>& jobs) const {
-  std::vector<PatchPart> parts(jobs.size());
+std::vector<FacePatch> SectionSearch::near_others(const std::vector<SectionJob>& jobs) const {
+  std::vector<FacePatch> parts(jobs.size());
   std::vector<Request> requests;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (jobs[i].a == jobs[i].b) continue;
     const auto [here, there] = here_and_there(jobs[i]);
     const PatchPlace& place = sections_[there];
-    const auto other = own(here);
+    const auto blocks = store_.blocks(sections_[here]);
     if (store_.is_own(place)) {
-      parts[i] = near(there, other->blocks, is_of_one_face(jobs[i]));
+      parts[i] = near(there, *blocks, is_of_one_face(jobs[i]));
       executor_.has_own(PackedSize::of(parts[i]));
       continue;
     }
     std::vector<Box3> boxes;
-    for (const PatchBlocks::Meeting& m : other->blocks.meeting(place.box)) boxes.push_back(other->blocks[m.block]);
+    for (const PatchBlocks::Meeting& m : blocks->meeting(place.box)) boxes.push_back((*blocks)[m.block]);
     if (boxes.empty()) continue;
     requests.push_back({place.rank, packed(std::vector<Facet>(), there, boxes, is_of_one_face(jobs[i]))});
     asked.push_back(i);
@@ -124,23 +129,24 @@ std::vector<PatchPart> SectionSearch::near_others(const std::vector<SectionJob>&
   return parts;
 }
 
-FoundCrossings SectionSearch::between(const SectionJob& job, const PatchPart& other) const {
+FoundCrossings SectionSearch::between(const SectionJob& job, const FacePatch& other) const {
   const auto [here, there] = here_and_there(job);
   const bool has_a = here == job.a;
   FoundCrossings found;
-  if (other.triangle.empty()) return found;
-  const PatchPart near_here = near(here, PatchBlocks(other.boxes), is_of_one_face(job));
-  const PatchPart &a = has_a ? near_here : other, &b = has_a ? other : near_here;
-  const SurfaceMesh both = join_parts(a, b);
-  const auto n_first = static_cast<std::int32_t>(a.triangle.size());
+  if (other.triangles.empty()) return found;
+  const FacePatch near_here = near(here, blocks_of(other), is_of_one_face(job));
+  const FacePatch &a = has_a ? near_here : other, &b = has_a ? other : near_here;
+  const SurfaceMesh both = weld_parts(numbering_.edges, numbering_.tables.vertex_xyz, a, b);
+  const auto n_first = static_cast<std::int32_t>(a.triangles.size());
   bool was_ended = false;
   for (const TrianglePair& pair : find_crossings_between(both.node_xyz, both.triangles, n_first, was_ended))
-    add(facet(job.a, a.triangle[pair.a]), facet(job.b, b.triangle[pair.b - n_first]), pair.n_shared, found.pairs);
+    add(facet(job.a, a.triangle_previous[pair.a]), facet(job.b, b.triangle_previous[pair.b - n_first]), pair.n_shared,
+        found.pairs);
   if (was_ended) found.ended.push_back({sections_[job.a].face, sections_[job.b].face});
   return found;
 }
 
-FoundCrossings SectionSearch::find(const SectionJob& job, const PatchPart& other) const {
+FoundCrossings SectionSearch::find(const SectionJob& job, const FacePatch& other) const {
   FoundCrossings found = job.a == job.b ? within(job.a) : between(job, other);
   if (!found.ended.empty())
     for (FacetPair& p : found.pairs) p.factor = FacetPair::kHopeless;
@@ -149,8 +155,8 @@ FoundCrossings SectionSearch::find(const SectionJob& job, const PatchPart& other
 
 FacetCorners SectionSearch::corners(const Facet& facet) const {
   const std::int32_t s = section_of(facet);
-  const auto stored = own(s);
-  const FacePatch& p = stored->patch;
+  const auto stored = store_.get(sections_[s]);
+  const FacePatch& p = *stored;
   const auto t = static_cast<std::size_t>(facet.index - sections_[s].triangle_begin);
   const NodeId* n = p.triangles[t].n;
   FacetCorners corners{{}, std::max({n[0], n[1], n[2]}) < p.n_boundary};

@@ -89,27 +89,13 @@ bool has_numbers_only(const FacePatch& patch) {
   return sum == 0;
 }
 
-PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, Piece&& piece,
-                          const BoundaryNumbering& numbering) {
+FacePatch make_section(const ModelTables& t, FaceId face, Piece&& piece, const BoundaryNumbering& numbering) {
   FaceBoundary boundary;
   boundary.nodes = std::move(piece.boundary);
-  PatchSection section;
-  section.patch = make_patch(t, face, boundary, piece.mesh, numbering);
+  FacePatch section = make_patch(t, face, boundary, piece.mesh, numbering);
   section.boundary_number = std::move(piece.boundary_number);
-  section.is_whole_boundary = false;
-  for (const std::int32_t i : piece.shared) section.shared_key.push_back(inner_key(number, i));
-  section.shared = std::move(piece.shared);
-  set_owners(piece.owner, section);
+  section.owner = std::move(piece.owner);
   return section;
-}
-
-void set_owners(std::span<const InnerNode> owner, PatchSection& section) {
-  section.n_foreign = static_cast<std::int32_t>(owner.size());
-  const std::int32_t first = section.n_own();
-  for (std::int32_t i = 0; i < section.n_foreign; ++i) {
-    section.shared.push_back(first + i);
-    section.shared_key.push_back(inner_key(owner[i].section, owner[i].number));
-  }
 }
 
 }  // namespace st

@@ -1,11 +1,7 @@
 // A face's patch: made from its mesh.
 #pragma once
 
-#include <cstdint>
-#include <span>
-
 #include "geometry/model/model.h"
-#include "mesh/patch_section.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/face/face_boundary.h"
 #include "meshing/face/face_mesher.h"
@@ -21,11 +17,7 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
 /// none where the loops of a face are known in space alone.
 bool has_numbers_only(const FacePatch& patch);
 
-/// A section likewise, of this number.
-PatchSection make_section(const ModelTables& t, FaceId face, std::int32_t number, Piece&& piece,
-                          const BoundaryNumbering& numbering);
-
-/// The nodes of other sections, which are the last inner ones.
-void set_owners(std::span<const InnerNode> owner, PatchSection& section);
+/// A section likewise.
+FacePatch make_section(const ModelTables& t, FaceId face, Piece&& piece, const BoundaryNumbering& numbering);
 
 }  // namespace st

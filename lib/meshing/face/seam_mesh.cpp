@@ -9,7 +9,7 @@
 #include "base/parallel_reserve.h"
 #include "base/sort_once.h"
 #include "base/threads.h"
-#include "mesh/patch_section.h"
+#include "mesh/merge.h"
 #include "meshing/face/face_check.h"
 
 namespace st {
@@ -95,7 +95,6 @@ class SectionSplitter {
       in_rest_[i] = size_of(split_.rest.mesh.inner);
       split_.rest.mesh.inner.push_back(whole_.mesh.inner[i]);
       if (i >= n_own) split_.rest.owner.push_back(whole_.owner[i - n_own]);
-      if (i < n_own && uses(i) & kInBand) split_.rest.shared.push_back(in_rest_[i]);
     }
     Piece& band = split_.band;
     const auto add = [&](std::int32_t i) {
@@ -238,16 +237,17 @@ class SeamMesher {
 
   void add_triangles() {
     const std::int32_t n_boundary = size_of(boundary_.nodes);
-    std::vector<std::int32_t> fixed(n_fixed_);
-    std::iota(fixed.begin(), fixed.end(), 0);
+    std::vector<std::int32_t> number(n_fixed_);
+    std::iota(number.begin(), number.end(), 0);
     for (std::int32_t i = n_face_; i < n_fixed_; ++i)
-      if (is_inside_[i - n_face_]) fixed[i] = n_boundary + number_of_cut_[i - n_face_];
+      if (is_inside_[i - n_face_]) number[i] = n_boundary + number_of_cut_[i - n_face_];
     for (std::size_t i = 0; i < bands_.size(); ++i) {
       Piece& band = bands_[i];
-      std::vector<NodeId> rim(band.owner.size());
-      std::iota(rim.begin(), rim.end(), first_rim_[i]);
-      const SectionNumbers number(n_fixed_, fixed, band.n_own(), n_boundary + first_own_[i], std::move(rim));
-      for (const std::int32_t c : band.mesh.corners) mesh_.corners.push_back(number(c));
+      number.resize(n_fixed_ + band.mesh.inner.size());
+      const auto rim = number.begin() + n_fixed_ + band.n_own();
+      std::iota(number.begin() + n_fixed_, rim, n_boundary + first_own_[i]);
+      std::iota(rim, number.end(), first_rim_[i]);
+      for (const std::int32_t c : band.mesh.corners) mesh_.corners.push_back(number[c]);
       seams_.sides.insert(seams_.sides.end(), band.sides.begin(), band.sides.end());
       band = {};
     }
@@ -350,30 +350,27 @@ FaceMesh join_sections(std::int32_t n_boundary, std::vector<Piece> sections, Pie
   FaceMesh joined;
   joined.n_folds = seams.mesh.n_folds;
   joined.refinement = seams.mesh.refinement;
-  std::vector<std::size_t> first_inner{0}, first_corner{0};
+  seams.number.resize(n_boundary);
+  std::iota(seams.number.begin(), seams.number.end(), 0);
   sections.push_back(std::move(seams));
+  std::vector<std::size_t> first_corner{0};
+  std::vector<std::int32_t> n_own;
   for (const Piece& s : sections) {
-    first_inner.push_back(first_inner.back() + s.n_own());
+    n_own.push_back(s.n_own());
     first_corner.push_back(first_corner.back() + s.mesh.corners.size());
   }
-  parallel_reserve(joined.inner, first_inner.back());
+  const PatchNumbers numbers = PatchNumbers::of_sections(n_boundary, n_own);
+  const auto n_inner = static_cast<std::size_t>(numbers.n_nodes() - n_boundary);
+  parallel_reserve(joined.inner, n_inner);
   parallel_reserve(joined.corners, first_corner.back());
-  joined.inner.resize(first_inner.back());
+  joined.inner.resize(n_inner);
   joined.corners.resize(first_corner.back());
   parallel_for(sections.size(), 1, [&](std::size_t i, std::size_t) {
     const Piece& s = sections[i];
-    const bool is_last = i + 1 == sections.size();
-    const std::int32_t n_own = s.n_own();
-    const auto first = [&](std::size_t section) {
-      return n_boundary + static_cast<std::int32_t>(first_inner[section]);
-    };
-    std::vector<NodeId> foreign;
-    for (const InnerNode& n : s.owner) foreign.push_back(first(n.section) + n.number);
-    const SectionNumbers number(is_last ? n_boundary : size_of(s.boundary), s.number, n_own, first(i),
-                                std::move(foreign));
-    std::transform(s.mesh.corners.begin(), s.mesh.corners.end(), joined.corners.begin() + first_corner[i],
-                   [&](std::int32_t c) { return number(c); });
-    std::copy(s.mesh.inner.begin(), s.mesh.inner.begin() + n_own, joined.inner.begin() + first_inner[i]);
+    const std::vector<NodeId> number = numbers.of_piece(i, s.number, n_own[i], s.owner);
+    std::ranges::transform(s.mesh.corners, joined.corners.begin() + first_corner[i],
+                           [&](std::int32_t c) { return number[c]; });
+    std::copy_n(s.mesh.inner.begin(), n_own[i], joined.inner.begin() + numbers.inner_begin[i] - n_boundary);
   });
   return joined;
 }

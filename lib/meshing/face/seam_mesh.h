@@ -11,7 +11,7 @@
 #include <tuple>
 #include <vector>
 
-#include "mesh/node_key.h"
+#include "mesh/surface_mesh.h"
 #include "meshing/face/tile_groups.h"
 #include "meshing/face/tile_seams.h"
 
@@ -32,12 +32,9 @@ struct Piece {
   // of a section
   std::vector<std::int32_t> number;           ///< of each among the nodes of the face's boundary
   std::vector<std::int32_t> boundary_number;  ///< of their ids, ascending, once each, among all of the face's boundary
-  std::vector<std::int32_t> shared;           ///< ascending: inner nodes of its own that others have, too
 
   std::int32_t n_own() const { return static_cast<std::int32_t>(mesh.inner.size() - owner.size()); }
-  static auto fields(auto& x) {
-    return std::tie(x.mesh, x.owner, x.sides, x.boundary, x.number, x.boundary_number, x.shared);
-  }
+  static auto fields(auto& x) { return std::tie(x.mesh, x.owner, x.sides, x.boundary, x.number, x.boundary_number); }
 };
 
 /// What a section keeps, and what it gives away.

@@ -10,6 +10,7 @@
 #include "base/packer.h"
 
 #include "mesh/corner_uv.h"
+#include "mesh/node_key.h"
 #include "mesh/patch_blocks.h"
 
 namespace st {
@@ -39,13 +40,12 @@ FacePatch whole_patch() {
 }
 
 /// Those about node 6, those about node 7, and those between, which have neither of these nodes.
-std::vector<PatchSection> in_three(const FacePatch& whole) {
+std::vector<FacePatch> in_three(const FacePatch& whole) {
   const std::vector<Vec2> uv = corner_uvs(whole);
-  std::vector<PatchSection> sections(3);
+  std::vector<FacePatch> sections(3);
   const auto fill = [&](std::int32_t number, const std::vector<std::int32_t>& boundary, std::int32_t inner,
                         const std::vector<Triangle>& triangles, std::size_t first) {
-    PatchSection& s = sections[number];
-    FacePatch& p = s.patch;
+    FacePatch& p = sections[number];
     p.face = whole.face;
     p.n_boundary = static_cast<std::int32_t>(boundary.size());
     for (const std::int32_t b : boundary) {
@@ -57,34 +57,30 @@ std::vector<PatchSection> in_three(const FacePatch& whole) {
     p.inner_uv = {whole.inner_uv[inner]};
     p.inner_size = {whole.inner_size[inner]};
     p.triangles = triangles;
-    s.is_whole_boundary = false;
-    s.boundary_number = boundary;
-    s.shared = {0};
-    s.shared_key = {inner_key(number, 0)};
+    p.boundary_number = boundary;
     set_corner_uvs(std::span(uv).subspan(3 * first, 3 * triangles.size()), p);
   };
   fill(0, {0, 1, 4, 5}, 0, {{{2, 3, 4}}, {{3, 0, 4}}, {{0, 1, 4}}}, 0);
   fill(1, {2, 3, 4}, 1, {{{0, 1, 3}}, {{1, 2, 3}}}, 3);
-  PatchSection& last = sections[2];
-  last.patch = whole;
-  last.patch.triangles.erase(last.patch.triangles.begin(), last.patch.triangles.begin() + 5);
-  last.n_foreign = 2;
-  last.shared = {0, 1};
-  last.shared_key = {inner_key(0, 0), inner_key(1, 0)};
-  set_corner_uvs(std::span(uv).subspan(15), last.patch);
+  FacePatch& last = sections[2];
+  last = whole;
+  last.triangles.erase(last.triangles.begin(), last.triangles.begin() + 5);
+  last.owner = {{0, 0}, {1, 0}};
+  set_corner_uvs(std::span(uv).subspan(15), last);
   return sections;
 }
 
 TEST(PatchSection, rows_of_all_are_the_patch) {
   const FacePatch whole = whole_patch();
-  std::vector<PatchSection> sections = in_three(whole);
+  std::vector<FacePatch> sections = in_three(whole);
   std::vector<PatchPlace> places(3);
+  for (std::size_t i = 0; i < 3; ++i) places[i].n_inner = sections[i].n_own();
   places[2].n_boundary = 6;
   for (std::size_t i = 1; i < 3; ++i) {
-    const PatchSection& before = sections[i - 1];
+    const FacePatch& before = sections[i - 1];
     places[i].inner_begin = places[i - 1].inner_begin + before.n_own();
-    places[i].triangle_begin = places[i - 1].triangle_begin + std::ssize(before.patch.triangles);
-    places[i].own_uv_begin = places[i - 1].own_uv_begin + std::ssize(before.patch.uv_corner);
+    places[i].triangle_begin = places[i - 1].triangle_begin + std::ssize(before.triangles);
+    places[i].own_uv_begin = places[i - 1].own_uv_begin + std::ssize(before.uv_corner);
   }
   EXPECT_EQ(places[2].inner_begin + sections[2].n_own(), 2);
   std::vector<FacePatch> rows;
@@ -96,8 +92,7 @@ TEST(PatchSection, rows_of_all_are_the_patch) {
 
 TEST(PatchSection, alone_is_the_patch) {
   const FacePatch whole = whole_patch();
-  PatchSection section;
-  section.patch = whole;
+  FacePatch section = whole;
   const PatchPlace places[1] = {};
   std::vector<FacePatch> rows;
   rows.push_back(rows_of(std::move(section), places, 0));
@@ -110,33 +105,31 @@ TEST(PatchSection, keys_of_inner_nodes_differ_from_each_other_and_from_those_on_
   std::set<NodeKey> keys;
   for (const std::int32_t section : {0, 1, 7000, kMost})
     for (const std::int32_t number : {0, 1, 7000, kMost}) {
-      const NodeKey key = inner_key(section, number);
-      EXPECT_EQ(inner_node(key).section, section);
-      EXPECT_EQ(inner_node(key).number, number);
-      keys.insert(key);
+      keys.insert(inner_key({section, number}));
     }
   EXPECT_EQ(keys.size(), 16u);
   EXPECT_LT(*keys.rbegin(), boundary_key(EntityDim::kVertex, 0, 0));
 }
 
 TEST(PatchSection, parts_of_one_face_have_common_nodes_where_they_share_them_and_those_of_two_faces_do_not) {
-  std::vector<PatchSection> all = in_three(whole_patch());
-  PatchSection &one = all[0], &other = all[2];
+  const std::vector<FacePatch> all = in_three(whole_patch());
+  const FacePatch &one = all[0], &other = all[2];
   const std::vector<Vec3> vertices = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0},
                                       {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, 0, 0},
                                       {3, 1, 0}, {2, 2, 0}, {1, 2, 0}, {0, 1, 0}};
   const EdgeMesh edges = EdgeMesh::of_edges(0);
-  for (PatchSection* s : {&one, &other}) s->blocks = PatchBlocks(edges, vertices, s->patch);
+  const PatchBlocks of_one(edges, vertices, one), of_other(edges, vertices, other);
   for (const bool is_of_one_face : {true, false}) {
-    const PatchPart of_a = part_of(edges, vertices, one, one.blocks.meeting(other.blocks), is_of_one_face),
-                    of_b = part_of(edges, vertices, other, other.blocks.meeting(one.blocks), is_of_one_face);
-    const SurfaceMesh both = join_parts(of_a, of_b);
+    const auto number = [&](std::int32_t n) { return is_of_one_face ? n : kNone; };
+    const FacePatch of_a = part_of(edges, vertices, one, of_one, of_one.meeting(of_other), number(0)),
+                    of_b = part_of(edges, vertices, other, of_other, of_other.meeting(of_one), number(2));
+    const SurfaceMesh both = weld_parts(edges, vertices, of_a, of_b);
     ASSERT_EQ(both.triangles.size(), 6u);
     std::map<std::array<double, 2>, std::set<NodeId>> at;
     for (const Triangle& t : both.triangles)
       for (const NodeId n : t.n) at[{both.node_xyz[n].x, both.node_xyz[n].y}].insert(n);
     EXPECT_EQ((at[{2, 0}].size()), 1u) << "on the boundary";
-    EXPECT_EQ((at[{1, 1}].size()), is_of_one_face ? 1u : 5u) << "inside";
+    EXPECT_EQ((at[{1, 1}].size()), is_of_one_face ? 1u : 2u) << "inside";
   }
 }
 

@@ -40,7 +40,7 @@ struct Search {
     places.clear();
     for (const FacePatch& p : patches) {
       std::vector<PatchPlace> two;
-      for (PatchSection& s : test::in_two(p))
+      for (FacePatch& s : test::in_two(p))
         two.push_back(store.put(std::move(s), static_cast<std::int32_t>(two.size()), version, meshed.result.edges,
                                 meshed.model.tables().vertex_xyz));
       places.push_back(place_of(std::move(two)));

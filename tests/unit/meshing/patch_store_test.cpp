@@ -15,13 +15,13 @@ TEST(PatchStore, gives_back_what_was_put_by_face_and_version) {
   const Meshed m("box", 8);
   PatchStore store(test::one_rank);
   const auto put = [&](FaceId f, std::int64_t version) {
-    return store.put({m.result.patches[f]}, 0, version, m.result.edges, m.model.tables().vertex_xyz);
+    return store.put(FacePatch(m.result.patches[f]), 0, version, m.result.edges, m.model.tables().vertex_xyz);
   };
   const PatchPlace a = put(0, 1), b = put(0, 2), c = put(3, 1);
   EXPECT_TRUE(store.is_own(a));
   EXPECT_EQ(a.n_triangles, static_cast<std::int32_t>(m.result.patches[0].triangles.size()));
   EXPECT_LT(distance(c.box.center(), m.model.tables().face_box[3].center()), 1e-9);
-  EXPECT_EQ(packed(store.get(c)->patch), packed(m.result.patches[3]));
+  EXPECT_EQ(packed(*store.get(c)), packed(m.result.patches[3]));
   const std::vector<FacePatch> copies = store.bring({place_of(c), place_of(b)});
   ASSERT_EQ(copies.size(), 2u);
   EXPECT_EQ(copies[0].face, 3);
@@ -32,14 +32,14 @@ TEST(PatchStore, gives_back_what_was_put_by_face_and_version) {
 TEST(PatchStore, drops_what_is_not_to_be_kept_and_keeps_nothing_of_an_empty_patch) {
   const Meshed m("box", 8);
   PatchStore store(test::one_rank);
-  const PatchPlace a = store.put({m.result.patches[0]}, 0, 1, m.result.edges, m.model.tables().vertex_xyz);
-  const PatchPlace b = store.put({m.result.patches[1]}, 0, 1, m.result.edges, m.model.tables().vertex_xyz);
+  const PatchPlace a = store.put(FacePatch(m.result.patches[0]), 0, 1, m.result.edges, m.model.tables().vertex_xyz);
+  const PatchPlace b = store.put(FacePatch(m.result.patches[1]), 0, 1, m.result.edges, m.model.tables().vertex_xyz);
   store.keep_only({a});
   EXPECT_NO_THROW(store.get(a));
   EXPECT_THROW(store.get(b), std::out_of_range);
   FacePatch empty;
   empty.face = 2;
-  EXPECT_FALSE(store.put({std::move(empty)}, 0, 1, m.result.edges, m.model.tables().vertex_xyz).is_there());
+  EXPECT_FALSE(store.put(std::move(empty), 0, 1, m.result.edges, m.model.tables().vertex_xyz).is_there());
 }
 
 TEST(FacePlace, has_the_rows_of_its_sections_one_after_the_other) {
@@ -64,7 +64,7 @@ TEST(PatchStore, keeps_sections_of_a_face_apart_and_brings_them_as_one_patch) {
   const FacePatch& whole = m.result.patches[0];
   PatchStore store(test::one_rank);
   std::vector<PatchPlace> places;
-  for (PatchSection& s : test::in_two(whole))
+  for (FacePatch& s : test::in_two(whole))
     places.push_back(store.put(std::move(s), static_cast<std::int32_t>(places.size()), 1, m.result.edges,
                                m.model.tables().vertex_xyz));
   const FacePlace place = place_of(places);
