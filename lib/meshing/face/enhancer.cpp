@@ -55,7 +55,7 @@ class Enhancer {
     is_active_.assign(m_.nodes.size(), 1);
     for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
       if (!is_inside(m_.triangles[i])) continue;
-      update(static_cast<std::int32_t>(i));
+      if (m_.triangles[i].state != kLaid) update(static_cast<std::int32_t>(i));
       for (std::int32_t v : m_.triangles[i].v) ++degree_[v];
     }
   }
@@ -344,7 +344,7 @@ class Enhancer {
   FaceWork& w_;
   Triangulation& m_;
   std::vector<float> ring_quality_;
-  std::vector<float> quality_;               // of each inside triangle, kept up to date
+  std::vector<float> quality_;               // of each inside triangle that may change, kept up to date
   std::uint32_t clock_ = 0;                  // counts the triangles that swap_sweeps() has tried
   std::vector<std::uint32_t> changed_;       // when each triangle got its quality
   std::vector<std::uint32_t> tried_;         // when its sides were last tried

@@ -14,10 +14,11 @@ Vec3 squeeze_of(const LocalSize& local, Vec3 normal) {
   return s - dot(s, normal) * normal;
 }
 
-void FaceWork::ask_sizes(MeshNode& n) {
+LocalSize FaceWork::ask_sizes(MeshNode& n) {
   const LocalSize local = field->local_on(n.x, n.normal, hint);
   n.request = n.h = local.length;
   n.squeeze = squeeze_of(local, n.normal);
+  return local;
 }
 
 bool FaceWork::is_runaway() {

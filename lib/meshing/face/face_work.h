@@ -34,8 +34,8 @@ struct FaceWork {
   void set_surface(const Surface& s);
   /// Of an evaluated node: the normal a little inside where the parametrisation is singular at the boundary.
   Vec3 reliable_normal(const MeshNode& n) const;
-  /// Sets request, h and squeeze of a node from the field.
-  void ask_sizes(MeshNode& n);
+  /// Sets request, h and squeeze of a node from the field. Returns what that told.
+  LocalSize ask_sizes(MeshNode& n);
   /// Fills uv, x, du, dv and the normal of a node from its p.
   void evaluate(MeshNode& n) const;
   /// Square of the length of an edge: in space, or along the surface where that is much longer. As all that is measured

@@ -39,7 +39,9 @@ constexpr int kMostInside = 12;  // lines that are tried
 
 class RidgeLayer {
  public:
-  explicit RidgeLayer(FaceWork& work) : w_(work), m_(work.mesh), beside_(work.segments.begin(), work.segments.end()) {}
+  explicit RidgeLayer(FaceWork& work) : w_(work), m_(work.mesh) {
+    for (const auto& [a, b] : work.segments) add_beside(a, b);
+  }
 
   std::vector<std::vector<std::int32_t>> run() {
     std::vector<std::vector<std::int32_t>> lines;
@@ -104,6 +106,9 @@ class RidgeLayer {
     for (std::size_t k = 1; k + 1 < samples.size(); ++k) {
       const double own = samples[k].second;
       if (own > samples[k - 1].second || own >= samples[k + 1].second) continue;
+      MeshNode near = at(samples[k].first);
+      w_.ask_sizes(near);
+      if (is_beside_lines(near)) continue;  // so is the least one, which takes a hundred lengths more to find
       double low = samples[k - 1].first, high = samples[k + 1].first;
       for (int n = 0; n < 2 * kHalvings; ++n) {  // by thirds
         const double one = low + (high - low) / 3, two = high - (high - low) / 3;
@@ -262,7 +267,7 @@ class RidgeLayer {
     }
     std::erase_if(lines, [](const auto& line) { return line.size() < kLeastNodes; });
     for (const auto& line : lines)
-      for (std::size_t i = 1; i < line.size(); ++i) beside_.push_back({line[i - 1], line[i]});
+      for (std::size_t i = 1; i < line.size(); ++i) add_beside(line[i - 1], line[i]);
     return lines;
   }
 
@@ -291,11 +296,22 @@ class RidgeLayer {
     return is_beside_lines(p);
   }
 
+  /// An edge beside which no line is laid, if it is long for the lengths there.
+  struct Beside {
+    Vec3 a, b, middle;
+    double length;
+  };
+  void add_beside(std::int32_t from, std::int32_t to) {
+    const Vec3 a = m_.nodes[from].x, b = m_.nodes[to].x;
+    beside_.push_back({a, b, 0.5 * (a + b), distance(a, b)});
+  }
+
   bool is_beside_lines(const MeshNode& p) const {
-    return std::any_of(beside_.begin(), beside_.end(), [&](const std::pair<std::int32_t, std::int32_t>& side) {
-      const Vec3 a = m_.nodes[side.first].x, b = m_.nodes[side.second].x;
-      return distance(a, b) > kAspect * p.request && is_beside(p, b - a) &&
-             segment_distance(p.x, a, b) < kClearBeside * p.request;
+    const double clear = kClearBeside * p.request;
+    return std::ranges::any_of(beside_, [&](const Beside& side) {
+      const double reach = clear + side.length;  // most are further away
+      return side.length > kAspect * p.request && norm2(p.x - side.middle) < reach * reach &&
+             is_beside(p, side.b - side.a) && segment_distance(p.x, side.a, side.b) < clear;
     });
   }
 
@@ -305,8 +321,8 @@ class RidgeLayer {
 
   FaceWork& w_;
   Triangulation& m_;
-  std::vector<std::pair<std::int32_t, std::int32_t>> beside_;  // edges of loops, and of lines so far
-  std::int32_t triangle_ = kNone;                              // where the last place is
+  std::vector<Beside> beside_;     // edges of loops, and of lines so far
+  std::int32_t triangle_ = kNone;  // where the last place is
 };
 
 }  // namespace

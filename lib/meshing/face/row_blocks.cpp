@@ -120,10 +120,15 @@ class RowBlock {
       ++n;
       const Vec3 c = next.columns[i].node.x, d = next.columns[i + 1].node.x;
       const double height = 0.5 * (distance(x(line_.nodes[i]), c) + distance(x(line_.nodes[i + 1]), d));
-      n_fit +=
-          distance(c, d) < kFlat * height && w_.field->length_along(c, d - c, hint_) > kMuchLonger * distance(c, d);
+      n_fit += distance(c, d) < kFlat * height && length_at(next.columns[i], d - c) > kMuchLonger * distance(c, d);
     }
     return n >= kLeastMerged && static_cast<double>(n_fit) > kMostFit * static_cast<double>(n);
+  }
+
+  /// Asked for along `way` at the node of a column.
+  double length_at(const NextLine::Column& c, Vec3 way) const {
+    const bool is_known = c.asked.length > 0 && !w_.field->has_metrics();  // else normals matter
+    return is_known ? c.asked.in(way) : w_.field->length_along(c.node.x, way, hint_);
   }
 
   /// A row in which two columns become one.
@@ -208,7 +213,8 @@ class RowBlock {
                  std::vector<double>(n_columns, 0),
                  next.joined,
                  line_.is_closed,
-                 std::vector<char>(n_columns, 0)};
+                 std::vector<char>(n_columns, 0),
+                 std::vector<LocalSize>(n_columns)};
     std::vector<char> goes_on(line_.joined.size(), 0);
     for (std::size_t i = 0; i < next.joined.size(); ++i) {
       if (!next.joined[i]) continue;
@@ -216,6 +222,7 @@ class RowBlock {
       for (const std::size_t k : {i, i + 1}) {
         line.nodes[k] = next.columns[k].existing;
         line.arrived[k] = next.columns[k].is_across;
+        line.asked[k] = next.columns[k].asked;
         const double height = distance(x(line_.nodes[stride * k]), x(line.nodes[k]));
         settle(line.nodes[k], height, distance(x(next.columns[i].existing), x(next.columns[i + 1].existing)));
         const double lowest = line_.lowest[stride * k];

@@ -44,6 +44,7 @@ class LineMaker {
     along_.resize(n());
     across_.resize(n());
     height_.assign(n(), 0);
+    stepped_.resize(n());
     across_node_.assign(n(), kNone);
   }
 
@@ -95,7 +96,8 @@ class LineMaker {
       const Vec3 back = normalized(a.x - node(from).x), ahead = normalized(node(to).x - a.x);
       along_[i] = normalized(back + ahead - dot(back + ahead, a.normal) * a.normal);
       across_[i] = cross(a.normal, along_[i]);
-      const double own = w_.field->length_along(a.x, across_[i], w_.hint);
+      const bool is_known = line_.is_known(i) && !w_.field->has_metrics();  // else normals matter
+      const double own = is_known ? line_.asked[i].in(across_[i]) : w_.field->length_along(a.x, across_[i], w_.hint);
       const double there = w_.field->length_along(a.x + own * across_[i], across_[i], w_.hint);
       height_[i] = 0.5 * (own + std::min(there, kGrowth * own));
     }
@@ -150,13 +152,19 @@ class LineMaker {
     }
   }
 
+  /// From a column's node up to its height, into stepped_; false where the surface turns away.
+  bool step(std::size_t i) {
+    stepped_[i].is_there = step_on_surface(w_, node(i), across_[i], height_[i], stepped_[i].node);
+    stepped_[i].height = height_[i];
+    return stepped_[i].is_there;
+  }
+
   /// Heights over which the surface turns too far become lower, and those beside them.
   void limit_turning(std::size_t first, std::size_t last) {
     bool is_limited = false;
     for (std::size_t i = first; i <= last; ++i) {
-      MeshNode p;
-      if (next_.columns[i].existing != kNone || !step_on_surface(w_, node(i), across_[i], height_[i], p)) continue;
-      const double turned = angle_between(p.normal, node(i).normal);
+      if (next_.columns[i].existing != kNone || !step(i)) continue;
+      const double turned = angle_between(stepped_[i].node.normal, node(i).normal);
       if (turned <= kMostTurned * w_.max_turning) continue;
       height_[i] *= kMostTurned * w_.max_turning / turned;
       is_limited = true;
@@ -179,7 +187,7 @@ class LineMaker {
     }
     c.node.p = a.p + 1 / n_rows * (b.p - a.p);
     w_.evaluate(c.node);
-    w_.ask_sizes(c.node);
+    c.asked = w_.ask_sizes(c.node);
     height_[i] = distance(a.x, c.node.x);
     c.is_placed =
         dot(c.node.normal, a.normal) > std::cos(w_.max_turning) && is_free(w_.mesh.seen_from(line_.nodes[i], c.node.p));
@@ -195,8 +203,9 @@ class LineMaker {
         continue;
       }
       if (across_node_[i] != kNone) continue;
-      if (!step_on_surface(w_, node(i), across_[i], height_[i], c.node)) continue;
-      w_.ask_sizes(c.node);
+      if (!(stepped_[i].height == height_[i] ? stepped_[i].is_there : step(i))) continue;
+      c.node = stepped_[i].node;
+      c.asked = w_.ask_sizes(c.node);
       if (is_over_crest(i)) continue;
       c.is_placed = dot(c.node.normal, node(i).normal) > std::cos(w_.max_turning) && is_column_free(i);
     }
@@ -310,6 +319,12 @@ class LineMaker {
   NextLine next_;
   std::vector<Vec3> along_, across_;
   std::vector<double> height_;
+  struct Stepped {
+    MeshNode node;
+    double height = 0;
+    bool is_there = false;
+  };
+  std::vector<Stepped> stepped_;           // [columns] where the last step from the line came, over this height
   std::vector<std::int32_t> across_node_;  // [columns] to which rows lead, kNone: they go on as the sizes ask for
 };
 
@@ -319,24 +334,19 @@ void open_at_gap(RowLine& line) {
   const auto gap = std::find(line.joined.begin(), line.joined.end(), 0);
   if (!line.is_closed || gap == line.joined.end()) return;
   line.is_closed = false;
-  if (line.nodes.front() == kNone) {
-    line.nodes.front() = line.nodes.back();
-    line.lowest.front() = line.lowest.back();
-    line.highest.front() = line.highest.back();
-    if (!line.arrived.empty()) line.arrived.front() = line.arrived.back();
-  }
-  line.nodes.pop_back();
-  if (!line.arrived.empty()) line.arrived.pop_back();
-  line.lowest.pop_back();
-  line.highest.pop_back();
-  const auto begin_at = [n = gap - line.joined.begin() + 1](auto& of_columns) {
-    if (!of_columns.empty())
-      std::rotate(of_columns.begin(), of_columns.begin() + n % std::ssize(of_columns), of_columns.end());
+  const auto for_columns = [&](const auto& change) {
+    const auto change_known = [&](auto& of_columns) {
+      if (!of_columns.empty()) change(of_columns);
+    };
+    change_known(line.nodes), change_known(line.arrived), change_known(line.asked);
+    change_known(line.lowest), change_known(line.highest);
   };
-  begin_at(line.nodes);
-  begin_at(line.arrived);
-  begin_at(line.lowest);
-  begin_at(line.highest);
+  if (line.nodes.front() == kNone) for_columns([](auto& of_columns) { of_columns.front() = of_columns.back(); });
+  for_columns([](auto& of_columns) { of_columns.pop_back(); });
+  const auto begin_at = [n = gap - line.joined.begin() + 1](auto& of_columns) {
+    std::rotate(of_columns.begin(), of_columns.begin() + n % std::ssize(of_columns), of_columns.end());
+  };
+  for_columns(begin_at);
   begin_at(line.joined);
   line.joined.pop_back();  // the gap
 }

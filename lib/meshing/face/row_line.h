@@ -10,14 +10,16 @@ namespace st {
 
 /// The nodes of a line over the columns of a block, the rows to come on their left.
 struct RowLine {
-  std::vector<std::int32_t> nodes;  ///< plane nodes; kNone: the column has ended
-  std::vector<double> lowest;       ///< [nodes] least height of a column so far, 0 at the beginning
-  std::vector<double> highest;      ///< [nodes] greatest height of a column since then, that is after its least
-  std::vector<char> joined;         ///< [nodes - 1] does the next row go on between columns i and i+1?
-  bool is_closed = false;           ///< the last column is the first, and all are joined
-  std::vector<char> arrived = {};   ///< [nodes] does the column end at a node across? Empty: none
+  std::vector<std::int32_t> nodes;    ///< plane nodes; kNone: the column has ended
+  std::vector<double> lowest;         ///< [nodes] least height of a column so far, 0 at the beginning
+  std::vector<double> highest;        ///< [nodes] greatest height of a column since then, that is after its least
+  std::vector<char> joined;           ///< [nodes - 1] does the next row go on between columns i and i+1?
+  bool is_closed = false;             ///< the last column is the first, and all are joined
+  std::vector<char> arrived = {};     ///< [nodes] does the column end at a node across? Empty: none
+  std::vector<LocalSize> asked = {};  ///< [nodes] what the field told there, length 0: not known; or empty
 
   bool has_arrived(std::size_t i) const { return !arrived.empty() && arrived[i]; }
+  bool is_known(std::size_t i) const { return !asked.empty() && asked[i].length > 0; }
 };
 
 /// A closed line that is no longer joined all around becomes an open one, which begins and ends at a gap.
@@ -35,6 +37,7 @@ struct NextLine {
     std::int32_t existing = kNone;
     bool is_placed = false;
     bool is_across = false;  ///< the existing node is one of what lies across: the column ends there
+    LocalSize asked = {};    ///< what the field told at the node; length 0: not known
   };
   std::vector<Column> columns;
   std::vector<char> joined;  ///< which quadrilaterals are good

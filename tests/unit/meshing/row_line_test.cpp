@@ -22,6 +22,16 @@ TEST(NextLine, is_as_high_as_the_sizes_say_and_square_to_the_line) {
   EXPECT_GE(std::count(next.joined.begin(), next.joined.end(), 1), 8);
 }
 
+TEST(NextLine, does_not_ask_again_for_what_is_known_of_its_nodes) {
+  const WallField field(0.1, 0, 1);
+  RowCase face({band(10, 10, {5}, {5})}, field);
+  RowLine line = line_of(11);
+  line.asked.assign(11, {0.06, 1, {1, 0, 0}});
+  const NextLine next = next_line(face.work, line, {});
+  EXPECT_NEAR(next.columns[5].node.x.y, 0.5 * (0.06 + 1.4 * 0.06), 2e-3);
+  EXPECT_EQ(next.columns[5].asked.length, 0.1) << "what the field tells there";
+}
+
 TEST(NextLine, takes_the_nodes_of_its_sides_and_turns_towards_them) {
   const WallField field(0.1, 0, 1);
   std::vector<Vec2> loop = band(10, 8, {0.1, 3}, {0.1, 3});
@@ -115,7 +125,10 @@ TEST(OpenAtGap, keeps_all_quadrilaterals_in_order) {
   EXPECT_EQ(line.highest, (std::vector<double>{5, 6, 7, 8}));
   EXPECT_EQ(line.joined, (std::vector<char>{1, 1, 1}));
   RowLine inside{{10, 11, 12, 13, 10}, {4, 1, 2, 3, 4}, {8, 5, 6, 7, 8}, {1, 1, 0, 1}, true};
+  for (const double length : {4, 1, 2, 3, 4}) inside.asked.push_back({length, length, {}});
   open_at_gap(inside);
+  EXPECT_EQ(inside.asked.front().length, 3) << "as the nodes";
+  EXPECT_EQ(inside.asked.size(), 4u);
   EXPECT_EQ(inside.nodes, (std::vector<std::int32_t>{13, 10, 11, 12}));
   EXPECT_EQ(inside.joined, (std::vector<char>{1, 1, 1}));
 }
