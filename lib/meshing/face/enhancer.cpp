@@ -48,12 +48,12 @@ class Enhancer {
   using Shape = TriangleShape<kStretched>;
 
   void start() {
-    quality_.assign(m_.triangles.size(), kNoTriangle);
     changed_.assign(m_.triangles.size(), 0);
     tried_.assign(m_.triangles.size(), 0);
     degree_.assign(m_.nodes.size(), 0);
     is_active_.assign(m_.nodes.size(), 1);
     for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
+      m_.triangles[i].quality = kNoTriangle;
       if (!is_inside(m_.triangles[i])) continue;
       if (m_.triangles[i].state != kLaid) update(static_cast<std::int32_t>(i));
       for (std::int32_t v : m_.triangles[i].v) ++degree_[v];
@@ -65,7 +65,7 @@ class Enhancer {
     set_quality(t, static_cast<float>(quality(r.v[0], r.v[1], r.v[2])));
   }
   void set_quality(std::int32_t t, float quality) {
-    quality_[t] = quality;
+    m_.triangles[t].quality = quality;
     changed_[t] = clock_;
   }
 
@@ -84,7 +84,7 @@ class Enhancer {
     for (int sweep = 0; sweep < 4; ++sweep) {
       std::size_t n_swaps = 0;
       for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
-        if (quality_[i] > kSwapBelow) continue;
+        if (m_.triangles[i].quality > kSwapBelow) continue;
         const std::uint32_t last = std::exchange(tried_[i], ++clock_);
         for (int k = 0; k < 3; ++k) {
           const std::int32_t other = m_.triangles[i].n[k];
@@ -110,7 +110,7 @@ class Enhancer {
   bool try_swap(std::int32_t t, int k) {
     SwapQuad q;
     if (!quad_at(m_, t, k, q)) return false;
-    const double before = std::min(quality_[q.t], quality_[q.o]);
+    const double before = std::min(m_.triangles[q.t].quality, m_.triangles[q.o].quality);
     const double after = std::min(quality(q.c, q.a, q.d), quality(q.c, q.d, q.b));
     if (after <= before + kSwapGain || !may_swap<kStretched>(w_, q, k)) return false;
     swap(q, k);
@@ -167,8 +167,8 @@ class Enhancer {
     ring_.clear();
     const bool is_whole = m_.visit_ring(i, [&](std::int32_t id, std::int32_t t) {
       ring_.push_back({&m_.nodes[id], id, t});
-      quality.worst = std::min<double>(quality.worst, quality_[t]);
-      quality.mean += quality_[t];
+      quality.worst = std::min<double>(quality.worst, m_.triangles[t].quality);
+      quality.mean += m_.triangles[t].quality;
     });
     quality.mean /= static_cast<double>(ring_.size());
     return is_whole;
@@ -205,7 +205,7 @@ class Enhancer {
     double weights = 0;
     for (std::size_t j = 0; j < ring_.size(); ++j) {
       const Vec3 &b = ring_[j].node->x, &next = ring_[following(j, ring_.size())].node->x, e = next - b;
-      const double weight = kWeightBase - quality_[ring_[j].triangle];
+      const double weight = kWeightBase - m_.triangles[ring_[j].triangle].quality;
       middle += weight * (b + 0.5 * e);
       edge += weight * e;
       weights += weight;
@@ -291,7 +291,7 @@ class Enhancer {
     for (int k = 0; k < n; ++k) {
       if (is_pole_side(around_[k], around_[(k + 1) % n])) continue;
       ++n_sides;
-      before = std::min<double>(before, quality_[tris_[k]]);
+      before = std::min<double>(before, m_.triangles[tris_[k]].quality);
     }
     double shortest = 1e300;
     for (std::int32_t j : around_)
@@ -344,7 +344,6 @@ class Enhancer {
   FaceWork& w_;
   Triangulation& m_;
   std::vector<float> ring_quality_;
-  std::vector<float> quality_;               // of each inside triangle that may change, kept up to date
   std::uint32_t clock_ = 0;                  // counts the triangles that swap_sweeps() has tried
   std::vector<std::uint32_t> changed_;       // when each triangle got its quality
   std::vector<std::uint32_t> tried_;         // when its sides were last tried

@@ -13,28 +13,31 @@
 namespace st {
 
 /// A node of a face in the plane. Its `h` is the edge length to aim at: the request, limited by growth and turning.
-struct MeshNode : FaceNode {
+/// What is asked of the nodes around another one comes first: it is in two lines of the cache.
+struct alignas(64) MeshNode : FaceNode {
   bool is_kept = false;  ///< of a ring about a narrow part, or laid in a row: not to be collapsed
   bool is_laid = false;  ///< in a row: not to be moved
   Vec2 p{};              ///< scaled parameter plane
-  Vec3 du{}, dv{};       ///< derivatives by the scaled parameters
   Vec3 normal{};         ///< unit normal du x dv; where that is singular, of a place a little inside
-  Vec3 squeeze{};        ///< of stretched sizes, in the tangent plane; see base/local_size.h
   double request = 0;    ///< edge length that the field requests
+  Vec3 du{}, dv{};       ///< derivatives by the scaled parameters
+  Vec3 squeeze{};        ///< of stretched sizes, in the tangent plane; see base/local_size.h
 };
-static_assert(sizeof(MeshNode) == 176);
+static_assert(sizeof(MeshNode) == 192);
 
 /// Plane nodes of one pole: one point in space, no side between them.
 inline bool are_one_pole(const MeshNode& a, const MeshNode& b) { return a.is_pole && b.is_pole && a.id == b.id; }
 
 /// A triangle, counter-clockwise in the plane. Edge k runs from v[k] to v[(k+1)%3]; n[k] is the neighbour across it.
-struct PlaneTriangle {
+struct alignas(32) PlaneTriangle {
   std::int32_t v[3];
   std::int32_t n[3];
   std::uint8_t constrained = 0;  ///< bit k: edge k is a boundary segment
   std::uint8_t toggles = 0;      ///< bit k: crossing edge k changes between inside and outside
   std::uint8_t state = 0;        ///< TriangleState
+  float quality = 0;             ///< for enhance(), which sets it
 };
+static_assert(sizeof(PlaneTriangle) == 32);
 
 /// Retired: no node can be placed in it, though it is not small enough. Laid: of a row, and stays as it is.
 enum TriangleState : std::uint8_t { kOutside = 0, kUnfinished = 1, kFinished = 2, kDead = 3, kRetired = 4, kLaid = 5 };
