@@ -55,23 +55,24 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
 
 void FaceRounds::mesh_edges() { faces_.set_edges(edge_mesher_.mesh(dirty_edges_, refinements_, faces_.edges())); }
 
-/// Collective. What these refinements reached, which are others or no more, is meshed once more: these faces.
-std::vector<FaceId> FaceRounds::mesh_changed(const std::vector<Refinement>& changed, const char* why) {
+/// Collective. What these refinements reached, which are others or no more, is meshed once more: these faces. Holes are
+/// closed and crossings searched unless more than `most_bad` are bad already.
+std::vector<FaceId> FaceRounds::mesh_changed(const std::vector<Refinement>& changed, const char* why,
+                                             std::int64_t most_bad) {
   if (executor_.is_root()) find_dirty(changed);
   share(executor_, dirty_edges_, dirty_faces_);
   log_info(fmt::format("refining at {} places {}: {} edges, {} faces again", changed.size(), why, dirty_edges_.size(),
                        dirty_faces_.size()));
   mesh_edges();
   mesh_dirty_faces();
+  if (faces_.has_surely_more_bad(most_bad)) return dirty_faces_;
   close_holes();
   faces_.search_crossings();
   return dirty_faces_;
 }
 
 void FaceRounds::report(PatchesGo patches) {
-  const auto mesh_again = [&](const std::vector<Refinement>& changed, const char* why) {
-    return mesh_changed(changed, why);
-  };
+  const RefinementTrials::MeshAgain mesh_again = std::bind_front(&FaceRounds::mesh_changed, this);
   RefinementTrials trials(tables(), executor_, hopeless_, faces_, refinements_, mesh_again);
   trials.take_back();
   if (!is_restored_) {

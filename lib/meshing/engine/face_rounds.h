@@ -84,7 +84,7 @@ class FaceRounds : public MeshRounds {
   void remember_whole();
   void drop_replaced();
   void find_dirty(std::span<const Refinement> refinements);
-  std::vector<FaceId> mesh_changed(const std::vector<Refinement>& changed, const char* why);
+  std::vector<FaceId> mesh_changed(const std::vector<Refinement>& changed, const char* why, std::int64_t most_bad);
 
   const Model& model_;
   const MeshTopology& topology_;

@@ -56,8 +56,16 @@ bool MeshedFaces::has_holes() const {
   return std::ranges::any_of(outcomes_, [](const FaceOutcome& o) { return o.is_hole(); });
 }
 
-std::int64_t MeshedFaces::n_bad() const {
-  std::int64_t n = crossings_.n_pairs();
+std::int64_t MeshedFaces::n_bad() const { return n_bad_alone() + crossings_.n_pairs(); }
+
+bool MeshedFaces::has_surely_more_bad(std::int64_t n) const {
+  char has_more = n_bad_alone() > n;
+  share(executor_, has_more);
+  return has_more != 0;
+}
+
+std::int64_t MeshedFaces::n_bad_alone() const {
+  std::int64_t n = 0;
   for (const FaceOutcome& o : outcomes_) n += o.n_folds + (o.cause == FailureCause::kNone ? 0 : Policy::kPerFailure);
   return n;
 }

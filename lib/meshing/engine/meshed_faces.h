@@ -75,6 +75,8 @@ class MeshedFaces {
   bool has_holes() const;
   /// Failures, folds and crossings.
   std::int64_t n_bad() const;
+  /// Collective. Whether there are more than so many without crossings, which need a search.
+  bool has_surely_more_bad(std::int64_t n) const;
   /// Faces without a fold, crossing or failure, ascending.
   std::vector<FaceId> sound_faces() const;
   /// Faces of which triangles may be bad, ascending.
@@ -99,6 +101,7 @@ class MeshedFaces {
   void hand_over(PatchesGo patches, MeshResult& result);
 
  private:
+  std::int64_t n_bad_alone() const;
   void report(MeshResult& result) const;
   void hand_to_root(MeshResult& result);
   FacePatch take_whole(FaceId f);

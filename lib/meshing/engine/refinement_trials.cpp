@@ -50,7 +50,7 @@ bool RefinementTrials::take_back_once(TakeBack what) {
   const MeshedFaces::State before = faces_.state();
   const std::vector<Refinement> useless = drop_useless(what);
   if (useless.empty()) return false;
-  const std::vector<FaceId> meshed = mesh_again_(useless, "did not help");
+  const std::vector<FaceId> meshed = mesh_again_(useless, "did not help", n_allowed);
   char is_worse = faces_.n_bad() > n_allowed || !std::ranges::includes(faces_.sound_faces(), sound);
   share(executor_, is_worse);
   if (!is_worse) return true;
@@ -106,7 +106,7 @@ bool RefinementTrials::loosen_once() {
   std::vector<FaceId> meshed;
   for (int i = 0; i < Policy::kMostTried && !changed.empty() && std::ranges::count(is_needed, 0) > 0; ++i) {
     refinements_.assign(loosened(refined, is_needed));
-    const std::vector<FaceId> again = mesh_again_(changed, i == 0 ? "may be too much" : "is needed");
+    const std::vector<FaceId> again = mesh_again_(changed, i == 0 ? "may be too much" : "is needed", kAnyBad);
     meshed.insert(meshed.end(), again.begin(), again.end());
     char is_sound = faces_.n_bad() == 0;
     share(executor_, is_sound);

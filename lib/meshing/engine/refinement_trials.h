@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "base/executor.h"
@@ -18,7 +19,10 @@ namespace st {
 class RefinementTrials {
  public:
   /// Collective: edges and faces that these refinements reach are meshed again, for this reason. Returns the faces.
-  using MeshAgain = std::function<std::vector<FaceId>(const std::vector<Refinement>& changed, const char* why)>;
+  /// Where more than `most_bad` are bad before holes are closed and crossings searched, neither is done.
+  using MeshAgain = std::function<std::vector<FaceId>(const std::vector<Refinement>& changed, const char* why,
+                                                      std::int64_t most_bad)>;
+  static constexpr std::int64_t kAnyBad = std::numeric_limits<std::int64_t>::max();
 
   /// All references outlive the object. `hopeless`: on rank 0.
   RefinementTrials(const ModelTables& tables, const Executor& executor, const HopelessFaces& hopeless,

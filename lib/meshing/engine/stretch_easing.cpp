@@ -40,7 +40,8 @@ void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) 
   for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_obtuse(), n_worst(), n_first_, n_again_); ++i) {
     const std::vector<Refinement> shorter = shorten(flaws_.*places, shortens);
     if (shorter.empty()) break;
-    n_again_ += n_triangles(mesh_again_(shorter, "where stretched triangles are obtuse or too large"));
+    n_again_ += n_triangles(
+        mesh_again_(shorter, "where stretched triangles are obtuse or too large", RefinementTrials::kAnyBad));
     take_back_spoiling(first);
     flaws_ = find_flaws(i + 1);
     n_without = keep_if_better() ? 0 : n_without + 1;
@@ -133,7 +134,7 @@ void StretchEasing::take_back_spoiling(std::size_t first) {
   if (dropped.empty()) return;
   spoiling_.insert(spoiling_.end(), dropped.begin(), dropped.end());
   refinements_.assign(std::move(kept));
-  n_again_ += n_triangles(mesh_again_(dropped, "spoils triangles"));
+  n_again_ += n_triangles(mesh_again_(dropped, "spoils triangles", RefinementTrials::kAnyBad));
 }
 
 void StretchEasing::go_back() {
