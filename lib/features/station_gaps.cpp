@@ -2,20 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "features/arc_table.h"
 #include "features/edge_places.h"
+#include "features/rim_edges.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
 namespace {
 
 constexpr double kNearGuess = 0.05;  // of the chord: from a nose between or beside others to that on the surface
+constexpr int kCurveSteps = 64;      // of a corner's edge, between which one place is looked for
+constexpr int kBisections = 40;
 
 class GapCloser {
  public:
   GapCloser(const GapSearch& search, const Vec3* axis, ChordEdge& edge)
-      : search_(search), axis_(axis), edge_(edge), curve_(search.model.curve(edge.edge)), arc_(*curve_) {}
+      : search_(search),
+        axis_(axis),
+        edge_(edge),
+        curve_(search.model.curve(edge.edge)),
+        arc_(*curve_),
+        rims_(search.model) {}
 
   void run() {
     const std::size_t n = edge_.stations.size();
@@ -45,24 +54,64 @@ class GapCloser {
     if (!s.is_hidden && b) measure(s, *a, *b, normal);
   }
 
-  /// On the line through the noses of two others.
-  void measure(Station& s, const Station& a, const Station& b, Vec3 normal) const {
+  /// On the line through the noses of two others; further beside them than they are apart, at a corner alone.
+  void measure(Station& s, const Station& a, const Station& b, Vec3 normal) {
     const double part = (s.share - a.share) / (b.share - a.share);
-    if (!(std::abs(part) <= 1)) return;  // further beside them than they are apart
-    const Vec3 nose = a.nose + part * (b.nose - a.nose);
-    Profile guess{.normal = normal, .nose = nose, .nose_face = a.nose_face, .chord = distance(nose, s.trailing)};
-    for (const FaceId f :
-         {a.nose_face, b.nose_face, search_.cutter.nearest_face(nose, normal, kNearGuess * guess.chord)}) {
+    const bool is_near = std::abs(part) <= 1;
+    const Vec3 nose = a.nose + (is_near ? part * (b.nose - a.nose) : s.trailing - a.trailing);
+    const Profile guess{.normal = normal, .nose = nose, .nose_face = a.nose_face, .chord = distance(nose, s.trailing)};
+    if (!is_near || !measure_on_surface(s, a, b, guess)) measure_at_corner(s, a, b, guess);
+  }
+
+  bool measure_on_surface(Station& s, const Station& a, const Station& b, const Profile& guess) const {
+    const double near = kNearGuess * guess.chord;
+    for (const FaceId f : {a.nose_face, b.nose_face, search_.cutter.nearest_face(guess.nose, guess.normal, near)}) {
       if (f == kNone || !search_.is_own[f]) continue;
       const auto surface = search_.model.surface(f);
-      std::optional<Vec2> uv = closest_point(*surface, nose).uv;
-      const auto x = exact_nose(*surface, s.trailing, guess, kNearGuess * guess.chord, uv);
+      std::optional<Vec2> uv = closest_point(*surface, guess.nose).uv;
+      const auto x = exact_nose(*surface, s.trailing, guess, near, uv);
       if (!x || is_outlier(distance(*x, s.trailing), a.chord) ||
-          search_.cutter.nearest_face(*x, normal, search_.reach) != f)
+          search_.cutter.nearest_face(*x, guess.normal, search_.reach) != f)
         continue;
       s.nose = *x, s.nose_face = f, s.chord = distance(*x, s.trailing), s.is_measured = true;
-      return;
+      return true;
     }
+    return false;
+  }
+
+  /// Where both noses lie on corners of the CAD, as on the rim of a plate, that between or beside them does, too.
+  void measure_at_corner(Station& s, const Station& a, const Station& b, const Profile& guess) {
+    const std::vector<EdgeId> of_a = rims_.at(a, search_.reach), of_b = rims_.at(b, search_.reach);
+    if (of_a.empty() || of_b.empty()) return;
+    double least = kNearGuess * guess.chord;
+    for (std::size_t i = 0; i < of_a.size() + of_b.size(); ++i) {
+      const EdgeId e = i < of_a.size() ? of_a[i] : of_b[i - of_a.size()];
+      const std::optional<Vec3> x = place_on(*search_.model.curve(e), s.trailing, guess);
+      if (!x || !(distance(*x, guess.nose) < least) || is_outlier(distance(*x, s.trailing), a.chord)) continue;
+      const FaceId seen = search_.cutter.nearest_face(*x, guess.normal, search_.reach);
+      if (seen == kNone || !search_.is_own[seen]) continue;
+      least = distance(*x, guess.nose);
+      s.nose = *x, s.nose_face = a.nose_face, s.chord = distance(*x, s.trailing), s.is_measured = true;
+    }
+  }
+
+  /// Of a curve's places in the plane through a trailing edge, that nearest to the guess.
+  static std::optional<Vec3> place_on(const Curve& curve, Vec3 trailing, const Profile& guess) {
+    const auto height = [&](double t) { return dot(curve.point(t) - trailing, guess.normal); };
+    const auto at = [&](int i) { return curve.t_min() + (curve.t_max() - curve.t_min()) * i / kCurveSteps; };
+    std::optional<Vec3> best;
+    for (int i = 0; i < kCurveSteps; ++i) {
+      double low = at(i), high = at(i + 1);
+      const bool is_below = height(low) < 0;
+      if (is_below == (height(high) < 0)) continue;
+      for (int k = 0; k < kBisections; ++k) {
+        const double middle = 0.5 * (low + high);
+        ((height(middle) < 0) == is_below ? low : high) = middle;
+      }
+      const Vec3 x = curve.point(low);
+      if (!best || distance(x, guess.nose) < distance(*best, guess.nose)) best = x;
+    }
+    return best;
   }
 
   /// What is longer than the chord beside it, as a cut along a tip, says nothing.
@@ -77,6 +126,7 @@ class GapCloser {
   ChordEdge& edge_;
   std::unique_ptr<Curve> curve_;
   ArcTable arc_;
+  RimEdges rims_;
 };
 
 }  // namespace

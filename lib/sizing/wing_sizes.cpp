@@ -11,8 +11,10 @@
 #include "features/arc_table.h"
 #include "features/front_noses.h"
 #include "features/ridge_noses.h"
+#include "features/rim_edges.h"
 #include "geometry/shape/projection.h"
 #include "sizing/end_stretch.h"
+#include "sizing/smooth_piece.h"
 
 namespace st {
 namespace {
@@ -48,38 +50,10 @@ class LocalLengths {
   const WingSizes& sizes_;
 };
 
-/// Between two places of a line, as smooth as it is there: straight lines between noses leave a curved one by more than
-/// a length. Straight beside kinks.
-class SmoothPiece {
- public:
-  SmoothPiece(std::span<const Vec3> x, std::size_t i) : begin_(x[i]), way_(x[i + 1] - x[i]) {
-    const Vec3 along = normalized(way_);
-    const auto direction = [&](Vec3 beside) {
-      const Vec3 own = normalized(beside);
-      if (dot(own, along) > kStraight) return along;
-      return dot(own, along) > kKink ? normalized(own * norm(way_) + along * norm(beside)) : along;
-    };
-    const Vec3 from = i > 0 ? direction(x[i] - x[i - 1]) : along;
-    const Vec3 to = i + 2 < x.size() ? direction(x[i + 2] - x[i + 1]) : along;
-    bend_begin_ = norm(way_) * (from - along);
-    bend_end_ = norm(way_) * (to - along);
-  }
-
-  Vec3 at(double share) const {
-    const double rest = 1 - share;
-    return begin_ + share * way_ + share * rest * (rest * bend_begin_ - share * bend_end_);
-  }
-
- private:
-  static constexpr double kKink = 0.966;         // cosine, 15 degrees, between two pieces
-  static constexpr double kStraight = 1 - 1e-9;  // likewise: rounding
-  Vec3 begin_, way_, bend_begin_, bend_end_;
-};
-
 class WingRaster {
  public:
   WingRaster(const Model& model, const LiftingSurface& wing, const WingSizes& sizes, std::vector<RasterBox>& boxes)
-      : model_(model), wing_(wing), sizes_(sizes), boxes_(boxes) {}
+      : model_(model), wing_(wing), sizes_(sizes), boxes_(boxes), rims_(model) {}
 
   void add_edge(const ChordEdge& trailing) {
     const auto curve = model_.curve(trailing.edge);
@@ -227,12 +201,16 @@ class WingRaster {
     for (const ChordStation* s : run) x.push_back(s->*place);
     for (std::size_t i = 0; i + 1 < run.size(); ++i) {
       const ChordStation &a = *run[i], &b = *run[i + 1];
-      if (sizes_.stretch.max_aspect > 1 && jumps(a, b)) continue;
-      const double bent_a = is_tail ? bent_at_tail(a) : kFlat, bent_b = is_tail ? bent_at_tail(b) : kFlat;
+      const bool is_stretched = sizes_.stretch.max_aspect > 1, is_apart = is_stretched && jumps(a, b);
       const SmoothPiece piece(x, i);
-      walk(distance(x[i], x[i + 1]), pack_cause(CauseKind::kFace, a.*face), {}, [&](double share) {
+      std::optional<CurvePiece> edge;  // where noses turn so far, or run along the chord
+      if (is_stretched && !is_tail && (is_apart || piece.has_kink())) edge = rims_.between(a, b);
+      if (is_apart && !edge) continue;
+      const double bent_a = is_tail ? bent_at_tail(a) : kFlat, bent_b = is_tail ? bent_at_tail(b) : kFlat;
+      const double way = edge ? edge->length() : distance(x[i], x[i + 1]);
+      walk(way, pack_cause(CauseKind::kFace, a.*face), {}, [&](double share) {
         const double chord = a.chord + share * (b.chord - a.chord), bent = bent_a + share * (bent_b - bent_a);
-        Place own = reduced(kNose, piece.at(share), chord);
+        Place own = reduced(kNose, edge ? edge->at(share) : piece.at(share), chord);
         own.length = std::min(own.length, std::max(bent * chord, floor_of(chord)));
         return own;
       });
@@ -253,6 +231,7 @@ class WingRaster {
   const LiftingSurface& wing_;
   const WingSizes& sizes_;
   std::vector<RasterBox>& boxes_;
+  RimEdges rims_;
   std::optional<RaisedLength> most_raised_;  // by a rule
 };
 

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "features/strip.h"
+#include "geometry/model/edge_faces.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -38,6 +40,42 @@ TEST(StationGaps, are_closed_on_the_surface_of_the_noses_around) {
     EXPECT_FALSE(edge.stations[i].is_hidden);
     EXPECT_NEAR(edge.stations[i].nose.x, 0, 1e-6);
     EXPECT_NEAR(edge.stations[i].chord, 10, 1e-6);
+  }
+}
+
+/// The edge of a plate with this x at both ends, on its lower side.
+EdgeId rim_of_plate(const Model& model, double x) {
+  const ModelTables& t = model.tables();
+  const auto is_there = [&](EdgeId e) {
+    return std::ranges::all_of(std::array{0, 1}, [&](int k) {
+      const Vec3 end = t.vertex_xyz[t.edge_vertices[2 * e + k]];
+      return end.x == x && end.z == 0;
+    });
+  };
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (is_there(e)) return e;
+  return kNone;
+}
+
+TEST(StationGaps, are_closed_along_the_corner_of_the_noses_around) {
+  const Model model = test::make_model("thin_plate");
+  const std::vector<std::uint8_t> all(static_cast<std::size_t>(model.tables().n_faces()), 1);
+  const Facets facets = make_facets(model, all, {.deflection = 0.005});
+  const ProfileCutter cutter(facets);
+  const EdgeId nose = rim_of_plate(model, 0);
+  ChordEdge edge{.edge = rim_of_plate(model, 10), .stations = {}};
+  for (int i = 0; i < 10; ++i) {
+    const double share = 0.05 + 0.1 * i;
+    edge.stations.push_back({share, {10, 10 * share, 0}});
+    ChordStation& s = edge.stations.back();
+    s.nose_face = EdgeFaces(model.tables())[nose][0];
+    if (i == 2 || i == 3 || i == 6) s.nose = {0, 10 * share, 0}, s.chord = 10, s.is_measured = true;
+  }
+  const Vec3 along = {0, 1, 0};
+  close_gaps({model, cutter, 0.01, all}, &along, edge);
+  for (const ChordStation& s : edge.stations) {
+    EXPECT_TRUE(s.is_measured) << s.share;
+    EXPECT_LT(distance(s.nose, {0, s.trailing.y, 0}), 1e-9) << s.share;
   }
 }
 
