@@ -29,22 +29,12 @@ class TriangleShape {
   static double quality(const MeshNode& a, const MeshNode& b, const MeshNode& c, const Side& to_b, const Side& to_c) {
     const Vec3 ab = to_b.way, ac = to_c.way, bc = c.x - b.x;
     const Vec3 n = cross(ab, ac);
-    double sum = to_b.length2 + to_c.length2, share = 1;
-    if constexpr (kStretched) {
-      const double b2 = norm2(ab), c2 = norm2(ac), bc2 = norm2(bc);
-      if (is_stretched(a) || is_stretched(b) || is_stretched(c)) {
-        sum = length2(ab, a, b, c) + length2(ac, a, b, c) + length2(bc, a, b, c);
-        share = std::sqrt(area_share2(a, b, c)) * angle_share(b2, c2, bc2);
-      } else {  // the same, to the bit
-        sum = b2 + c2 + bc2;
-        share = angle_share(b2, c2, bc2);
-      }
-    } else {
-      sum += norm2(bc);
-    }
+    double sum = to_b.length2 + to_c.length2;
+    if constexpr (kStretched) sum = mean_length2<true>(ab, a, b, c) + mean_length2<true>(ac, a, b, c);
+    sum += mean_length2<kStretched>(bc, a, b, c);
     if (!(sum > 0)) return 0;
     double area = norm(n), q = 3.4641016151377544 * area / sum;
-    if constexpr (kStretched) q *= share;
+    if constexpr (kStretched) q *= std::sqrt(area_share2(a, b, c)) * angle_share(norm2(ab), norm2(ac), norm2(bc));
     const double least = std::min({dot(n, a.normal), dot(n, b.normal), dot(n, c.normal)});
     if (least >= kSteepCosine * area) return q;
     const Vec3 mean = a.normal + b.normal + c.normal;
