@@ -13,6 +13,7 @@ namespace {
 constexpr double kNeedle = 1e-3;     // height over longest side: below, the normal is not reliable
 constexpr double kFolded = 0.05;     // likewise: below, not where it opposes those of all neighbours
 constexpr double kShortLine = 0.02;  // of the diagonal: a line that ends inside a region and is shorter is noise
+constexpr int kIsland = 3;           // facets: lines around so few within one region are noise
 constexpr int kNeedlesInARow = 3;    // that hand a normal on
 
 class Splitter {
@@ -27,7 +28,7 @@ class Splitter {
   }
 
   FacetMesh run() {
-    find_regions();
+    if (drop_islands(find_regions())) find_regions();
     drop_short_ends();
     set_corner_normals(mesh_, neighbours_, normal_);
     return std::move(mesh_);
@@ -63,13 +64,40 @@ class Splitter {
       }
   }
 
-  void find_regions() {
+  /// Returns how many there are.
+  std::int32_t find_regions() {
     DisjointSets sets(mesh_.n_triangles());
     for_each_smooth([&](std::int32_t t, int, std::int32_t other) { sets.join(t, other); });
     mesh_.face.assign(mesh_.corners.size(), kNone);
     std::int32_t n_faces = 0;
     for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
       mesh_.face[t] = sets.find(t) == t ? n_faces++ : mesh_.face[sets.find(t)];
+    return n_faces;
+  }
+
+  /// Lines around a few facets that one other region encloses. Returns whether there were any.
+  bool drop_islands(std::int32_t n_regions) {
+    constexpr FaceId kSeveral = kNone - 1;
+    std::vector<std::int32_t> n_facets(static_cast<std::size_t>(n_regions), 0);
+    std::vector<FaceId> around(n_facets.size(), kNone);
+    for (const FaceId f : mesh_.face) ++n_facets[f];
+    const auto for_each_line = [&](const auto& visit) {
+      for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
+        for (int k = 0; k < 3; ++k)
+          if (n_facets[mesh_.face[t]] <= kIsland && mesh_.is_line[t][k]) visit(t, k, neighbours_[t][k]);
+    };
+    for_each_line([&](std::int32_t t, int, std::int32_t other) {
+      FaceId& own = around[mesh_.face[t]];
+      const FaceId there = other == kNone || mesh_.part[t] != mesh_.part[other] ? kSeveral : mesh_.face[other];
+      own = own == kNone || own == there ? there : kSeveral;
+    });
+    bool is_any = false;
+    for_each_line([&](std::int32_t t, int k, std::int32_t) {
+      if (around[mesh_.face[t]] < 0) return;
+      drop(t, k);
+      is_any = true;
+    });
+    return is_any;
   }
 
   /// Chains of lines that begin at a node without another line and have one region on both sides.

@@ -19,8 +19,8 @@ namespace {
 constexpr double kCapHeight = 0.02;  // over the longest side
 constexpr double kCapOff = 5e-5;     // of the diagonal: what turning a side may move the surface by
 constexpr double kAtCorner = 0.5;    // cosine between facets that lie on one surface, at least
-constexpr double kNoNormal = 1e-4;   // height over longest side: below, the normal is rounding
-constexpr int kCapPasses = 4;        // over all facets: caps may lie on caps
+constexpr double kNoNormal = 1e-3;   // height over longest side: below, the normal is rounding
+constexpr int kCapPasses = 12;       // over all facets: caps may lie on caps
 constexpr double kGap = 1e-6;        // of the diagonal: single precision, and the rounding of decimals in text
 
 /// Numbers of elements by their keys, below n_keys; those of one key ascend.

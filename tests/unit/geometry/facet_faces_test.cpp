@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "unit/geometry/facet_inputs.h"
 
@@ -31,6 +32,24 @@ TEST(FacetFaces, are_not_parted_by_needles) {
   in.part.assign(4, 0);
   in.part_name = {""};
   EXPECT_EQ(count_faces(find_smooth_faces(in, radians(20))), 1);
+}
+
+// A cone whose tip is one facet: that turns by 37 degrees from those around, and these by 18 from each other.
+TEST(FacetFaces, are_not_parted_around_a_single_facet) {
+  FacetInput in;
+  for (int k = 0; k < 12; ++k) in.x.push_back({std::cos(k * kPi / 6), std::sin(k * kPi / 6), 0});
+  for (int j = 0; j < 3; ++j) in.x.push_back({0.1 * in.x[4 * j].x, 0.1 * in.x[4 * j].y, 0.7});
+  for (int k = 0; k < 12; ++k) {
+    const int tip = 12 + (k + 2) / 4 % 3;
+    in.corners.push_back({k, (k + 1) % 12, tip});
+    if (k % 4 == 2) in.corners.push_back({k, tip, 12 + (tip - 12 + 2) % 3});
+  }
+  in.corners.push_back({12, 13, 14});
+  in.part.assign(in.corners.size(), 0);
+  in.part_name = {""};
+  const FacetMesh mesh = find_smooth_faces(in, radians(30));
+  EXPECT_EQ(count_faces(mesh), 1);
+  for (const auto& is_line : mesh.is_line) EXPECT_EQ(is_line[1] + is_line[2], 0);
 }
 
 // A plate with a crease of 60 degrees that fades out.
