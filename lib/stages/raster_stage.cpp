@@ -173,52 +173,67 @@ GeometryArtifact read_geometry_for(const std::string& path, const std::vector<Si
   return geometry;
 }
 
+/// What is read, the same on all ranks.
+struct RasterInput {
+  RasterInput(const RasterStageOptions& o, const Communicator& comm)
+      : sizes(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
+        geometry(read_geometry_for(o.geometry, sizes.rules)),
+        rules(all_rules(o, {rules_on_joined(sizes.rules, geometry), sizes.hash}, geometry.tables)),
+        model(same_model(o, comm)) {}
+
+  Model same_model(const RasterStageOptions& o, const Communicator& comm) {
+    require_same_inputs(comm, {{o.geometry, geometry.header.content_hash}, {o.sizes, sizes.hash}});
+    return stored_model(geometry, o.geometry);
+  }
+
+  SizeRuleFile sizes;
+  GeometryArtifact geometry;  // without the model
+  std::vector<SizeRule> rules;
+  Model model;
+};
+
 /// The stage, step by step.
 class RasterRun {
  public:
-  RasterRun(const RasterStageOptions& o, const Communicator& comm, Progress& progress)
+  RasterRun(const RasterStageOptions& o, const Communicator& comm)
       : o_(o),
         comm_(comm),
         trace_(comm, o.trace),
-        progress_(progress),
-        sizes_(o.sizes.empty() ? SizeRuleFile() : read_size_rules(o.sizes)),
-        geometry_(read_geometry_for(o.geometry, sizes_.rules)),
-        rules_(all_rules(o, {rules_on_joined(sizes_.rules, geometry_), sizes_.hash}, geometry_.tables)),
-        model_(same_model(comm)),
-        roles_(face_roles(model_, trace_)),
-        wall_(resolve_limits(o, model_.tables(), roles_.reference_diagonal)),
-        strips_(find_strips(model_, trace_)),
-        bases_(comm.is_root() ? find_base_strips(model_, strips_) : std::vector<Strip>()) {}
+        in_(o, comm),
+        roles_(face_roles(in_.model, trace_)),
+        wall_(resolve_limits(o, in_.model.tables(), roles_.reference_diagonal)),
+        strips_(find_strips(in_.model, trace_)),
+        bases_(comm.is_root() ? find_base_strips(in_.model, strips_) : std::vector<Strip>()) {}
 
-  StageSummary run() {
+  StageSummary run(Progress& progress) {
     if (comm_.is_root()) say_interfaces();
-    progress_.step("lifting surfaces and limits", 0.1);
+    progress.step("lifting surfaces and limits", 0.1);
     set_limits();
     times_.end("opening");
     trace_.begin_phase("samples");
-    progress_.step("samples", 0.2);
-    sample();
+    progress.step("samples", 0.2);
+    std::vector<std::vector<LengthSample>> samples = sample();  // by rank, on rank 0
     artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
-    const bool has_surface = !o_.no_surface && has_coarse_surface(model_.tables());
+    const bool has_surface = !o_.no_surface && has_coarse_surface(in_.model.tables());
     std::vector<CellLength> cells;  // on rank 0
     const auto meanwhile = [&] {
-      artifact_.samples = merged_samples(std::move(samples_));
+      artifact_.samples = merged_samples(std::move(samples));
       if (has_surface) cells = prolong_openly(artifact_);
     };
     artifact_.faces = locate_faces(sampled(), artifact_.octree.shape, meanwhile, trace_, counts_.n_failures);
     times_.end("faces");
     trace_.begin_phase("surface");
-    progress_.step("surface", 0.7);
+    progress.step("surface", 0.7);
     if (has_surface)
       artifact_.surface =
-          make_coarse_surface(model_, roles_, artifact_, std::move(cells), strips_, o_.time_limit, trace_);
+          make_coarse_surface(in_.model, roles_, artifact_, std::move(cells), strips_, o_.time_limit, trace_);
     times_.end("surface");
     trace_.begin_phase("write");
     times_.gather(comm_);
     if (comm_.is_root()) {
-      progress_.step("writing", 0.9);
-      warn_of_depth(counts_.depth, model_.tables().unit);
+      progress.step("writing", 0.9);
+      warn_of_depth(counts_.depth, in_.model.tables().unit);
       write();
     }
     trace_.write();
@@ -235,54 +250,50 @@ class RasterRun {
           fmt::format("  {} the role interface: no lengths are asked for there", counted(n, "face has", "faces have")));
   }
 
-  Model same_model(const Communicator& comm) {
-    require_same_inputs(comm, {{o_.geometry, geometry_.header.content_hash}, {o_.sizes, sizes_.hash}});
-    return stored_model(geometry_, o_.geometry);
-  }
-
   /// Returns whether holes may be vanes: worth a look where no wing is found, or holes lead through.
   bool find_wings() {
     std::vector<WingEdge> small;
     bool has_hollow = false;
-    wings_.edges = find_wing_edges(model_, roles_, bases_, trace_, &small, &has_hollow);
+    wings_.edges = find_wing_edges(in_.model, roles_, bases_, trace_, &small, &has_hollow);
     std::vector<DeclaredEdge> declared;
     if (comm_.is_root()) {
-      declared = declared_edges(rules_, model_.tables(), bases_, wings_.edges);
-      declare_edges(model_, roles_, bases_, declared, wings_.edges);
+      declared = declared_edges(in_.rules, in_.model.tables(), bases_, wings_.edges);
+      declare_edges(in_.model, roles_, bases_, declared, wings_.edges);
       std::vector<DeclaredEdge> named = declared;  // what the user says of an edge counts, however short it is
       for (DeclaredEdge& d : named) d.meaning = EdgeMeaning::kNoTrailing;
-      declare_edges(model_, roles_, bases_, named, small);
+      declare_edges(in_.model, roles_, bases_, named, small);
     }
     std::vector<LiftingSurface>& wings = wings_.aircraft.wings;
-    wings = find_lifting_surfaces(model_, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft, small);
-    const std::vector<std::uint8_t> is_excluded = edges_without_wing(model_.tables(), declared);
-    add_round_tails(model_, roles_, wings_.edges, is_excluded, wings, trace_);
-    if (comm_.is_root()) liken_blades(model_, is_excluded, wings, wings_.unused);
-    bool may_be_vanes = has_hollow && (wings.empty() || has_through_holes(model_.tables()));
+    wings =
+        find_lifting_surfaces(in_.model, roles_, wings_.edges, trace_, &wings_.unused, Noseless::kOfAircraft, small);
+    const std::vector<std::uint8_t> is_excluded = edges_without_wing(in_.model.tables(), declared);
+    add_round_tails(in_.model, roles_, wings_.edges, is_excluded, wings, trace_);
+    if (comm_.is_root()) liken_blades(in_.model, is_excluded, wings, wings_.unused);
+    bool may_be_vanes = has_hollow && (wings.empty() || has_through_holes(in_.model.tables()));
     share(trace_, may_be_vanes);
     return may_be_vanes;
   }
 
   void set_limits() {
-    if (find_wings() && has_vanes(model_, roles_, bases_, trace_)) {
+    if (find_wings() && has_vanes(in_.model, roles_, bases_, trace_)) {
       roles_.is_passage = true;
       if (comm_.is_root()) log_report(kPassageLine);
       find_wings();
     }
-    std::vector<std::uint8_t> is_smooth = find_smooth_edges(model_, trace_);
-    if (comm_.is_root()) limits_ = find_limits(o_, model_, roles_, bases_, {wall_, rules_}, wings_);
+    std::vector<std::uint8_t> is_smooth = find_smooth_edges(in_.model, trace_);
+    if (comm_.is_root()) limits_ = find_limits(o_, in_.model, roles_, bases_, {wall_, in_.rules}, wings_);
     limits_.edge_is_smooth = std::move(is_smooth);
     share_limits(trace_, limits_);
     require_places(o_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
-    require_cells(least_cells(model_.tables(), limits_), budget_.max_cells);
+    require_cells(least_cells(in_.model.tables(), limits_), budget_.max_cells);
     limit_samples(budget_.max_samples, limits_);
   }
 
-  SampledModel sampled() { return {model_, limits_, strips_, o_.time_limit, loops_}; }
+  SampledModel sampled() { return {in_.model, limits_, strips_, o_.time_limit, loops_}; }
 
-  void sample() {
-    loops_.resize(static_cast<std::size_t>(model_.tables().n_faces()));
+  std::vector<std::vector<LengthSample>> sample() {
+    loops_.resize(static_cast<std::size_t>(in_.model.tables().n_faces()));
     Samples samples = sample_model(sampled(), budget_.max_samples, trace_);
     times_.end("sampling");
     if (comm_.is_root()) counts_ = report_samples(samples);
@@ -290,48 +301,46 @@ class RasterRun {
     std::vector<RasterBox>& boxes = samples.own_boxes;
     boxes.insert(boxes.end(), wings_.boxes.begin(), wings_.boxes.end());
     if (limits_.wants_gaps)
-      counts_.n_gap_boxes = sample_gaps(model_, samples, o_.cell_per_length, budget_.max_samples, trace_);
+      counts_.n_gap_boxes = sample_gaps(in_.model, samples, o_.cell_per_length, budget_.max_samples, trace_);
     times_.end("gaps");
     trace_.begin_phase("octree");
-    const Box3 box = model_.tables().box();
-    const Box3 root = choose_octree_box(box, model_.tables().wall_box(), boxes, limits_.far_length, comm_);
+    const Box3 box = in_.model.tables().box();
+    const Box3 root = choose_octree_box(box, in_.model.tables().wall_box(), boxes, limits_.far_length, comm_);
     artifact_.octree = build_common_octree(root, boxes, budget_.max_cells, comm_);
     counts_.depth = gather_depth_limit(find_depth_limit(root, boxes), comm_);
-    if (o_.cell_per_length > kStoredByCellUpTo) samples_ = gather_samples(boxes, origin_of_places(box), comm_);
+    std::vector<std::vector<LengthSample>> lengths;
+    if (o_.cell_per_length > kStoredByCellUpTo) lengths = gather_samples(boxes, origin_of_places(box), comm_);
     times_.end("octree");
+    return lengths;
   }
 
   void write() {
     artifact_.n_not_sampled = static_cast<std::int64_t>(counts_.n_failures);
-    artifact_.edge_name = model_.tables().edge_name;
-    artifact_.labels = model_.tables().labels;
+    artifact_.edge_name = in_.model.tables().edge_name;
+    artifact_.labels = in_.model.tables().labels;
     artifact_.wings = std::move(wings_.records);
-    const GivenFloors floors = find_floors(rules_, !o_.lmin.empty(), model_.tables(), wings_.edges, limits_);
+    const GivenFloors floors = find_floors(in_.rules, !o_.lmin.empty(), in_.model.tables(), wings_.edges, limits_);
     if (std::ranges::any_of(floors.face, [](double lmin) { return lmin > 0; })) artifact_.face_lmin = floors.face;
     artifact_.undercuts = sample_undercuts(artifact_.samples, floors);
-    fill_header(o_, geometry_.header, wall_, sizes_.hash, artifact_.header);
+    fill_header(o_, in_.geometry.header, wall_, in_.sizes.hash, artifact_.header);
     artifact_.header.content_hash = write_raster(o_.output, artifact_);
   }
 
   StageSummary report() const {
     report_wings(o_, wings_, artifact_.header.unit);
-    report_unused(o_, model_, roles_, wings_);
+    report_unused(o_, in_.model, roles_, wings_);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
     for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups, artifact_.header.unit))
       log_report(line);
     report_undercuts(artifact_);
-    return summarize(o_, artifact_, counts_, rules_.size(), wings_, groups, times_);
+    return summarize(o_, artifact_, counts_, in_.rules.size(), wings_, groups, times_);
   }
 
   const RasterStageOptions& o_;
   const Communicator& comm_;
   TaskTrace trace_;
-  Progress& progress_;
   PhaseTimes times_;
-  const SizeRuleFile sizes_;
-  GeometryArtifact geometry_;  // without the model
-  const std::vector<SizeRule> rules_;
-  const Model model_;
+  const RasterInput in_;
   FaceRoles roles_;
   const SamplingLimits wall_;
   const std::vector<Strip> strips_, bases_;  // the latter on rank 0 only
@@ -340,7 +349,6 @@ class RasterRun {
   CellBudget budget_;
   FaceLoops loops_;
   SampleCounts counts_;
-  std::vector<std::vector<LengthSample>> samples_;  // by rank, on rank 0
   RasterArtifact artifact_;
 };
 
@@ -368,7 +376,7 @@ StageSummary run_raster(const RasterStageOptions& o, const Communicator& comm) {
   if (comm.is_root() && !o.trace.empty()) require_writable(o.trace);
   Progress progress("st-raster", 1);
   progress.step("reading", 0);
-  return RasterRun(o, comm, progress).run();
+  return RasterRun(o, comm).run(progress);
 }
 
 }  // namespace st

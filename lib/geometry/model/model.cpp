@@ -12,11 +12,12 @@
 #include <cmath>
 #include <cstring>
 #include <istream>
+#include <span>
 #include <sstream>
+#include <streambuf>
 
 #include "base/assert.h"
 #include "base/error.h"
-#include "geometry/brep/byte_stream.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/model/model_impl.h"
 #include "geometry/shape/analytic.h"
@@ -27,10 +28,30 @@
 namespace st {
 namespace {
 
+/// Bytes in memory, read where they are.
+class ByteStream : public std::streambuf {
+ public:
+  explicit ByteStream(std::span<const std::byte> bytes) {
+    char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data()));
+    setg(begin, begin, begin + bytes.size());
+  }
+
+ protected:
+  pos_type seekoff(off_type offset, std::ios_base::seekdir way, std::ios_base::openmode) override {
+    char* target = (way == std::ios_base::beg ? eback() : way == std::ios_base::cur ? gptr() : egptr()) + offset;
+    if (target < eback() || target > egptr()) return pos_type(off_type(-1));
+    setg(eback(), target, egptr());
+    return target - eback();
+  }
+  pos_type seekpos(pos_type position, std::ios_base::openmode mode) override {
+    return seekoff(position, std::ios_base::beg, mode);
+  }
+};
+
 /// Null where there is none in the bytes.
 TopoDS_Shape shape_of(const std::vector<std::byte>& brep) try {
-  const auto buffer = occt::byte_stream(brep);
-  std::istream stream(buffer.get());
+  ByteStream buffer(brep);
+  std::istream stream(&buffer);
   TopoDS_Shape shape;
   BinTools::Read(shape, stream);
   return shape;
