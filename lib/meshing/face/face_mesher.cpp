@@ -63,6 +63,7 @@ class FaceMesher {
       collect(result);
       return result;
     }
+    if (options.enhance_rounds > 0 && !field.is_stretched()) work_.mesh.sort_along_curve();  // rows are in order
     enhance(work_, options.enhance_rounds);
     collect(result);
     check_edges(boundary_, result);

@@ -8,6 +8,7 @@
 #include "base/limits.h"
 #include "base/morton.h"
 #include "base/predicates.h"
+#include "base/radix_sort.h"
 
 namespace st {
 namespace {
@@ -489,6 +490,71 @@ void Triangulation::collapse(std::int32_t node, int target_index, const std::vec
     node_triangle_[target] = tris[q];
   }
   node_triangle_[node] = kNone;
+}
+
+void Triangulation::sort_along_curve() {
+  renumber_nodes(order_along_curve());
+  renumber_triangles();
+}
+
+/// Of the inner nodes.
+std::vector<std::int32_t> Triangulation::order_along_curve() const {
+  constexpr std::uint32_t kCells = 1024;  // along a side: keys are short, and few nodes have a common one
+  const Vec2 lo = nodes[n_boundary].p, hi = nodes[n_boundary + 2].p;
+  const double scale = kCells / std::max(hi.x - lo.x, hi.y - lo.y);
+  struct Place {
+    std::uint64_t key;
+    std::int32_t node;
+  };
+  std::vector<Place> places, other;
+  for (auto i = static_cast<std::size_t>(n_boundary) + 4; i < nodes.size(); ++i) {
+    const auto cell = [&](double d) { return static_cast<std::uint32_t>(d * scale); };
+    const Vec2 d = nodes[i].p - lo;
+    places.push_back({morton::encode({cell(d.x), cell(d.y), 0}), static_cast<std::int32_t>(i)});
+  }
+  radix_sort(places, other, [](const Place& p) { return p.key; });
+  std::vector<std::int32_t> order;
+  for (const Place& p : places) order.push_back(p.node);
+  return order;
+}
+
+void Triangulation::renumber_nodes(const std::vector<std::int32_t>& order) {
+  const std::int32_t first = n_boundary + 4;
+  std::vector<std::int32_t> number(nodes.size());
+  std::iota(number.begin(), number.end(), 0);
+  std::vector<MeshNode> sorted(nodes.begin(), nodes.begin() + first);
+  sorted.reserve(nodes.size());
+  for (const std::int32_t node : order) {
+    number[node] = static_cast<std::int32_t>(sorted.size());
+    sorted.push_back(nodes[node]);
+  }
+  nodes = std::move(sorted);
+  std::vector<std::int32_t> triangle_at(node_triangle_.size());
+  for (std::size_t i = 0; i < number.size(); ++i) triangle_at[number[i]] = node_triangle_[i];
+  node_triangle_ = std::move(triangle_at);
+  for (PlaneTriangle& t : triangles)
+    for (std::int32_t& v : t.v) v = number[v];
+}
+
+/// By the least inner node.
+void Triangulation::renumber_triangles() {
+  std::vector<std::int32_t> number(triangles.size(), kNone);
+  std::vector<PlaneTriangle> sorted;
+  sorted.reserve(triangles.size());
+  const auto take = [&](std::int32_t t) {
+    if (number[t] != kNone) return;
+    number[t] = static_cast<std::int32_t>(sorted.size());
+    sorted.push_back(triangles[t]);
+  };
+  for (std::int32_t i = n_boundary + 4; i < static_cast<std::int32_t>(nodes.size()); ++i)
+    visit_ring(i, [&](std::int32_t, std::int32_t t) { take(t); });
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(number.size()); ++t) take(t);
+  for (PlaneTriangle& t : sorted)
+    for (std::int32_t& n : t.n)
+      if (n != kNone) n = number[n];
+  for (std::int32_t& t : node_triangle_)
+    if (t != kNone) t = number[t];
+  triangles = std::move(sorted);
 }
 
 }  // namespace st

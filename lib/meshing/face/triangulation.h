@@ -126,6 +126,10 @@ class Triangulation {
   void collapse(std::int32_t node, int target_index, const std::vector<std::int32_t>& around,
                 const std::vector<std::int32_t>& tris);
 
+  /// Numbers inner nodes anew along a space-filling curve, and triangles as they come about nodes: who goes through
+  /// them finds what is around in the caches. Triangles of the box about the loops are last.
+  void sort_along_curve();
+
   int index_of(std::int32_t t, std::int32_t node) const {
     const PlaneTriangle& r = triangles[t];
     return r.v[0] == node ? 0 : r.v[1] == node ? 1 : 2;
@@ -133,6 +137,9 @@ class Triangulation {
 
  private:
   void start_box();
+  std::vector<std::int32_t> order_along_curve() const;
+  void renumber_nodes(const std::vector<std::int32_t>& order);
+  void renumber_triangles();
   bool insert_boundary_node(std::int32_t node, std::int32_t& hint);
   std::optional<LoopConflict> insert_segment(std::int32_t a, std::int32_t b);
   std::optional<LoopConflict> force_edge(std::int32_t a, std::int32_t b);

@@ -353,7 +353,7 @@ TEST(HoleRounds, grow_a_hole_whose_fill_would_fold) {
   Vec2 middle;
   for (int k = 0; k < 3; ++k) middle = middle + 1.0 / 3 * box.mesh.corner_uv[3 * options.redo[0] + k];
   misplace_rim_node(box, Marked(box, box.field, options).holes.marks().triangle,
-                    [&](Vec2 uv) { return uv + (uv - middle); });  // over triangles that stay
+                    [&](Vec2 uv) { return uv + 2.0 * (uv - middle); });  // over triangles that stay
   const MeshResult r = Marked(box, box.field, options).fill();
   EXPECT_GT(r.n_grown, 0);
   EXPECT_TRUE(r.failures.empty());

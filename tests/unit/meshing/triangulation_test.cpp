@@ -304,6 +304,51 @@ TEST(Triangulation, stays_valid_under_insertion_in_any_metric) {
   }
 }
 
+/// State and corners' places of all triangles, whatever their numbers.
+std::multiset<std::vector<double>> places_of_triangles(const Triangulation& m) {
+  std::multiset<std::vector<double>> all;
+  for (const PlaneTriangle& t : m.triangles) {
+    const int least = static_cast<int>(std::min_element(t.v, t.v + 3,
+                                                        [&](std::int32_t a, std::int32_t b) {
+                                                          const Vec2 p = m.nodes[a].p, q = m.nodes[b].p;
+                                                          return p.x != q.x ? p.x < q.x : p.y < q.y;
+                                                        }) -
+                                       t.v);
+    std::vector<double> places{static_cast<double>(t.state)};
+    for (int k = 0; k < 3; ++k) {
+      const Vec2 p = m.nodes[t.v[(least + k) % 3]].p;
+      places.insert(places.end(), {p.x, p.y});
+    }
+    all.insert(places);
+  }
+  return all;
+}
+
+/// Mean difference of the numbers of inner nodes at an edge.
+double mean_step(const Triangulation& m) {
+  double sum = 0;
+  int n = 0;
+  for (const PlaneTriangle& t : m.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::int32_t a = t.v[k], b = t.v[(k + 1) % 3];
+      if (std::min(a, b) < m.n_boundary + 4) continue;
+      sum += std::abs(a - b);
+      ++n;
+    }
+  return sum / n;
+}
+
+TEST(Triangulation, sorted_along_a_curve_is_the_same_and_numbers_what_is_near_in_a_row) {
+  Triangulation m = with_inner_nodes(2000, {Metric{}});
+  const auto places = places_of_triangles(m);
+  const double step = mean_step(m);
+  m.sort_along_curve();
+  expect_valid(m);
+  EXPECT_EQ(places_of_triangles(m), places);
+  EXPECT_LT(mean_step(m), step / 8);
+  for (const auto& [a, b] : joined(ring(0, 4), ring(4, 4))) EXPECT_TRUE(has_edge(m, a, b, true));
+}
+
 TEST(Triangulation, stays_valid_under_swaps) {
   Triangulation m = with_inner_nodes(300, {Metric{}});
   std::mt19937 random(3);
