@@ -17,7 +17,7 @@ template <class Item, class KeyOf>
 void radix_sort(std::vector<Item>& items, std::vector<Item>& other, const KeyOf& key_of) {
   constexpr int kDigitBits = 11;
   constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-  constexpr std::size_t kSmall = 2048;  // below, comparison sorting is faster than counting
+  constexpr std::size_t kSmall = 512;  // below, comparison sorting is faster than counting
   if (items.size() < kSmall)
     return std::stable_sort(items.begin(), items.end(),
                             [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); });

@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/eigen.h"
 #include "base/sort_once.h"
+#include "base/threads.h"
 
 namespace st {
 namespace {
@@ -206,9 +207,11 @@ std::vector<std::int32_t> spread_labels(const Neighbours& neighbours, std::span<
 std::vector<CellLength> fit_gradients(const Neighbours& neighbours, std::span<const float> lengths,
                                       const ProlongOptions& options, const Blanking* blanking) {
   const FitInput input{neighbours.octree(), neighbours, blanking, lengths, options};
-  std::vector<CellLength> cells;
-  for (std::size_t site = 0; site < lengths.size(); ++site)
-    cells.push_back(fit_cell(input, static_cast<std::int32_t>(site)));
+  constexpr std::size_t kSitesPerPiece = 2'048;
+  std::vector<CellLength> cells(lengths.size());
+  parallel_for(cells.size(), kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t site = begin; site < end; ++site) cells[site] = fit_cell(input, static_cast<std::int32_t>(site));
+  });
   return cells;
 }
 
