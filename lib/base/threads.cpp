@@ -1,5 +1,7 @@
 #include "base/threads.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -183,7 +185,11 @@ void set_thread_count(int n) {
   g_thread_count = n;
 }
 
-int processor_count() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+int processor_count() {
+  cpu_set_t own;
+  if (sched_getaffinity(0, sizeof own, &own) == 0) return CPU_COUNT(&own);
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));  // more than the set can tell
+}
 
 void parallel_for(std::size_t n, std::size_t grain,
                   const std::function<void(std::size_t begin, std::size_t end)>& body) {

@@ -1,6 +1,7 @@
 #include "base/threads.h"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 
 #include <atomic>
 #include <chrono>
@@ -161,6 +162,18 @@ TEST(RunJobs, runs_each_once) {
     run_jobs(jobs);
     EXPECT_EQ(n_run, std::vector<int>(5, 1));
   }
+}
+
+TEST(ProcessorCount, is_that_of_the_processors_this_process_may_use) {
+  cpu_set_t before, first;
+  ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);
+  EXPECT_EQ(processor_count(), CPU_COUNT(&before));
+  CPU_ZERO(&first);
+  for (int cpu = 0; CPU_COUNT(&first) == 0; ++cpu)
+    if (CPU_ISSET(cpu, &before)) CPU_SET(cpu, &first);
+  ASSERT_EQ(sched_setaffinity(0, sizeof first, &first), 0);
+  EXPECT_EQ(processor_count(), 1);
+  sched_setaffinity(0, sizeof before, &before);
 }
 
 TEST(ThreadCount, is_at_least_one) {
