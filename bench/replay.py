@@ -3,6 +3,7 @@
 
 usage: bench/replay.py TRACE [--ranks 1,2,16,256] [--threads N] [--latency S] [--bandwidth B] [--times N]
        bench/replay.py --validate GEOMETRY SIZING [--bin DIR] [--runs N]
+       bench/replay.py --chain MODEL [--bin DIR] [--runs N] [--on 8,64]
 
 TRACE: what `st-mesh --trace` wrote with one rank and one thread, and --journal-after 1e9: what is replayed ends before
 it would begin a journal. Processor times count, so a disk costs nothing.
@@ -16,12 +17,17 @@ What is replayed, with one processor for each thread:
 --times N: every task N times and rank 0's work N times as long, as with N times as many triangles: tiles do not grow.
 --validate runs st-mesh at 1 and 2 threads and ranks, and compares it with the replay of its trace at one, also with
 tasks as much slower as they were there: two processors of a machine share caches and memory.
+--chain runs all stages on one processor, and replays each on the threads of --on: st-raster and st-mesh by their
+traces; of the others the loops over threads are shared, down to their longest pieces, and the rest takes as long as it
+took. What starting a program takes is in it. The least of --runs counts.
 """
 import argparse
 import bisect
 import csv
 import heapq
+import json
 import math
+import os
 import subprocess
 import sys
 import tempfile
@@ -213,6 +219,47 @@ def validate(options):
                   f"{slower:.2f} | {slow:.3f} | {100 * (slow / run.end - 1):+.1f} % |")
 
 
+def run_stage(name, words, on):
+    """Seconds of a run on one processor and thread, and on each number of threads of `on`."""
+    done = subprocess.Popen(["taskset", "-c", "0", *map(str, words), "--json"], stdout=subprocess.PIPE)
+    summary = json.loads(done.stdout.read().splitlines()[-1])
+    _, status, usage = os.wait4(done.pid, 0)
+    if os.waitstatus_to_exitcode(status) not in (0, 5):
+        sys.exit(f"{words}: exit {os.waitstatus_to_exitcode(status)}")
+    seconds = usage.ru_utime + usage.ru_stime
+    if name in ("raster", "mesh"):
+        trace = Trace(words[-1])
+        of = [Machine(1, n, argparse.Namespace(times=1, latency=0, bandwidth=1)).run(trace) for n in (1, *on)]
+        return seconds, [seconds - of[0] + s for s in of[1:]]
+    loops, longest = (summary["processor_seconds"][k] for k in ("in_loops", "longest_pieces"))
+    return seconds, [seconds - loops + max(loops / n, longest) for n in on]
+
+
+def replay_chain(options):
+    """Table of all stages on one thread and on more."""
+    with tempfile.TemporaryDirectory() as folder:
+        f = {name: Path(folder) / f"{name}.hdf" for name in ("geometry", "raster", "sizing", "patches", "mesh")}
+        trace, one = ["--trace", Path(folder) / "trace.csv"], ["--threads", 1]
+        stages = [("import", [options.files[0], "-o", f["geometry"]]),
+                  ("raster", [f["geometry"], "-o", f["raster"], *one, *trace]),
+                  ("prolong", [f["raster"], "-o", f["sizing"], *one]),
+                  ("mesh", [f["geometry"], f["sizing"], "-o", f["patches"], *one, "--journal-after", "1e9", *trace]),
+                  ("merge", [f["patches"], "-o", f["mesh"], *one]),
+                  ("check", [f["mesh"], "--geometry", f["geometry"], "--sizing", f["sizing"], *one])]
+        print("| stage | one thread | " + " | ".join(f"{n} threads | times" for n in options.on) + " |")
+        print("|---|--:" + "|--:|--:" * len(options.on) + "|")
+        rows = []
+        for name, words in stages:
+            rows.append(min((run_stage(name, [options.bin / f"st-{name}", *words], options.on)
+                             for _ in range(options.runs)), key=lambda row: row[0]))
+            tell_stage(name, *rows[-1])
+        tell_stage("chain", sum(r[0] for r in rows), [sum(of) for of in zip(*(r[1] for r in rows))])
+
+
+def tell_stage(name, first, on):
+    print(f"| {name} | {first:.3f} | " + " | ".join(f"{s:.3f} | {first / s:.2f}" for s in on) + " |", flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", nargs="+", type=Path)
@@ -222,6 +269,8 @@ def main():
     parser.add_argument("--bandwidth", type=float, default=1e9, help="bytes per second into a process")
     parser.add_argument("--times", type=int, default=1)
     parser.add_argument("--validate", action="store_true")
+    parser.add_argument("--chain", action="store_true")
+    parser.add_argument("--on", default="8,64", type=lambda text: [int(n) for n in text.split(",")])
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/bin")
     parser.add_argument("--runs", type=int, default=3)
     options = parser.parse_args()
@@ -229,6 +278,8 @@ def main():
         sys.exit(__doc__)
     if options.validate:
         validate(options)
+    elif options.chain:
+        replay_chain(options)
     else:
         tell(Trace(options.files[0]), options)
 

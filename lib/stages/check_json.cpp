@@ -178,7 +178,7 @@ json bins_json() {
 }  // namespace
 
 std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
-                              ReportDetail detail) {
+                              ReportDetail detail, const nlohmann::json& processor) {
   json checks = json::object(), failed = json::array();
   for (const Check& c : f.checks) {
     checks[c.name] = check_json(c);
@@ -214,6 +214,7 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
          {"groups", groups_json(mesh, f, detail)},
          {"faces", faces_json(mesh, f, detail)},
          {"seconds", seconds}};
+  if (!processor.is_null()) j["processor_seconds"] = processor;
   j["jumps"] = jump_json(f.quality.jumps, ReportDetail::kFull);
   if (f.is_stretched) j["rows"] = rows_json(f.quality.rows);
   if (f.conformity) j["sizes"] = sizes_json(*f.conformity, detail);

@@ -35,6 +35,7 @@
 #include "stages/fitting_files.h"
 #include "stages/foreign_mesh.h"
 #include "stages/layers_check.h"
+#include "stages/phase_times.h"
 #include "stages/stored_model.h"
 #include "stages/wing_table.h"
 #include "stages/wing_triangles.h"
@@ -363,7 +364,7 @@ StageSummary check(const CheckStageOptions& options, const Executor& ranks, std:
   if (report) *report = std::move(full);
   return {options.text == CheckText::kWhole ? check_report_text(options.mesh, artifact.mesh, f, seconds)
                                             : check_brief_text(options.mesh, artifact.mesh, f, seconds, options.text),
-          check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kSummary),
+          check_report_json(options.mesh, artifact.mesh, f, seconds, ReportDetail::kSummary, processor_json()),
           f.passes() ? ExitCode::kOk : ExitCode::kIncomplete};
 }
 

@@ -27,6 +27,7 @@
 #include "stages/cad_view.h"
 #include "stages/compose.h"
 #include "stages/group_suggestion.h"
+#include "stages/phase_times.h"
 
 namespace st {
 namespace {
@@ -525,6 +526,7 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
     json["output"] = o.output;
   }
   json["seconds"] = timer.seconds();
+  json["processor_seconds"] = processor_json();
   s.line += fmt::format(", {:.2f} s", timer.seconds());
   s.json = json_text(json);
   return s;

@@ -23,6 +23,7 @@
 #include "stages/merge_columns.h"
 #include "stages/mesh_export.h"
 #include "stages/orientation_warnings.h"
+#include "stages/phase_times.h"
 
 namespace st {
 namespace {
@@ -148,7 +149,8 @@ StageSummary summarize(const MergeStageOptions& options, const MeshColumns& mesh
                             {"one_sided_parts", orientation.n_one_sided},
                             {"area", facts.area},
                             {"volume", facts.volume},
-                            {"seconds", seconds}};
+                            {"seconds", seconds},
+                            {"processor_seconds", processor_json()}};
   const std::string state = facts.is_closed() ? "closed"
                                               : fmt::format("{} open and {} non-manifold edges", facts.n_boundary_edges,
                                                             facts.n_nonmanifold_edges);

@@ -2,6 +2,7 @@
 
 #include "base/packer.h"
 #include "base/processor_time.h"
+#include "base/threads.h"
 
 namespace st {
 PhaseTimes::PhaseTimes() : processor_at_last_(process_seconds()) {}
@@ -33,6 +34,11 @@ nlohmann::json PhaseTimes::processor() const {
   nlohmann::json result = nlohmann::json::object();
   for (const Part& part : parts_) result[part.name] = part.processor;
   return result;
+}
+
+nlohmann::json processor_json() {
+  const LoopSeconds loops = seconds_in_loops();
+  return {{"all", process_seconds()}, {"in_loops", loops.all}, {"longest_pieces", loops.longest}};
 }
 
 }  // namespace st

@@ -37,4 +37,8 @@ class PhaseTimes {
   std::vector<Part> parts_;
 };
 
+/// Processor seconds of this process so far, of these in loops over threads, and in the longest piece of each: what a
+/// run with one thread tells of one with more. See LoopSeconds; for bench/replay.py.
+nlohmann::json processor_json();
+
 }  // namespace st

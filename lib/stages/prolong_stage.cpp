@@ -26,6 +26,7 @@
 #include "stages/blank_input.h"
 #include "stages/edit_provenance.h"
 #include "stages/expected_triangles.h"
+#include "stages/phase_times.h"
 #include "stages/size_report.h"
 #include "stages/size_tally.h"
 #include "stages/slope_input.h"
@@ -396,7 +397,8 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
                                 {"below_lmin", undercuts_json(sizing.undercuts, sizing.names, "places", scale)},
                                 {"groups", groups_json(groups, sizing.names)},
                                 {"hash", sizing.header.content_hash},
-                                {"seconds", seconds}});
+                                {"seconds", seconds},
+                                {"processor_seconds", processor_json()}});
   return summary;
 }
 
