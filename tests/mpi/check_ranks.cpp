@@ -105,6 +105,7 @@ const std::vector<Case>& cases() {
 std::string without_time(const StageSummary& s, const std::string& report) {
   auto json = nlohmann::json::parse(s.json), full = nlohmann::json::parse(report);
   json.erase("seconds");
+  json.erase("processor_seconds");
   full.erase("seconds");
   return json.dump() + full.dump() + s.line.substr(0, s.line.rfind(", ")) + std::to_string(static_cast<int>(s.code));
 }
