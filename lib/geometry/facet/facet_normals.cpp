@@ -5,18 +5,20 @@
 #include <numeric>
 
 #include "base/eigen.h"
+#include "base/threads.h"
 #include "geometry/shape/known_neighbours.h"
 
 namespace st {
 namespace {
 
-constexpr int kChoices = 3;        // of weights, each for all nodes
-constexpr int kMostPasses = 100;   // of normals, over those that still turn
-constexpr double kStill = 1e-3;    // radians: a normal that would turn by less stays
-constexpr double kHeld = 0.05;     // of the weight of its sides: a normal's own, where these run one way
-constexpr double kMostTilt = 0.9;  // cosine to the facets' normal, at least
-constexpr double kOutlier = 4;     // turning per length of a side, over that of the facets around it
-constexpr int kEvenPasses = 5;     // over all sides
+constexpr int kChoices = 3;                   // of weights, each for all nodes
+constexpr int kMostPasses = 100;              // of normals, over those that still turn
+constexpr double kStill = 1e-3;               // radians: a normal that would turn by less stays
+constexpr double kHeld = 0.05;                // of the weight of its sides: a normal's own, where these run one way
+constexpr double kMostTilt = 0.9;             // cosine to the facets' normal, at least
+constexpr double kOutlier = 4;                // turning per length of a side, over that of the facets around it
+constexpr std::size_t kFansPerPiece = 16384;  // whose weights a thread chooses at once
+constexpr int kEvenPasses = 5;                // over all sides
 
 /// Normals at the ends of an arc are square, in sum, to its chord: so are they at the sides of facets on a smooth
 /// surface, to the second order.
@@ -97,19 +99,23 @@ class ArcNormals {
   /// For each fan the weights that make arcs of the sides around.
   void choose() {
     const std::vector<Vec3> before = mesh_.normal;
-    for (std::size_t n = 0; n < before.size(); ++n) {
-      if (at_line_[n]) continue;
-      std::array<double, kWays> misfit{};
-      for_each_beside(static_cast<std::int32_t>(n), [&](std::int32_t other, Vec3 side) {
-        if (at_line_[other]) return;
-        const double there = dot(before[other], side);
-        for (std::size_t way = 0; way < kWays; ++way) {
-          const double sum = dot(ways_[way][n], side) + there;
-          misfit[way] += sum * sum;
-        }
-      });
-      mesh_.normal[n] = ways_[std::min_element(misfit.begin(), misfit.end()) - misfit.begin()][n];
-    }
+    parallel_for(before.size(), kFansPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t n = begin; n < end; ++n)
+        if (!at_line_[n]) mesh_.normal[n] = ways_[best_way(static_cast<std::int32_t>(n), before)][n];
+    });
+  }
+
+  std::size_t best_way(std::int32_t n, const std::vector<Vec3>& before) const {
+    std::array<double, kWays> misfit{};
+    for_each_beside(n, [&](std::int32_t other, Vec3 side) {
+      if (at_line_[other]) return;
+      const double there = dot(before[other], side);
+      for (std::size_t way = 0; way < kWays; ++way) {
+        const double sum = dot(ways_[way][n], side) + there;
+        misfit[way] += sum * sum;
+      }
+    });
+    return static_cast<std::size_t>(std::min_element(misfit.begin(), misfit.end()) - misfit.begin());
   }
 
   /// Normals turn to what makes arcs of their sides, one after the other, until all stay.
