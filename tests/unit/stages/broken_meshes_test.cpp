@@ -175,7 +175,7 @@ const std::vector<Defect>& defects() {
       {"repeated_node", name_a_node_twice, {"closed", "repeated-nodes"}},
       {"degenerate_triangle", flatten, {"zero-area", "crossings", "overlaps"}},
       {"fold", fold, {"folds", "areas", "crossings", "overlaps"}},
-      {"crossing", push_through, {"crossings", "off-surface", "areas", "cad-volume"}},
+      {"crossing", push_through, {"crossings", "off-surface", "areas", "cad-area", "cad-volume"}},
       {"node_off_surface",
        [](SurfaceMesh& m) { m.node_xyz[m.triangles[inner_triangle(m)].n[0]] += 2.0 * normal_of(m, inner_triangle(m)); },
        {"off-surface"}},
