@@ -105,8 +105,9 @@ class ConeSpread {
 
  private:
   void make_parts() {
-    constexpr std::size_t kParts = 64, kLeastSites = 256;
-    part_bits_ = std::bit_width(std::max(sites_.size() / kParts, kLeastSites));
+    constexpr std::size_t kPartsPerThread = 8, kLeastSites = 256;
+    const std::size_t n_wanted = kPartsPerThread * static_cast<std::size_t>(thread_count());
+    part_bits_ = std::bit_width(std::max(sites_.size() / n_wanted, kLeastSites));
     parts_.resize((sites_.size() >> part_bits_) + 1);
     for (Part& part : parts_) part.offers.resize(parts_.size());
   }
