@@ -15,21 +15,23 @@ namespace st {
 /// differs. `other` is overwritten: who sorts often keeps it.
 template <class Item, class KeyOf>
 void radix_sort(std::vector<Item>& items, std::vector<Item>& other, const KeyOf& key_of) {
-  constexpr int kDigitBits = 11;
-  constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
-  constexpr std::size_t kSmall = 512;  // below, comparison sorting is faster than counting
+  constexpr int kDigitBits = 11, kShortDigitBits = 8;
+  constexpr std::size_t kSmall = 128, kShort = 2048;  // below, comparisons are faster; short digits are
   if (items.size() < kSmall)
     return std::stable_sort(items.begin(), items.end(),
                             [&](const Item& a, const Item& b) { return key_of(a) < key_of(b); });
   std::uint64_t varying = 0;
   for (const Item& item : items) varying |= key_of(item) ^ key_of(items.front());
   other.resize(items.size(), items.front());
-  for (int shift = 0; shift < 64 && varying >> shift != 0; shift += kDigitBits) {
-    if (((varying >> shift) & (kDigits - 1)) == 0) continue;
-    const auto digit_of = [&](const Item& item) { return (key_of(item) >> shift) & (kDigits - 1); };
-    std::array<std::size_t, kDigits + 1> start{};
+  const int digit_bits = items.size() < kShort ? kShortDigitBits : kDigitBits;
+  const std::size_t n_digits = std::size_t{1} << digit_bits;
+  for (int shift = 0; shift < 64 && varying >> shift != 0; shift += digit_bits) {
+    if (((varying >> shift) & (n_digits - 1)) == 0) continue;
+    const auto digit_of = [&](const Item& item) { return (key_of(item) >> shift) & (n_digits - 1); };
+    std::array<std::size_t, (std::size_t{1} << kDigitBits) + 1> start;
+    std::fill_n(start.begin(), n_digits + 1, std::size_t{0});
     for (const Item& item : items) ++start[digit_of(item) + 1];
-    for (std::size_t d = 0; d < kDigits; ++d) start[d + 1] += start[d];
+    for (std::size_t d = 0; d < n_digits; ++d) start[d + 1] += start[d];
     for (const Item& item : items) other[start[digit_of(item)]++] = item;
     items.swap(other);
   }

@@ -26,7 +26,8 @@ std::vector<std::uint64_t> random_keys(std::size_t n, std::uint64_t mask) {
 }
 
 TEST(RadixSort, sorts_keys_of_all_bits_few_and_many) {
-  for (const std::size_t n : {0, 1, 2, 100, 511, 512, 513, 30000}) expect_as_std(random_keys(n, ~std::uint64_t{0}));
+  for (const std::size_t n : {0, 1, 2, 100, 127, 128, 500, 2047, 2048, 30000})
+    expect_as_std(random_keys(n, ~std::uint64_t{0}));
 }
 
 TEST(RadixSort, sorts_keys_that_differ_in_few_digits) {
