@@ -6,11 +6,15 @@
 #include <limits>
 
 #include "base/box_tree.h"
+#include "geometry/shape/projection.h"
 
 namespace st {
 namespace {
 
 constexpr double kMostAcross = 0.7;  // cosine: a side that lies further along the stretch does not end it
+
+constexpr double kTapered = 0.99;  // of the chord at the other end: less is at a tip
+constexpr double kOutward = 0.3;   // cosine to the way out of an edge: a tip's face, not that of a hub
 
 bool lies_across(Vec3 side, Vec3 direction) { return std::abs(dot(side, direction)) <= kMostAcross; }
 
@@ -44,6 +48,28 @@ class EndSides {
 };
 
 }  // namespace
+
+bool is_tip(const Model& model, const ChordEdge& trailing, std::size_t k) {
+  const ModelTables& t = model.tables();
+  const double begin = trailing.stations.front().chord, end = trailing.stations.back().chord;
+  if (!(k == 0 ? begin < kTapered * end : end < kTapered * begin)) return false;
+  const VertexId own = t.edge_vertices[2 * static_cast<std::size_t>(trailing.edge) + k];
+  const auto is_at = [&](EdgeId e) { return t.edge_vertices[2 * e] == own || t.edge_vertices[2 * e + 1] == own; };
+  const auto curve = model.curve(trailing.edge);
+  const Vec3 ahead = normalized(curve->evaluate(k == 0 ? curve->t_min() : curve->t_max()).d1),
+             out = k == 0 ? -ahead : ahead;
+  bool faces_out = false;
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    const auto edges = t.edges_of(f);
+    if (std::ranges::none_of(edges, is_at)) continue;
+    if (std::ranges::any_of(edges, [&](EdgeId e) { return is_at(e) && t.edge_is_degenerate[e]; })) return false;
+    if (std::ranges::count(edges, trailing.edge) > 0) continue;
+    const auto surface = model.surface(f);
+    const Vec3 n = surface_normal(*surface, closest_point(*surface, t.vertex_xyz[own]).uv);
+    faces_out |= dot(t.face_is_reversed[f] ? -n : n, out) > kOutward;
+  }
+  return faces_out;
+}
 
 double most_aspect_at(Vec3 end, Vec3 direction) {
   return end != Vec3{} && lies_across(end, direction) ? kEndAspect : std::numeric_limits<double>::infinity();

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "features/lifting_surface.h"
 #include "sizing/gap_patch.h"
 #include "sizing/octree.h"
 #include "sizing/space_sides.h"
@@ -15,6 +16,12 @@ namespace st {
 /// Length along over length across, at most, where nothing goes on along: half a rectangle of 3 to 1 is 1.9 times as
 /// large, as sides go, as the equilateral triangle beyond. From there lengths along grow by the slope.
 inline constexpr double kEndAspect = 3;
+/// Likewise where a sharp edge ends at a tip: its skins meet there in a small triangle of the rim.
+inline constexpr double kSharpEndAspect = 1.8;
+
+/// Whether a trailing edge ends at a tip: the chord is less at its end `k` (0: where it begins, 1) than at the other
+/// one, a face looks outward there, and none has a pole. Local, linear in the model's edges.
+bool is_tip(const Model& model, const ChordEdge& trailing, std::size_t k);
 
 /// Bounds the stretch of boxes from `first` on, and tells patches, where they reach a side across it. `sides`: of the
 /// face; `ends` tells the coedges at which it ends: across others the surface goes on. Local.

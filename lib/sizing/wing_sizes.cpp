@@ -24,6 +24,7 @@ constexpr int kGap = 2;                 // stations: noses further apart are not
 constexpr double kNose = 0.9;           // of the length asked for: s / (exp(s) - 1) for a slope s of 0.2
 constexpr double kBentTail = 0.5;       // of the length asked for: curvature of round tails asks for no less
 constexpr double kDefaultTail = 0.003;  // of the chord: likewise of this length at most
+constexpr double kAtEnd = 0.01;         // of the chord: noses that end nearer to tip or root end there
 constexpr double kFlat = 1;             // of the chord: asks for nothing
 constexpr double kTrailing = 0.95;      // likewise, along edges, where lengths along are exact
 
@@ -123,33 +124,47 @@ class WingRaster {
     return chord;
   }
 
-  /// Of the two ends of a way.
-  using Ends = std::array<bool, 2>;
+  /// Of the two ends of a way: length along over that across, at most; 0: it goes on.
+  using Ends = std::array<double, 2>;
+
+  VertexId vertex(const ChordEdge& trailing, std::size_t k) const {
+    return model_.tables().edge_vertices[2 * static_cast<std::size_t>(trailing.edge) + k];
+  }
 
   /// Where no other trailing edge of the wing goes on: at tip or root.
   Ends ends_of(const ChordEdge& trailing) const {
-    const std::vector<VertexId>& vertices = model_.tables().edge_vertices;
-    const auto is_end = [&](VertexId v) {
+    if (trailing.edge == kNone) return {};
+    const auto most_at = [&](std::size_t k) {
       std::ptrdiff_t n = 0;
       for (const ChordEdge& other : wing_.trailing)
-        if (other.edge != kNone) n += (vertices[2 * other.edge] == v) + (vertices[2 * other.edge + 1] == v);
-      return n == 1;
+        for (const std::size_t side : {0, 1}) n += other.edge != kNone && vertex(other, side) == vertex(trailing, k);
+      return n != 1 ? 0 : trailing.base == kNone && is_tip(model_, trailing, k) ? kSharpEndAspect : kEndAspect;
     };
-    if (trailing.edge == kNone) return {};
-    return {is_end(vertices[2 * trailing.edge]), is_end(vertices[2 * trailing.edge + 1])};
+    return {most_at(0), most_at(1)};
+  }
+
+  /// Of noses or tails in a row, if they come as near to a tip as their trailing edge.
+  Ends ends_of_run(std::span<const ChordStation* const> run, const ChordEdge& trailing) const {
+    const Ends of_edge = ends_of(trailing);
+    if (of_edge == Ends{}) return {};
+    const double way = ArcTable(*model_.curve(trailing.edge)).length();
+    const auto most_at = [&](std::size_t k, const ChordStation& s, double share) {
+      return of_edge[k] > 0 && is_tip(model_, trailing, k) && share * way <= kAtEnd * s.chord ? kEndAspect : 0;
+    };
+    return {most_at(0, *run.front(), run.front()->share), most_at(1, *run.back(), 1 - run.back()->share)};
   }
 
   /// At tip and root lengths along are near those across: triangles beyond are as short.
-  StretchLimits stretch_at(double share, Ends is_end) const {
+  StretchLimits stretch_at(double share, Ends most) const {
     StretchLimits limits = sizes_.stretch;
-    if ((share <= 0 && is_end[0]) || (share >= 1 && is_end[1]))
-      limits.max_aspect = std::min(limits.max_aspect, kEndAspect);
+    for (const std::size_t k : {0, 1})
+      if (most[k] > 0 && (k == 0 ? share <= 0 : share >= 1)) limits.max_aspect = std::min(limits.max_aspect, most[k]);
     return limits;
   }
 
   /// Boxes one length apart; `place_at` takes a share of the way.
   template <class PlaceAt>
-  void walk(double way, std::int32_t cause, Ends is_end, const PlaceAt& place_at) {
+  void walk(double way, std::int32_t cause, Ends most, const PlaceAt& place_at) {
     const double least = sizes_.given.of(cause);
     double share = 0;
     for (int n = 0; n < kMaxBoxes; ++n) {
@@ -165,7 +180,7 @@ class WingRaster {
                         cause,
                         {},
                         stretch_along([&](double at) { return place_at(at).x; }, std::min(share, 1.0), way,
-                                      place.length, stretch_at(share, is_end)),
+                                      place.length, stretch_at(share, most)),
                         reach_of(0.5 * (place_at(std::min(share + 0.5 * step, 1.0)).x -
                                         place_at(std::clamp(share - 0.5 * step, 0.0, 1.0)).x),
                                  place.across)});
@@ -185,17 +200,20 @@ class WingRaster {
     int n_missed = 0;
     for (const ChordStation& s : trailing.stations) {
       if (!s.is_measured) {
-        if (++n_missed > kGap) end_run(run, place, face);
+        if (++n_missed > kGap) end_run(run, trailing, place, face);
         continue;
       }
       n_missed = 0;
       run.push_back(&s);
     }
-    end_run(run, place, face);
+    end_run(run, trailing, place, face);
   }
 
   /// Along the noses or tails of stations in a row.
-  void end_run(std::vector<const ChordStation*>& run, Vec3 ChordStation::*place, FaceId ChordStation::*face) {
+  void end_run(std::vector<const ChordStation*>& run, const ChordEdge& trailing, Vec3 ChordStation::*place,
+               FaceId ChordStation::*face) {
+    if (run.empty()) return;
+    const Ends most = ends_of_run(run, trailing);
     const bool is_tail = face == &ChordStation::tail_face;
     std::vector<Vec3> x;
     for (const ChordStation* s : run) x.push_back(s->*place);
@@ -208,7 +226,8 @@ class WingRaster {
       if (is_apart && !edge) continue;
       const double bent_a = is_tail ? bent_at_tail(a) : kFlat, bent_b = is_tail ? bent_at_tail(b) : kFlat;
       const double way = edge ? edge->length() : distance(x[i], x[i + 1]);
-      walk(way, pack_cause(CauseKind::kFace, a.*face), {}, [&](double share) {
+      const Ends ends{i == 0 ? most[0] : 0, i + 2 == run.size() ? most[1] : 0};
+      walk(way, pack_cause(CauseKind::kFace, a.*face), ends, [&](double share) {
         const double chord = a.chord + share * (b.chord - a.chord), bent = bent_a + share * (bent_b - bent_a);
         Place own = reduced(kNose, edge ? edge->at(share) : piece.at(share), chord);
         own.length = std::min(own.length, std::max(bent * chord, floor_of(chord)));

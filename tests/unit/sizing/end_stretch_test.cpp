@@ -4,6 +4,9 @@
 
 #include <vector>
 
+#include "features/strip.h"
+#include "support/shapes.h"
+
 namespace st {
 namespace {
 
@@ -34,6 +37,17 @@ GapPatch patch_at(Vec3 x, Vec3 way) {
   patch.max_aspect = 20;
   patch.way = way;
   return patch;
+}
+
+TEST(IsTip, is_where_the_chord_is_less_and_a_face_looks_outward) {
+  const Model model = test::make_model("sharp_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  ChordEdge trailing =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0).trailing.at(0);
+  for (const std::size_t k : {0, 1}) EXPECT_FALSE(is_tip(model, trailing, k)) << "a wing of one chord";
+  trailing.stations.back().chord *= 0.9;
+  EXPECT_FALSE(is_tip(model, trailing, 0));
+  EXPECT_TRUE(is_tip(model, trailing, 1));
 }
 
 TEST(EndStretch, is_bounded_at_sides_across_it_alone) {
