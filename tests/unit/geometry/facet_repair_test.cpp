@@ -93,6 +93,18 @@ TEST(FacetRepair, turns_a_line_on_a_line) {
   EXPECT_EQ(in.corners.size(), 6u);
 }
 
+// At a sharp edge, where the cap of one side looks like a part of the other.
+TEST(FacetRepair, turns_the_long_side_of_a_low_cap_whatever_its_normal) {
+  FacetInput in;
+  in.x = {{0, 0, 0}, {0.5, -3e-4, 0}, {1, 0, 0}, {0.5, -20, 2}, {0.5, -20, -2}};
+  in.corners = {{0, 3, 2}, {0, 2, 1}, {0, 1, 4}, {1, 2, 4}};
+  in.part.assign(4, 0);
+  in.part_name = {""};
+  repair_facets(in);
+  ASSERT_EQ(in.corners.size(), 4u);
+  for (const Corners& c : in.corners) EXPECT_FALSE(std::ranges::count(c, 0) + std::ranges::count(c, 2) == 2);
+}
+
 TEST(FacetRepair, joins_free_nodes_in_almost_one_place) {
   FacetInput in = test::cube_facets();
   in.x.push_back(in.x[0] + Vec3{1e-7, 0, 0});
