@@ -9,18 +9,12 @@
 #include "meshing/face/row_ladder.h"
 #include "meshing/face/row_layer.h"
 #include "meshing/face/row_line.h"
-#include "meshing/face/row_map.h"
 #include "meshing/face/stretch.h"
 
 namespace st {
 namespace {
 
-// Where each number comes from: docs/design/heuristics.md.
-constexpr double kEven = 1.0001;     // diagonals that are as long: always the same one
-constexpr double kFlat = 1.9;        // length over height of quadrilaterals of which two become one
-constexpr double kMuchLonger = 1.7;  // length asked for along over that of the row
-constexpr double kMostFit = 0.9;     // share of a row in which this must hold
-constexpr std::size_t kLeastMerged = 8;
+constexpr double kEven = 1.0001;  // diagonals that are as long: always the same one; docs/design/heuristics.md
 
 using Side = std::pair<std::int32_t, std::int32_t>;
 
@@ -43,24 +37,11 @@ class RowBlock {
     height_ = w_.mesh.nodes[chain_.nodes[chain_.nodes.size() / 2]].request;
   }
 
-  /// All rows up to the side across, where it fits; false: none.
-  bool map() {
-    if (is_top_laid()) return false;
-    std::vector<NextLine> lines = mapped_lines(w_, chain_);
-    const auto is_laid = [](char joined) { return joined != 0; };
-    const bool is_whole = !lines.empty() && std::all_of(lines[0].joined.begin(), lines[0].joined.end(), is_laid);
-    if (!is_whole && lay_columns()) return true;
-    if (lines.empty()) return false;
-    line_.nodes = chain_.bottom;
-    line_.lowest.assign(line_.nodes.size(), 0);
-    line_.highest = line_.lowest;
-    line_.joined = lines[0].joined;
-    line_.is_closed = false;
-    for (NextLine& next : lines) {
-      lay(next);
-      for (const NextLine::Column& c : next.columns)
-        if (c.existing != kNone && c.existing < m_.n_boundary) is_used_[c.existing] = kLine;
-    }
+  /// All rows of a narrow face up to the side across; false: none.
+  bool lay_columns() {
+    if (is_top_laid() || !lay_ladder(w_, chain_)) return false;
+    for (const auto* side : {&chain_.bottom, &chain_.top})
+      for (const std::int32_t n : *side) is_used_[n] = kLine;
     line_.joined.assign(line_.joined.size(), 0);
     return true;
   }
@@ -71,7 +52,10 @@ class RowBlock {
     if (is_exhausted_) return false;
     NextLine next = next_line(w_, line_, sides);
     if (std::none_of(next.joined.begin(), next.joined.end(), [](char j) { return j; })) return false;
-    is_merging(next) ? merge(next) : lay(next);
+    insert(next);
+    for (std::size_t i = 0; i < next.joined.size(); ++i)
+      next.joined[i] = line_.joined[i] && is_whole(next, i) && force(i, next);
+    advance(next);
     return std::any_of(line_.joined.begin(), line_.joined.end(), [](char j) { return j; });
   }
 
@@ -94,56 +78,6 @@ class RowBlock {
     return false;
   }
 
-  /// Rows on a narrow face.
-  bool lay_columns() {
-    if (!lay_ladder(w_, chain_)) return false;
-    for (const auto* side : {&chain_.bottom, &chain_.top})
-      for (const std::int32_t n : *side) is_used_[n] = kLine;
-    line_.joined.assign(line_.joined.size(), 0);
-    return true;
-  }
-
-  void lay(NextLine& next) {
-    insert(next, 1);
-    for (std::size_t i = 0; i < next.joined.size(); ++i)
-      next.joined[i] = line_.joined[i] && is_whole(next, i) && force(i, next);
-    advance(next, 1);
-  }
-
-  /// Do all but a few of the quadrilaterals allow edges twice as long, and triangles over two of them?
-  bool is_merging(const NextLine& next) const {
-    const auto is_across = [](const NextLine::Column& c) { return c.is_across; };
-    if (line_.is_closed || n_rows_ == 0 || std::ranges::any_of(next.columns, is_across)) return false;
-    std::size_t n = 0, n_fit = 0;
-    for (std::size_t i = 0; i < next.joined.size(); ++i) {
-      if (!next.joined[i]) continue;
-      ++n;
-      const Vec3 c = next.columns[i].node.x, d = next.columns[i + 1].node.x;
-      const double height = 0.5 * (distance(x(line_.nodes[i]), c) + distance(x(line_.nodes[i + 1]), d));
-      n_fit += distance(c, d) < kFlat * height && length_at(next.columns[i], d - c) > kMuchLonger * distance(c, d);
-    }
-    return n >= kLeastMerged && static_cast<double>(n_fit) > kMostFit * static_cast<double>(n);
-  }
-
-  /// Asked for along `way` at the node of a column.
-  double length_at(const NextLine::Column& c, Vec3 way) const {
-    const bool is_known = c.asked.length > 0 && !w_.field->has_metrics();  // else normals matter
-    return is_known ? c.asked.in(way) : w_.field->length_along(c.node.x, way, hint_);
-  }
-
-  /// A row in which two columns become one.
-  void merge(const NextLine& fine) {
-    NextLine next;
-    for (std::size_t i = 0; i < fine.columns.size(); i += 2) next.columns.push_back(fine.columns[i]);
-    for (std::size_t i = 0; i + 1 < fine.joined.size(); i += 2)
-      next.joined.push_back(fine.joined[i] && fine.joined[i + 1]);
-    next.columns.resize(next.joined.size() + 1);
-    insert(next, 2);
-    for (std::size_t i = 0; i < next.joined.size(); ++i)
-      next.joined[i] = line_.joined[2 * i] && line_.joined[2 * i + 1] && is_whole(next, i) && force_pair(i, next);
-    advance(next, 2);
-  }
-
   static bool is_whole(const NextLine& next, std::size_t i) {
     return next.joined[i] && next.columns[i].existing != kNone && next.columns[i + 1].existing != kNone;
   }
@@ -164,11 +98,11 @@ class RowBlock {
     return sides;
   }
 
-  /// The nodes of every column of the line, or of every second.
-  void insert(NextLine& next, std::size_t stride) {
+  /// The nodes of every column of the line.
+  void insert(NextLine& next) {
     for (std::size_t i = 0; i < next.columns.size(); ++i) {
       NextLine::Column& c = next.columns[i];
-      if (line_.nodes[stride * i] == kNone) continue;
+      if (line_.nodes[i] == kNone) continue;
       const bool is_wanted = (i > 0 && next.joined[i - 1]) || (i < next.joined.size() && next.joined[i]) ||
                              (line_.is_closed && i == 0 && next.joined.back());
       if (!is_wanted || c.existing != kNone) continue;
@@ -176,7 +110,7 @@ class RowBlock {
         c.existing = next.columns[0].existing;
         continue;
       }
-      c.existing = layer_.insert(c.node, line_.nodes[stride * i]);
+      c.existing = layer_.insert(c.node, line_.nodes[i]);
     }
   }
 
@@ -193,17 +127,10 @@ class RowBlock {
     if (length(a, d) <= kEven * length(b, c)) return layer_.lay({{a, b, d}, {d, c, a}});
     return layer_.lay({{a, b, c}, {d, c, b}});
   }
-  /// Three triangles over two segments.
-  bool force_pair(std::size_t i, const NextLine& next) {
-    const std::int32_t a = line_.nodes[2 * i], middle = line_.nodes[2 * i + 1], b = line_.nodes[2 * i + 2];
-    const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
-    return layer_.lay({{a, middle, c}, {middle, b, d}, {d, c, middle}});
-  }
-
   Vec3 x(std::int32_t n) const { return m_.nodes[n].x; }
 
-  /// `next` becomes the line; it has every column, or every second.
-  void advance(const NextLine& next, std::size_t stride) {
+  /// `next` becomes the line.
+  void advance(const NextLine& next) {
     ++n_rows_;
     double sum = 0;
     std::size_t n = 0;
@@ -215,26 +142,24 @@ class RowBlock {
                  line_.is_closed,
                  std::vector<char>(n_columns, 0),
                  std::vector<LocalSize>(n_columns)};
-    std::vector<char> goes_on(line_.joined.size(), 0);
     for (std::size_t i = 0; i < next.joined.size(); ++i) {
       if (!next.joined[i]) continue;
-      std::fill_n(goes_on.begin() + static_cast<std::ptrdiff_t>(stride * i), stride, 1);
       for (const std::size_t k : {i, i + 1}) {
         line.nodes[k] = next.columns[k].existing;
         line.arrived[k] = next.columns[k].is_across;
         line.asked[k] = next.columns[k].asked;
-        const double height = distance(x(line_.nodes[stride * k]), x(line.nodes[k]));
+        const double height = distance(x(line_.nodes[k]), x(line.nodes[k]));
         settle(line.nodes[k], height, distance(x(next.columns[i].existing), x(next.columns[i + 1].existing)));
-        const double lowest = line_.lowest[stride * k];
+        const double lowest = line_.lowest[k];
         const bool is_lowest = lowest == 0 || height < lowest;
         line.lowest[k] = is_lowest ? height : lowest;
-        line.highest[k] = is_lowest ? height : std::max(line_.highest[stride * k], height);
+        line.highest[k] = is_lowest ? height : std::max(line_.highest[k], height);
         sum += height;
         ++n;
       }
     }
-    for (std::size_t i = 0; i < goes_on.size(); ++i)
-      if (line_.joined[i] && !goes_on[i] && n_rows_ > 1) ended_.push_back({line_.nodes[i], line_.nodes[i + 1]});
+    for (std::size_t i = 0; i < next.joined.size(); ++i)
+      if (line_.joined[i] && !next.joined[i] && n_rows_ > 1) ended_.push_back({line_.nodes[i], line_.nodes[i + 1]});
     if (n > 0) height_ = sum / static_cast<double>(n);
     line_ = std::move(line);
     open_at_gap(line_);
@@ -259,7 +184,6 @@ class RowBlock {
   double height_ = 0;
   bool is_exhausted_ = false;
   bool is_inside_ = false;  // the chain is no part of a loop
-  mutable int hint_ = 0;    // of the field
 };
 
 RowChain chain_inside(const std::vector<std::int32_t>& nodes) {
@@ -281,7 +205,7 @@ std::vector<Side> lay_row_blocks(FaceWork& work) {
     }
   std::priority_queue<std::pair<double, std::int32_t>> queue;  // minus height, minus block: the finest first
   for (std::size_t i = 0; i < blocks.size(); ++i)
-    if (!blocks[i].map()) queue.push({-blocks[i].height(), -static_cast<std::int32_t>(i)});
+    if (!blocks[i].lay_columns()) queue.push({-blocks[i].height(), -static_cast<std::int32_t>(i)});
   while (!queue.empty()) {
     const std::int32_t i = -queue.top().second;
     queue.pop();

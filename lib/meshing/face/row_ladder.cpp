@@ -159,9 +159,11 @@ class Ladder {
     const auto share = [](const Column& c, std::size_t i) {
       return static_cast<double>(2 * i + 1) / static_cast<double>(c.size() - 1);
     };
-    const auto shorter = [&](std::size_t i, std::size_t k) {
-      return distance(x(a[i + 1]), x(b[k])) <= distance(x(a[i]), x(b[k + 1]));
+    const auto length = [&](std::int32_t from, std::int32_t to) {  // squared; metrics measure it
+      const Vec3 way = x(to) - x(from);
+      return w_.field->has_metrics() ? length2(way, node(from), node(to)) : dot(way, way);
     };
+    const auto shorter = [&](std::size_t i, std::size_t k) { return length(a[i + 1], b[k]) <= length(a[i], b[k + 1]); };
     const auto in_step = [&](std::size_t i, std::size_t k) {
       const double way = share(a, i) - share(b, k);
       return std::abs(way) > 1e-9 ? way < 0 : shorter(i, k);

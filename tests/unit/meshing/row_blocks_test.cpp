@@ -43,24 +43,6 @@ TEST(RowBlocks, grow_by_the_slope_until_they_are_nearly_square) {
   EXPECT_NEAR(face.laid_area(), 10 * height, 0.05 * 10 * height);
 }
 
-/// As a wall, but lengths along grow, too.
-class WideningField : public WallField {
- public:
-  WideningField() : WallField(0.1, 0.15, 1) {}
-  LocalSize local(Vec3 x, int& hint) const override { return {size(x, hint), 0.6 + x.y, {1, 0, 0}}; }
-};
-
-TEST(RowBlocks, merge_two_columns_into_one_where_longer_edges_are_asked_for) {
-  const WideningField field;
-  const std::vector<double> side = growing(0.1, 0.15, 9);
-  RowCase face({band(20, 10, side, side)}, field);
-  EXPECT_LE(lay_row_blocks(face.work).size(), 10u);
-  FaceBoundary sized = face.boundary;
-  const FaceMesh mesh = mesh_face(kPlane, sized, field, {});
-  expect_valid(sized, mesh);
-  EXPECT_LT(largest_angle({sized, mesh}), 140);
-}
-
 TEST(RowBlocks, stay_as_they_were_laid) {
   const WallField field(0.1, 0.2, 1);
   const std::vector<double> side = growing(0.1, 0.2, 9);
