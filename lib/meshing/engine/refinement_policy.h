@@ -37,7 +37,6 @@ struct RefinementPolicy {
   static constexpr double kMostEasedAgain = 2;     ///< meshed again to ease stretched ones, by those before
   static constexpr double kMostEasedWorst = 12;    ///< likewise, while angles are above 150 degrees or lengths not held
   static constexpr double kMostEasedGrowth = 2;    ///< times those before: more is not worth it
-  static constexpr double kFewMoreEased = 1.1;     ///< likewise, unless as large a share of the worst goes
   static constexpr double kAround = 4;             ///< that a place of a wall makes shorter, about
   static constexpr double kMostForWalls = 1.5e6;   ///< that may part walls
   static constexpr double kPerWall = 2;  ///< times what parting walls should take: its rounds may mesh so many
@@ -83,16 +82,9 @@ struct RefinementPolicy {
         (n_worst > 0 ? kMostEasedWorst : kMostEasedAgain) * static_cast<double>(n_first) + kFewTriangles;
     return n_rounds < kMostEased && n_without < most_uneased(n_obtuse) && static_cast<double>(n_again) < most;
   }
-  /// Triangles, angles above 150 degrees and places that are not held.
-  struct EasedMesh {
-    std::int64_t n = 0;
-    std::size_t n_worst = 0;
-  };
-  /// Whether a mesh is worth that it has fewer flaws.
-  static bool is_worth_easing(const EasedMesh& first, const EasedMesh& now) {
-    const double more = static_cast<double>(now.n) / static_cast<double>(first.n);
-    if (first.n_worst == 0 || more <= kFewMoreEased) return more < kMostEasedGrowth;
-    return more < kMostEasedGrowth && more * static_cast<double>(now.n_worst) < static_cast<double>(first.n_worst);
+  /// Whether a mesh of `n` triangles is worth that it has fewer flaws.
+  static bool is_worth_easing(std::int64_t n_first, std::int64_t n) {
+    return static_cast<double>(n) < kMostEasedGrowth * static_cast<double>(n_first);
   }
   /// Whether more was meshed than rounds can be worth, as on damaged surfaces. `n_for_walls`: of these, to part walls.
   static bool runs_away(std::uint64_t n_meshed, std::uint64_t n_first, double n_for_walls) {

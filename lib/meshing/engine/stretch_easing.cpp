@@ -20,7 +20,6 @@ void StretchEasing::run() {
   const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
   if (!is_on_root(!flaws_.stretched.empty()) && !has_obtuse) return;
   best_ = {count_flaws(), has_obtuse, faces_.state(), refinements_.all()};
-  n_worst_first_ = n_worst();
   run_rounds(&StretchFlaws::stretched, Shortens::kAlong);
   if (!is_best_) go_back();
   if (!best_.has_obtuse) return;
@@ -90,16 +89,15 @@ void StretchEasing::add_unheld(const SurfaceMesh& mesh, const SizeField& present
 
 StretchEasing::Count StretchEasing::count_flaws() const {
   std::int64_t n_bad = std::max(faces_.n_bad(), n_bad_);  // as many as before are for others to mend
-  std::size_t n_worst = flaws_.n_far + flaws_.n_unheld, n_obtuse = flaws_.n_obtuse, n_large = flaws_.n_large;
-  share(executor_, n_bad, n_worst, n_obtuse, n_large);
-  return {n_bad, n_worst, n_obtuse, n_large};
+  std::size_t n_far = flaws_.n_far, n_unheld = flaws_.n_unheld, n_obtuse = flaws_.n_obtuse, n_large = flaws_.n_large;
+  share(executor_, n_bad, n_far, n_unheld, n_obtuse, n_large);
+  return {n_bad, n_far, n_unheld, n_obtuse, n_large};
 }
 
 /// Sets is_best_.
 bool StretchEasing::keep_if_better() {
   const Count n_flaws = count_flaws();
-  is_best_ = n_flaws < best_.n_flaws &&
-             Policy::is_worth_easing({n_first_, n_worst_first_}, {n_triangles(all_faces()), n_worst(n_flaws)});
+  is_best_ = n_flaws < best_.n_flaws && Policy::is_worth_easing(n_first_, n_triangles(all_faces()));
   const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
   if (is_best_) best_ = {n_flaws, has_obtuse, faces_.state(), refinements_.all()};
   std::vector<FacePlace> others;

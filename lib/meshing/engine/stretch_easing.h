@@ -41,8 +41,8 @@ class StretchEasing {
  private:
   using Places = std::vector<RefinementPoint>;
   using Patches = MeshedFaces::Patches;
-  /// Folds, crossings and failures; triangles above 150 degrees and unheld places; obtuse triangles; large ones.
-  using Count = std::tuple<std::int64_t, std::size_t, std::size_t, std::size_t>;
+  /// Folds, crossings and failures; triangles above 150 degrees; unheld places; obtuse triangles; large ones.
+  using Count = std::tuple<std::int64_t, std::size_t, std::size_t, std::size_t, std::size_t>;
   struct Best {
     Count n_flaws;
     bool has_obtuse;  // where lengths are alike
@@ -56,9 +56,8 @@ class StretchEasing {
   void add_unheld(const SurfaceMesh& mesh, const SizeField& present, int n_tries, StretchFlaws& flaws) const;
   bool is_on_root(bool is_here) const;
   Count count_flaws() const;
-  static std::size_t n_worst(const Count& n_flaws) { return std::get<1>(n_flaws); }
-  std::size_t n_worst() const { return n_worst(best_.n_flaws); }
-  std::size_t n_obtuse() const { return std::get<2>(best_.n_flaws); }
+  std::size_t n_worst() const { return std::get<1>(best_.n_flaws) + std::get<2>(best_.n_flaws); }
+  std::size_t n_obtuse() const { return std::get<3>(best_.n_flaws); }
   void run_rounds(Places StretchFlaws::*places, Shortens shortens);
   bool keep_if_better();
   std::vector<Refinement> shorten(const Places& places, Shortens shortens);
@@ -74,7 +73,6 @@ class StretchEasing {
   RefinementTrials::MeshAgain mesh_again_;
   std::int64_t n_bad_ = 0;            // at the beginning, or not clearly more
   std::int64_t n_first_ = 0;          // triangles, likewise
-  std::size_t n_worst_first_ = 0;     // likewise
   std::int64_t n_again_ = 0;          // that were meshed since then
   std::vector<Refinement> spoiling_;  // lengths are not shortened within their reach
   StretchFlaws flaws_;                // of the present mesh, on rank 0

@@ -60,44 +60,8 @@ TEST(RefinementPolicy, bounds_what_easing_may_cost) {
           {"twelve times for the worst", [] { return Policy::goes_on_easing(0, 0, 1, 1, 100'000, 1'399'999); }, true},
           {"one more of them", [] { return Policy::goes_on_easing(0, 0, 1, 1, 100'000, 1'400'000); }, false},
           {"ten rounds", [] { return Policy::goes_on_easing(10, 0, 1, 0, 100'000, 0); }, false},
-          {"less than twice as many",
-           [] {
-             return Policy::is_worth_easing({1000, 0}, {1999, 0});
-           },
-           true},
-          {"twice as many",
-           [] {
-             return Policy::is_worth_easing({1000, 0}, {2000, 0});
-           },
-           false}});
-}
-
-TEST(RefinementPolicy, adds_triangles_where_as_large_a_share_of_the_worst_flaws_goes) {
-  expect({{"half of them for a half more",
-           [] {
-             return Policy::is_worth_easing({1000, 90}, {1500, 45});
-           },
-           true},
-          {"a tenth of them for a half more",
-           [] {
-             return Policy::is_worth_easing({1000, 90}, {1500, 81});
-           },
-           false},
-          {"all of them",
-           [] {
-             return Policy::is_worth_easing({1000, 90}, {1999, 0});
-           },
-           true},
-          {"all of them for twice as many",
-           [] {
-             return Policy::is_worth_easing({1000, 90}, {2000, 0});
-           },
-           false},
-          {"none of them for a tenth more",
-           [] {
-             return Policy::is_worth_easing({1000, 90}, {1100, 90});
-           },
-           true}});
+          {"less than twice as many", [] { return Policy::is_worth_easing(1000, 1999); }, true},
+          {"twice as many", [] { return Policy::is_worth_easing(1000, 2000); }, false}});
 }
 
 TEST(RefinementPolicy, ends_what_costs_more_than_it_can_be_worth) {
