@@ -213,14 +213,14 @@ FacePatch part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const
   for (const TriangleId t : part.triangle_previous)
     for (const NodeId n : section.triangles[t].n)
       if (std::exchange(place[n], 0) == kNone) nodes.push_back(n);
-  const auto inner = std::ranges::partition(nodes, [&](NodeId n) { return n < section.n_boundary; });
-  part.n_boundary = static_cast<std::int32_t>(inner.begin() - nodes.begin());
+  const auto inner = std::partition(nodes.begin(), nodes.end(), [&](NodeId n) { return n < section.n_boundary; });
+  part.n_boundary = static_cast<std::int32_t>(inner - nodes.begin());
   for (const NodeId n : std::span(nodes).first(part.n_boundary)) {
     part.boundary_dim.push_back(section.boundary_dim[n]);
     part.boundary_entity.push_back(section.boundary_entity[n]);
     part.boundary_index.push_back(section.boundary_index[n]);
   }
-  for (const NodeId n : inner) {
+  for (const NodeId n : std::span(nodes).subspan(part.n_boundary)) {
     const std::int32_t i = n - section.n_boundary, n_own = section.n_own();
     part.inner_xyz.push_back(section.inner_xyz[i]);
     if (number != kNone) part.owner.push_back(i < n_own ? InnerNode{number, i} : section.owner[i - n_own]);

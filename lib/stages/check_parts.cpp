@@ -80,7 +80,7 @@ void CheckParts::add(const CheckParts& next, const TriangleCounts& counts) {
   was_ended |= next.was_ended;
 }
 
-void report_parts(const CheckBasis& basis, CheckParts&& parts, const FaceLabels& labels, Findings& f) {
+void report_parts(const CheckBasis& basis, CheckParts& parts, const FaceLabels& labels, Findings& f) {
   f.n_triangles = basis.counts.model;
   f.topology = std::move(parts.topology);
   f.shape = std::move(parts.shape);

@@ -66,8 +66,8 @@ struct CheckParts {
   }
 };
 
-/// What they mean: fills in all of `f` that follows from them alone.
-void report_parts(const CheckBasis& basis, CheckParts&& parts, const FaceLabels& labels, Findings& f);
+/// What they mean: fills in all of `f` that follows from them alone, and takes what it holds out of them.
+void report_parts(const CheckBasis& basis, CheckParts& parts, const FaceLabels& labels, Findings& f);
 
 /// Measures a share; crossings are those between own triangles. What needs no table of the edges comes first, without
 /// one: it takes the most memory. `more`: jobs that run beside.

@@ -306,7 +306,7 @@ MeshArtifact check_whole(const CheckStageOptions& o, Progress& progress, Finding
   std::int32_t n_components = 0;
   if (!found.pairs.empty()) found.component = node_components(mesh.triangles, mesh.n_nodes(), n_components);
   report_crossings_and_contacts(mesh, found, cad, f);
-  report_parts(basis, std::move(parts), mesh.labels, f);
+  report_parts(basis, parts, mesh.labels, f);
   if (checked.turned.count > 0) f.topology.misoriented_edges = checked.turned;
   progress.step("causes", 0.9);
   add_deviations(checked.wings, f);
@@ -335,7 +335,7 @@ bool check_in_shares(const CheckStageOptions& o, const Executor& ranks, Progress
   f.unit = head.header.unit;
   f.wings = measure_wings(shared.file, shared.wings);
   report_crossings_and_contacts(found->crossing.mesh, {found->pairs, found->component, found->was_ended}, given.cad, f);
-  report_parts(found->basis, std::move(found->parts), head.mesh.labels, f);
+  report_parts(found->basis, found->parts, head.mesh.labels, f);
   progress.step("causes", 0.9);
   add_deviations(shared.wings, f);
   head.mesh = std::move(found->edges.mesh);

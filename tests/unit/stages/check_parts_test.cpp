@@ -20,15 +20,15 @@ TEST(CheckParts, of_two_shares_and_as_bytes_are_those_of_the_whole) {
     unpack(packed(measure_share(basis, share.mesh, TriangleCorners(share.mesh), share.own(), {}, progress, 1)), parts);
     all.add(parts, basis.counts);
   }
-  const CheckParts whole =
+  CheckParts whole =
       measure_share(basis, cube.mesh, TriangleCorners(cube.mesh), OwnTriangles::all(cube.mesh), {}, progress, 1);
   EXPECT_EQ(all.topology.n_edges, n * 3 / 2);
   EXPECT_EQ(all.bad.quality.count, whole.bad.quality.count);
   EXPECT_GT(whole.bad.quality.count, 0);
   Findings f, g;
   all.topology.set_parts({cube.mesh.n_nodes(), 1}, n);
-  report_parts(basis, std::move(all), cube.mesh.labels, f);
-  report_parts(basis, CheckParts(whole), cube.mesh.labels, g);
+  report_parts(basis, all, cube.mesh.labels, f);
+  report_parts(basis, whole, cube.mesh.labels, g);
   EXPECT_EQ(check_report_json("m", cube.mesh, f, 0, ReportDetail::kFull),
             check_report_json("m", cube.mesh, g, 0, ReportDetail::kFull));
 }

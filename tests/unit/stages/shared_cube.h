@@ -45,7 +45,7 @@ struct SharedCube {
     SharedFindings found = *measure(per_share);
     Findings f;
     f.crossings = check_crossings(found.crossing.mesh, found.pairs, found.component, found.was_ended, {});
-    report_parts(found.basis, std::move(found.parts), mesh.labels, f);
+    report_parts(found.basis, found.parts, mesh.labels, f);
     return check_report_json("m", mesh, f, 0, ReportDetail::kFull);
   }
   /// Of the mesh in memory.
@@ -54,8 +54,8 @@ struct SharedCube {
     Progress progress("checking", 1);
     Findings f;
     f.crossings = check_crossings(mesh);
-    report_parts(basis, measure_share(basis, mesh, TriangleCorners(mesh), OwnTriangles::all(mesh), {}, progress, 1),
-                 mesh.labels, f);
+    CheckParts parts = measure_share(basis, mesh, TriangleCorners(mesh), OwnTriangles::all(mesh), {}, progress, 1);
+    report_parts(basis, parts, mesh.labels, f);
     return check_report_json("m", mesh, f, 0, ReportDetail::kFull);
   }
 };
