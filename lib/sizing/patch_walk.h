@@ -79,6 +79,7 @@ double inside_area(const Patch<Probe>& patch) {
 /// What of a patch lies inside the loops: the middle of its bounding rectangle in (u,v), and half the longest ways
 /// across, in space.
 struct PatchPart {
+  Vec2 uv;
   Vec3 center, along_u, along_v;
 };
 
@@ -107,7 +108,7 @@ PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
   const auto is_half_way = [](const double(&x)[3]) { return 2 * (x[1] - x[0]) == x[2] - x[0]; };
   if (patch.sides.empty() && is_half_way(patch.u) && is_half_way(patch.v)) {  // what follows, of the whole patch
     const auto& p = patch.probe;
-    PatchPart part{p[4].x, {}, {}};
+    PatchPart part{patch.uv(4), p[4].x, {}, {}};
     for (std::size_t k = 0; k < 3; ++k) {
       widen(part.along_u, p[3 * k + 2].x - p[3 * k].x);
       widen(part.along_v, p[k + 6].x - p[k].x);
@@ -129,7 +130,7 @@ PatchPart part_inside(const Patch<Probe>& patch, const LoopPolygons& loops) {
            b * ((1 - a) * patch.probe[k + 3].x + a * patch.probe[k + 4].x);
   };
   const Vec2 c = box.center();
-  PatchPart part{at(c.x, c.y), {}, {}};
+  PatchPart part{c, at(c.x, c.y), {}, {}};
   for (const double v : {box.lo.y, c.y, box.hi.y}) widen(part.along_u, at(box.hi.x, v) - at(box.lo.x, v));
   for (const double u : {box.lo.x, c.x, box.hi.x}) widen(part.along_v, at(u, box.hi.y) - at(u, box.lo.y));
   return part;

@@ -207,20 +207,21 @@ class FaceRaster {
     Vec3 way;
     boxes_.push_back({patch.sides.empty() ? size.center : part.center,
                       static_cast<float>(0.5 * limits_.cell_per_length * length), static_cast<float>(length), cause_,
-                      SmallNormal(patch.probe[4].normal), stretch_of(patch, length, way),
+                      SmallNormal(patch.probe[4].normal),
+                      stretch_of(patch, patch.is_inside[4] ? patch.uv(4) : part.uv, length, way),
                       reach_of(part.along_u, part.along_v)});
     if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length, way));
     report_.area += inside_area(patch);
     require_samples(static_cast<std::uint64_t>(++report_.n_patches), limits_.max_samples);
   }
 
-  /// Along the direction of the smaller curvature, where that allows a longer edge: it turns by no more than alpha, and
-  /// its chord is no further from the surface than that of one length across.
+  /// At a place (u,v) of the patch, along the direction of the smaller curvature, where that allows a longer edge: it
+  /// turns by no more than alpha, and its chord is no further from the surface than that of one length across.
   /// Sets the direction, whether it allows more or not.
-  SampleStretch stretch_of(const CurvaturePatch& patch, double length, Vec3& direction) {
-    if (!(limits_.max_aspect > 1) || (!patch.is_inside[4] && !patches_)) return {};
+  SampleStretch stretch_of(const CurvaturePatch& patch, Vec2 uv, double length, Vec3& direction) {
+    if (!(limits_.max_aspect > 1)) return {};
     ++report_.n_evaluations;
-    const SurfacePoint2 p = surface_.evaluate2(patch.uv(4));
+    const SurfacePoint2 p = surface_.evaluate2(uv);
     const Curvature own = principal_curvature(p);
     const ChordLimit::Answer chord = chord_ ? chord_->answer(p.x) : ChordLimit::Answer{};
     direction = flattest_direction(p, own);
@@ -228,7 +229,7 @@ class FaceRaster {
                           std::abs(own.k1) * length > kClearlyCurved * limits_.alpha;
     if (!is_clear && chord.length <= length)  // the chord decides
       direction = normalized(cross(normalized(cross(p.du, p.dv)), chord.direction));
-    if (direction == Vec3{} || !patch.is_inside[4]) return {};
+    if (direction == Vec3{}) return {};
     const double curvature = curvature_along(patch, direction, own);
     double along = std::min(max_along(), limits_.max_aspect * length);
     if (along * curvature > limits_.alpha) along = limits_.alpha / curvature;

@@ -309,6 +309,18 @@ TEST(RasterFace, covers_a_sliver_thinner_than_any_probe_distance) {
   for (double t = 0; t <= 1; t += 0.001) ASSERT_GT(s.length_at({0.3 + 18.8 * t, 0.7005 + 11.5 * t, 0}), 0) << t;
 }
 
+TEST(RasterFace, stretches_pieces_whose_middle_the_loops_cut_off) {
+  const AxialSurface cylinder(SurfaceType::kCylinder, kRasterFrame, 1, 0, 0, 2 * kPi, 0, 30);
+  SamplingLimits limits = kRasterLimits;
+  limits.max_aspect = 8;
+  const LoopPolygons loops = polygon({{{0.1, 0.2}, {6.1, 9.3}, {0.1, 9.31}}});
+  const Sampling s = sample(cylinder, loops, limits);
+  for (const RasterBox& b : s.boxes) {
+    ASSERT_GT(b.stretch.along, 0.99) << b.center.z;
+    ASSERT_GT(std::abs(Vec3(b.stretch.direction).z), 0.99) << b.center.z;
+  }
+}
+
 TEST(RasterFace, takes_no_length_from_outside_the_loops) {
   // the surface bends sharply where it is trimmed away
   const FormulaSurface bend(
