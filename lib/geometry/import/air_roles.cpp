@@ -133,8 +133,10 @@ SymmetryPlane plane_of(const ImportedShape& model, const std::vector<FaceId>& fa
 
 /// A rule that says which faces bound the air.
 bool speaks_of_air(const GroupRule& rule) {
-  const bool selects = !rule.faces.empty() || !rule.parts.empty() || !rule.paths.empty() || !rule.layers.empty() ||
-                       !rule.colors.empty() || !rule.surfaces.empty() || rule.inside || rule.touching;
+  const GroupCriteria& wanted = rule.selection;
+  const bool selects = !wanted.faces.empty() || !wanted.parts.empty() || !wanted.paths.empty() ||
+                       !wanted.layers.empty() || !wanted.colors.empty() || !wanted.surfaces.empty() || wanted.inside ||
+                       wanted.touching;
   return selects && rule.of == EntityDim::kFace && rule.table.empty() &&
          is_outer_role(rule.role ? *rule.role : role_of_name(rule.name));
 }

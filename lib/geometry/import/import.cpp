@@ -136,7 +136,8 @@ bool changes_numbers(const ImportOptions& options) {
 void refuse_numbers(const ImportOptions& options) {
   if (options.replace_farfield.empty()) return;
   for (const GroupRule& rule : options.groups)
-    for (const std::vector<std::string>* items : {&rule.faces, &rule.edges, &rule.vertices})
+    for (const std::vector<std::string>* items :
+         {&rule.selection.faces, &rule.selection.edges, &rule.selection.vertices})
       if (std::any_of(items->begin(), items->end(), [](const std::string& item) { return as_range(item).has_value(); }))
         throw Error(ExitCode::kUsage, rule.where +
                                           ": selects by number, and --replace-farfield gives faces other numbers; "
@@ -146,7 +147,7 @@ void refuse_numbers(const ImportOptions& options) {
 /// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field changes.
 bool is_known_late(const GroupRule& rule, const ImportOptions& options) {
   if (!changes_numbers(options)) return false;
-  return std::any_of(rule.faces.begin(), rule.faces.end(), [](const std::string& item) {
+  return std::any_of(rule.selection.faces.begin(), rule.selection.faces.end(), [](const std::string& item) {
     return item.find_first_not_of("0123456789-") == std::string::npos;
   });
 }

@@ -48,7 +48,7 @@ Mask edges_of(const std::vector<std::uint8_t>& faces, const ModelTables& t) {
 
 /// Of the edges of the faces of `rim` those with a face outside, or none beyond.
 Mask outline(const GroupRule& rule, const ModelTables& t) {
-  const std::vector<std::uint8_t> faces = faces_of(rule, "rim", rule.rim, t);
+  const std::vector<std::uint8_t> faces = faces_of(rule, "rim", rule.selection.rim, t);
   std::vector<int> n_uses(t.n_edges(), 0), n_inside(t.n_edges(), 0);
   for (FaceId f = 0; f < t.n_faces(); ++f)
     for (const CoedgeId c : t.coedges(f)) {
@@ -63,23 +63,24 @@ Mask outline(const GroupRule& rule, const ModelTables& t) {
 }
 
 Mask mask_between(const GroupRule& rule, const ModelTables& t) {
+  const std::string &first = rule.selection.between[0], &second = rule.selection.between[1];
   Mask wanted(t.n_edges(), 0);
-  const std::vector<std::uint8_t> a = faces_of(rule, "between", {rule.between[0]}, t),
-                                  b = faces_of(rule, "between", {rule.between[1]}, t);
+  const std::vector<std::uint8_t> a = faces_of(rule, "between", {first}, t), b = faces_of(rule, "between", {second}, t);
   const std::vector<EdgeId> edges = edges_between(a, b, t);
   if (edges.empty() && !rule.is_optional)
-    fail_group(rule, "between: '" + rule.between[0] + "' and '" + rule.between[1] +
+    fail_group(rule, "between: '" + first + "' and '" + second +
                          "' have no common edge; faces that only touch, such as those of two parts, have none");
   for (const EdgeId e : edges) wanted[e] = 1;
   return wanted;
 }
 
 Mask select_edges(const GroupRule& rule, const ModelTables& t, std::span<const Box3> edge_box) {
+  const GroupCriteria& wanted = rule.selection;
   GroupSelection s(rule, t, t.n_edges());
-  s.select_items("edges", rule.edges, t.edge_name);
-  if (!rule.between.empty()) s.keep(mask_between(rule, t));
-  if (!rule.rim.empty()) s.keep(outline(rule, t));
-  if (!rule.on.empty()) s.keep(edges_of(faces_of(rule, "on", rule.on, t), t));
+  s.select_items("edges", wanted.edges, t.edge_name);
+  if (!wanted.between.empty()) s.keep(mask_between(rule, t));
+  if (!wanted.rim.empty()) s.keep(outline(rule, t));
+  if (!wanted.on.empty()) s.keep(edges_of(faces_of(rule, "on", wanted.on, t), t));
   s.select_boxes(edge_box, t.edge_tolerance);
   if (s.has_selection()) return s.take("no edge matches its selection");
   s.keep([&](EdgeId e) { return t.edge_name[e] == rule.name; });
@@ -94,7 +95,7 @@ Mask vertices_on(const GroupRule& rule, const ModelTables& t) {
     for (const EdgeId e : edges) of_edges[e] = 1;
     return !edges.empty();
   };
-  const Mask of_faces = edges_of(faces_of(rule, "on", rule.on, t, add_edges), t);
+  const Mask of_faces = edges_of(faces_of(rule, "on", rule.selection.on, t, add_edges), t);
   Mask wanted(t.n_vertices(), 0);
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (of_edges[e] || of_faces[e]) wanted[t.edge_vertices[2 * e]] = wanted[t.edge_vertices[2 * e + 1]] = 1;
@@ -103,8 +104,8 @@ Mask vertices_on(const GroupRule& rule, const ModelTables& t) {
 
 Mask select_vertices(const GroupRule& rule, const ModelTables& t) {
   GroupSelection s(rule, t, t.n_vertices());
-  s.select_items("vertices", rule.vertices, {});
-  if (!rule.on.empty()) s.keep(vertices_on(rule, t));
+  s.select_items("vertices", rule.selection.vertices, {});
+  if (!rule.selection.on.empty()) s.keep(vertices_on(rule, t));
   std::vector<Box3> box(t.n_vertices());
   for (VertexId v = 0; v < t.n_vertices(); ++v) box[v].add(t.vertex_xyz[v]);
   s.select_boxes(box, t.vertex_tolerance);

@@ -33,7 +33,7 @@ void fail_group(const GroupRule& rule, const std::string& what) {
 
 void require_unit(const GroupRule& rule, const std::optional<double>& unit_in_m) {
   if (rule.tolerance) require_unit(*rule.tolerance, unit_in_m, rule.where + ": tolerance");
-  for (const auto* box : {&rule.inside, &rule.touching})
+  for (const auto* box : {&rule.selection.inside, &rule.selection.touching})
     for (std::size_t i = 0; *box && i < (*box)->size(); ++i)
       if ((**box)[i].is_in_metres && !unit_in_m)
         fail_group(rule, "the model has no unit; give plain numbers, or --unit");
@@ -96,12 +96,14 @@ Box3 GroupSelection::box_of(const BoxSpec& spec) const {
 }
 
 void GroupSelection::select_boxes(std::span<const Box3> box, std::span<const double> tolerance) {
-  if (rule_.inside)
-    keep([&, chosen = box_of(*rule_.inside)](std::int32_t i) {
+  if (rule_.selection.inside)
+    keep([&, chosen = box_of(*rule_.selection.inside)](std::int32_t i) {
       return !box[i].is_empty() && contains(chosen, box[i], tolerance[i]);
     });
-  if (rule_.touching)
-    keep([&, chosen = box_of(*rule_.touching)](std::int32_t i) { return !box[i].is_empty() && meet(chosen, box[i]); });
+  if (rule_.selection.touching)
+    keep([&, chosen = box_of(*rule_.selection.touching)](std::int32_t i) {
+      return !box[i].is_empty() && meet(chosen, box[i]);
+    });
 }
 
 GroupSelection::Mask GroupSelection::take(const std::string& when_empty) {

@@ -20,16 +20,17 @@ bool is_in(const std::vector<T>& list, const T& value) {
 
 /// The faces that one rule selects.
 Mask select_faces(const GroupRule& rule, const ModelTables& t) {
+  const GroupCriteria& wanted = rule.selection;
   GroupSelection s(rule, t, t.n_faces());
-  s.select_items("faces", rule.faces, t.labels.face_name);
-  s.select_names("parts", rule.parts, [&](FaceId f) -> const std::string& { return t.labels.part_of(f); });
-  s.select_names("paths", rule.paths, [&](FaceId f) -> const std::string& { return t.labels.path_of(f); });
-  s.select_names("layers", rule.layers, [&](FaceId f) -> const std::string& { return t.face_layer[f]; });
-  s.select_names("groups", rule.groups,
+  s.select_items("faces", wanted.faces, t.labels.face_name);
+  s.select_names("parts", wanted.parts, [&](FaceId f) -> const std::string& { return t.labels.part_of(f); });
+  s.select_names("paths", wanted.paths, [&](FaceId f) -> const std::string& { return t.labels.path_of(f); });
+  s.select_names("layers", wanted.layers, [&](FaceId f) -> const std::string& { return t.face_layer[f]; });
+  s.select_names("groups", wanted.groups,
                  [&](FaceId f) -> const std::string& { return t.labels.group_name[t.labels.face_group[f]]; });
   s.select_boxes(t.face_box, t.face_tolerance);
-  if (!rule.colors.empty()) s.keep([&](FaceId f) { return is_in(rule.colors, t.face_color[f]); });
-  if (!rule.surfaces.empty()) s.keep([&](FaceId f) { return is_in(rule.surfaces, t.face_type[f]); });
+  if (!wanted.colors.empty()) s.keep([&](FaceId f) { return is_in(wanted.colors, t.face_color[f]); });
+  if (!wanted.surfaces.empty()) s.keep([&](FaceId f) { return is_in(wanted.surfaces, t.face_type[f]); });
   if (s.has_selection()) return s.take("no face matches its selection");
   s.keep([&](FaceId f) { return t.labels.group_name[t.labels.face_group[f]] == rule.name; });
   return s.take("the CAD file has no group of this name");

@@ -25,14 +25,8 @@ struct CoordinateSpec {
 /// Lower corner, upper corner.
 using BoxSpec = std::array<CoordinateSpec, 6>;
 
-/// One entry of a groups file. An entity must meet every kind of selection that is given, of each kind any item. An
-/// entry without selection speaks of the group of its name that the CAD file made, one of edges of the edges of its
-/// name. Entries of one name and table make one group together.
-struct GroupRule {
-  std::string where;                        ///< for messages: "groups.toml:12"
-  std::string name;                         ///< UTF-8, not empty
-  EntityDim of = EntityDim::kFace;          ///< what the group holds
-  std::string table;                        ///< empty: the main table, whose groups the mesh is made of
+/// Which entities a group holds: those that meet every kind of selection that is given, of each kind any item.
+struct GroupCriteria {
   std::vector<std::string> faces;           ///< 1-based ids "17", ranges "17-20", or glob patterns on face names
   std::vector<std::string> parts, paths;    ///< glob patterns on part names, on assembly paths
   std::vector<std::string> layers, groups;  ///< glob patterns on layers, on the groups that the CAD file made
@@ -46,10 +40,20 @@ struct GroupRule {
   std::vector<std::string> on;  ///< of edges and vertices: groups or parts of whose faces, vertices also groups of
                                 ///< whose edges
   std::optional<BoxSpec> inside, touching;  ///< the entity lies in the box; its bounding box meets the box
-  std::optional<std::string> role;          ///< of faces: one of group_roles(); else from the name
-  std::optional<LengthSpec> tolerance;      ///< of faces: kept as attribute "tolerance", model unit
-  std::string attributes = "{}";            ///< free keys and values: one JSON object
-  bool is_optional = false;                 ///< matching nothing is no error
+};
+
+/// One entry of a groups file. An entry without selection speaks of the group of its name that the CAD file made, one
+/// of edges of the edges of its name. Entries of one name and table make one group together.
+struct GroupRule {
+  std::string where;                ///< for messages: "groups.toml:12"
+  std::string name;                 ///< UTF-8, not empty
+  EntityDim of = EntityDim::kFace;  ///< what the group holds
+  std::string table;                ///< empty: the main table, whose groups the mesh is made of
+  GroupCriteria selection;
+  std::optional<std::string> role;      ///< of faces: one of group_roles(); else from the name
+  std::optional<LengthSpec> tolerance;  ///< of faces: kept as attribute "tolerance", model unit
+  std::string attributes = "{}";        ///< free keys and values: one JSON object
+  bool is_optional = false;             ///< matching nothing is no error
 };
 
 /// "wall", "symmetry", "farfield", "inlet", "outlet", "periodic", "interface", "other".

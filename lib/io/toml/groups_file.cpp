@@ -79,11 +79,11 @@ class EntryReader : TomlEntry {
     } else if (key == "table") {
       read_table_name(node);
     } else if (key == "colors") {
-      for_each(key, node, [&](const toml::node& n) { rule_.colors.push_back(color(n)); });
+      for_each(key, node, [&](const toml::node& n) { rule_.selection.colors.push_back(color(n)); });
     } else if (key == "surfaces") {
-      for_each(key, node, [&](const toml::node& n) { rule_.surfaces.push_back(surface(n)); });
+      for_each(key, node, [&](const toml::node& n) { rule_.selection.surfaces.push_back(surface(n)); });
     } else if (key == "inside" || key == "touching") {
-      (key == "inside" ? rule_.inside : rule_.touching) = box(key, node);
+      (key == "inside" ? rule_.selection.inside : rule_.selection.touching) = box(key, node);
     } else if (key == "role") {
       rule_.role = one_of(key, node, group_roles());
     } else if (key == "tolerance") {
@@ -98,9 +98,11 @@ class EntryReader : TomlEntry {
 
   std::vector<std::string>* names_of(const std::string& key) {
     const std::pair<const char*, std::vector<std::string>*> lists[] = {
-        {"faces", &rule_.faces},   {"parts", &rule_.parts}, {"paths", &rule_.paths},       {"layers", &rule_.layers},
-        {"groups", &rule_.groups}, {"edges", &rule_.edges}, {"vertices", &rule_.vertices}, {"between", &rule_.between},
-        {"rim", &rule_.rim},       {"on", &rule_.on}};
+        {"faces", &rule_.selection.faces},       {"parts", &rule_.selection.parts},
+        {"paths", &rule_.selection.paths},       {"layers", &rule_.selection.layers},
+        {"groups", &rule_.selection.groups},     {"edges", &rule_.selection.edges},
+        {"vertices", &rule_.selection.vertices}, {"between", &rule_.selection.between},
+        {"rim", &rule_.selection.rim},           {"on", &rule_.selection.on}};
     for (const auto& [name, list] : lists)
       if (key == name) return list;
     return nullptr;

@@ -94,12 +94,12 @@ TEST(AirRoles, are_left_to_a_groups_file_that_speaks_of_them) {
   GroupRule rule;
   rule.where = "groups.toml:1";
   rule.name = "tunnel";
-  rule.faces = {"1"};
+  rule.selection.faces = {"1"};
   rule.role = "farfield";
   options.groups = {rule};
   const ModelTables t = test::import_broken("pod_in_box_50", options).tables;
   EXPECT_EQ(n_of_role(t, "farfield"), 1);
-  options.groups[0].faces = {};
+  options.groups[0].selection.faces = {};
   options.groups[0].name = "farfield";
   EXPECT_EQ(n_of_role(test::import_broken("pod_in_box_50", options).tables, "farfield"), 6);
 }

@@ -66,40 +66,40 @@ std::string message_of(const std::vector<GroupRule>& rules) {
 TEST(Groups, select_faces_by_every_kind_of_selection) {
   using Ids = std::vector<int>;
   GroupRule r = rule("x");
-  r.faces = {"3", "5-6"};
+  r.selection.faces = {"3", "5-6"};
   EXPECT_EQ(chosen(r), (Ids{3, 5, 6}));
-  r = rule("x"), r.faces = {"wing_*", "Fl*"};
+  r = rule("x"), r.selection.faces = {"wing_*", "Fl*"};
   EXPECT_EQ(chosen(r), (Ids{1, 2, 6}));
-  r = rule("x"), r.parts = {"b?lt"};
+  r = rule("x"), r.selection.parts = {"b?lt"};
   EXPECT_EQ(chosen(r), (Ids{3, 4, 5}));
-  r = rule("x"), r.paths = {"as/bolt#2"};
+  r = rule("x"), r.selection.paths = {"as/bolt#2"};
   EXPECT_EQ(chosen(r), (Ids{5}));
-  r = rule("x"), r.layers = {"[12]"};
+  r = rule("x"), r.selection.layers = {"[12]"};
   EXPECT_EQ(chosen(r), (Ids{1, 2}));
-  r = rule("x"), r.groups = {"wing"};
+  r = rule("x"), r.selection.groups = {"wing"};
   EXPECT_EQ(chosen(r), (Ids{1, 2}));
-  r = rule("x"), r.colors = {0xff0000, 0x00ff00};
+  r = rule("x"), r.selection.colors = {0xff0000, 0x00ff00};
   EXPECT_EQ(chosen(r), (Ids{1, 2, 4}));
-  r = rule("x"), r.surfaces = {SurfaceType::kCylinder};
+  r = rule("x"), r.selection.surfaces = {SurfaceType::kCylinder};
   EXPECT_EQ(chosen(r), (Ids{2, 5}));
-  r = rule("x"), r.inside = box(1, 3);
+  r = rule("x"), r.selection.inside = box(1, 3);
   EXPECT_EQ(chosen(r), (Ids{2, 3}));
-  r = rule("x"), r.touching = box(1.5, 2.5);
+  r = rule("x"), r.selection.touching = box(1.5, 2.5);
   EXPECT_EQ(chosen(r), (Ids{2, 3}));
 }
 
 TEST(Groups, need_every_kind_of_selection_that_is_given) {
   GroupRule r = rule("x");
-  r.parts = {"bolt"};
-  r.surfaces = {SurfaceType::kPlane};
-  r.touching = box(3.5, 6);
+  r.selection.parts = {"bolt"};
+  r.selection.surfaces = {SurfaceType::kPlane};
+  r.selection.touching = box(3.5, 6);
   EXPECT_EQ(chosen(r), (std::vector<int>{4}));
 }
 
 TEST(Groups, take_boxes_in_other_units_and_refuse_them_without_a_unit) {
   GroupRule r = rule("x");
-  r.inside = box(0, 0);
-  (*r.inside)[3] = {0.002, true};
+  r.selection.inside = box(0, 0);
+  (*r.selection.inside)[3] = {0.002, true};
   EXPECT_EQ(chosen(r), (std::vector<int>{1, 2}));
   ModelTables t = six_faces();
   t.unit_in_m.reset();
@@ -108,7 +108,7 @@ TEST(Groups, take_boxes_in_other_units_and_refuse_them_without_a_unit) {
 
 TEST(Groups, keep_the_groups_of_the_file_where_no_rule_speaks_and_count_by_first_face) {
   GroupRule r = rule("tips");
-  r.faces = {"2", "6"};
+  r.selection.faces = {"2", "6"};
   ModelTables t = six_faces();
   EXPECT_TRUE(apply_groups({r}, t).empty());
   EXPECT_EQ(t.labels.group_name, (std::vector<std::string>{"wing", "tips", "bolt"}))
@@ -131,8 +131,8 @@ TEST(Groups, give_roles_and_attributes_to_groups_of_the_file) {
 
 TEST(Groups, have_the_role_of_their_name_when_no_rule_gives_one) {
   GroupRule far = rule("far field"), asymmetry = rule("asymmetry");
-  far.faces = {"1"};
-  asymmetry.faces = {"2"};
+  far.selection.faces = {"1"};
+  asymmetry.selection.faces = {"2"};
   ModelTables t = six_faces();
   apply_groups({far, asymmetry}, t);
   EXPECT_EQ(t.labels.group_role[0], "farfield");
@@ -142,9 +142,9 @@ TEST(Groups, have_the_role_of_their_name_when_no_rule_gives_one) {
 TEST(Groups, of_further_tables_leave_the_main_ones_alone) {
   GroupRule hot = rule("hot"), cold = rule("cold"), more = rule("hot");
   for (GroupRule* r : {&hot, &cold, &more}) r->table = "bc";
-  hot.faces = {"1"};
-  cold.faces = {"2-3"};
-  more.faces = {"6"};
+  hot.selection.faces = {"1"};
+  cold.selection.faces = {"2-3"};
+  more.selection.faces = {"6"};
   ModelTables t = six_faces();
   apply_groups({hot, cold, more}, t);
   EXPECT_EQ(t.labels.group_name, six_faces().labels.group_name);
@@ -158,26 +158,26 @@ TEST(Groups, that_match_nothing_are_errors_unless_they_are_optional) {
   GroupRule r = rule("x");
   EXPECT_NE(message_of({r}).find("g.toml:1: group \"x\": the CAD file has no group of this name"), std::string::npos)
       << message_of({r});
-  r.parts = {"bolt", "nut*"};
+  r.selection.parts = {"bolt", "nut*"};
   EXPECT_NE(message_of({r}).find("parts: 'nut*' matches nothing"), std::string::npos);
-  r.parts = {"bolt"};
-  r.faces = {"wing*"};
+  r.selection.parts = {"bolt"};
+  r.selection.faces = {"wing*"};
   EXPECT_NE(message_of({r}).find("no face matches its selection"), std::string::npos);
   r.is_optional = true;
   ModelTables t = six_faces();
   EXPECT_EQ(apply_groups({r}, t), (std::vector<EmptyGroup>{{"x", EntityDim::kFace}}));
   EXPECT_EQ(t.labels.group_name, six_faces().labels.group_name);
-  r.faces = {"7"};
+  r.selection.faces = {"7"};
   EXPECT_NE(message_of({r}).find("faces: 7 does not exist, there are faces 1 to 6"), std::string::npos)
       << "an id is never optional";
-  r.faces = {"5-3"};
+  r.selection.faces = {"5-3"};
   EXPECT_NE(message_of({r}), "");
 }
 
 TEST(Groups, that_share_a_face_of_one_table_are_both_named) {
   GroupRule a = rule("a"), bb = rule("bb");
-  a.faces = {"1-2"};
-  bb.faces = {"2"};
+  a.selection.faces = {"1-2"};
+  bb.selection.faces = {"2"};
   const std::string message = message_of({a, bb});
   for (const char* part : {"g.toml:2", "g.toml:1", "\"a\"", "\"bb\"", "face 2 \"wing_down\""})
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -187,8 +187,8 @@ TEST(Groups, that_share_a_face_of_one_table_are_both_named) {
 
 TEST(Groups, whose_entries_disagree_are_refused) {
   GroupRule a = rule("a"), again = rule("a");
-  a.faces = {"1"};
-  again.faces = {"2"};
+  a.selection.faces = {"1"};
+  again.selection.faces = {"2"};
   a.role = "inlet";
   again.role = "outlet";
   EXPECT_NE(message_of({a, again}).find("role"), std::string::npos);
@@ -200,7 +200,7 @@ TEST(Groups, whose_entries_disagree_are_refused) {
 
 TEST(Groups, of_the_outside_are_left_out_of_the_reference_diagonal) {
   GroupRule r = rule("tunnel");
-  r.faces = {"3-6"};
+  r.selection.faces = {"3-6"};
   r.role = "farfield";
   ModelTables t = six_faces();
   apply_groups({r}, t);
@@ -275,21 +275,22 @@ TEST(EdgeGroups, select_by_number_name_faces_and_place) {
   using Ids = std::vector<int>;
   const GroupRule empty = entity_rule("x", EntityDim::kEdge);
   GroupRule r = empty;
-  r.edges = {"1-2", "TE_*"};
+  r.selection.edges = {"1-2", "TE_*"};
   EXPECT_EQ(members(r), (Ids{1, 2, 3, 7}));
-  r = empty, r.between = {"left", "r*"};
+  r = empty, r.selection.between = {"left", "r*"};
   EXPECT_EQ(members(r), Ids{4});
-  r = empty, r.on = {"right"};
+  r = empty, r.selection.on = {"right"};
   EXPECT_EQ(members(r), (Ids{4, 5, 6, 7})) << "without the pole";
-  r = empty, r.rim = {"right"};
+  r = empty, r.selection.rim = {"right"};
   EXPECT_EQ(members(r), (Ids{4, 5, 6, 7}));
-  r = empty, r.rim = {"right", "left"};
+  r = empty, r.selection.rim = {"right", "left"};
   EXPECT_EQ(members(r), (Ids{1, 2, 3, 5, 6, 7})) << "the edge between them is inside";
-  r = empty, r.inside = BoxSpec{{{-1, false}, {1, false}, {0, false}, {3, false}, {1, false}, {0, false}}};
+  r = empty, r.selection.inside = BoxSpec{{{-1, false}, {1, false}, {0, false}, {3, false}, {1, false}, {0, false}}};
   EXPECT_EQ(members(r), (Ids{3, 7}));
-  r = empty, r.touching = BoxSpec{{{1.5, false}, {-1, false}, {0, false}, {1.6, false}, {0.5, false}, {0, false}}};
+  r = empty,
+  r.selection.touching = BoxSpec{{{1.5, false}, {-1, false}, {0, false}, {1.6, false}, {0.5, false}, {0, false}}};
   EXPECT_EQ(members(r), Ids{5});
-  r = empty, r.on = {"left"}, r.edges = {"3-5"};
+  r = empty, r.selection.on = {"left"}, r.selection.edges = {"3-5"};
   EXPECT_EQ(members(r), (Ids{3, 4})) << "every key must fit";
   r = entity_rule("root", EntityDim::kEdge);
   EXPECT_EQ(members(r), Ids{4}) << "without selection: the edges of its name";
@@ -297,10 +298,10 @@ TEST(EdgeGroups, select_by_number_name_faces_and_place) {
 
 TEST(EdgeGroups, say_why_two_groups_have_no_edge_between_them_and_closed_ones_no_rim) {
   GroupRule r = entity_rule("x", EntityDim::kEdge);
-  r.between = {"left", "left"};
+  r.selection.between = {"left", "left"};
   EXPECT_NE(refusal({r}).find("between: 'left' and 'left' have no common edge"), std::string::npos) << refusal({r});
-  r.between.clear();
-  r.rim = {"*"};
+  r.selection.between.clear();
+  r.selection.rim = {"*"};
   ModelTables t = two_squares();
   t.coedge_edge = {0, 3, 2, 1, 0, 2, 7, 1, 3};  // the right square on the edges of the left one
   try {
@@ -318,24 +319,24 @@ TEST(VertexGroups, select_by_number_faces_groups_of_edges_and_place) {
   using Ids = std::vector<int>;
   const GroupRule empty = entity_rule("x", EntityDim::kVertex);
   GroupRule r = empty, te = entity_rule("te", EntityDim::kEdge);
-  r.vertices = {"6", "1-2"};
+  r.selection.vertices = {"6", "1-2"};
   EXPECT_EQ(members(r), (Ids{1, 2, 6}));
-  r = empty, r.on = {"left"};
+  r = empty, r.selection.on = {"left"};
   EXPECT_EQ(members(r), (Ids{1, 2, 4, 5}));
-  r = empty, r.on = {"te"}, te.edges = {"TE_2"};
+  r = empty, r.selection.on = {"te"}, te.selection.edges = {"TE_2"};
   EXPECT_EQ(members(r, {te}), (Ids{5, 6})) << "wherever the group of edges stands in the file";
-  r = empty, r.inside = BoxSpec{{{0, false}, {1, false}, {0, false}, {1, false}, {1, false}, {0, false}}};
+  r = empty, r.selection.inside = BoxSpec{{{0, false}, {1, false}, {0, false}, {1, false}, {1, false}, {0, false}}};
   EXPECT_EQ(members(r), (Ids{4, 5}));
   EXPECT_NE(refusal({empty}).find("vertices have no names"), std::string::npos);
-  r = empty, r.vertices = {"tip"};
+  r = empty, r.selection.vertices = {"tip"};
   EXPECT_NE(refusal({r}).find("'tip' is not a number"), std::string::npos);
 }
 
 TEST(EdgeGroups, share_the_names_of_a_table_with_faces_and_vertices) {
   GroupRule left = entity_rule("left", EntityDim::kEdge), tip = entity_rule("tip", EntityDim::kEdge),
             point = entity_rule("tip", EntityDim::kVertex);
-  left.edges = tip.edges = {"1"};
-  point.vertices = {"1"};
+  left.selection.edges = tip.selection.edges = {"1"};
+  point.selection.vertices = {"1"};
   EXPECT_NE(refusal({left}).find("has a group of faces of this name"), std::string::npos) << refusal({left});
   EXPECT_NE(refusal({point, tip}).find("has a group of edges of this name"), std::string::npos);
   left.table = point.table = "other";
@@ -344,19 +345,19 @@ TEST(EdgeGroups, share_the_names_of_a_table_with_faces_and_vertices) {
 
 TEST(EdgeGroups, hold_an_edge_once_in_a_table_and_say_who_has_it) {
   GroupRule a = entity_rule("a", EntityDim::kEdge), b = entity_rule("bb", EntityDim::kEdge), more = a;
-  a.edges = {"1-3"};
-  more.edges = {"3-4"};
+  a.selection.edges = {"1-3"};
+  more.selection.edges = {"3-4"};
   EXPECT_EQ(members(a, {more}), (std::vector<int>{1, 2, 3, 4})) << "entries of one name make one group";
-  b.edges = {"3"};
+  b.selection.edges = {"3"};
   const std::string message = refusal({a, b});
   for (const char* part : {"g.toml:2", "\"bb\"", "edge 3 \"TE_1\"", "\"a\" (g.toml:1)"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
   b.table = "bc";
   EXPECT_EQ(refusal({a, b}), "");
-  b.edges = {"9"};
+  b.selection.edges = {"9"};
   EXPECT_NE(refusal({b}).find("edges: 9 does not exist, there are edges 1 to 8"), std::string::npos);
-  b.edges.clear();
-  b.on = {"nose"};
+  b.selection.edges.clear();
+  b.selection.on = {"nose"};
   EXPECT_NE(refusal({b}).find("on: no group or part matches 'nose'"), std::string::npos);
   b.is_optional = true;
   ModelTables t = two_squares();

@@ -214,7 +214,7 @@ GroupRule tolerance_group(const char* faces, double tolerance) {
   GroupRule rule;
   rule.where = "g.toml:1";
   rule.name = "far";
-  rule.faces = {faces};
+  rule.selection.faces = {faces};
   rule.tolerance = LengthSpec{LengthSpec::Kind::kModelUnit, tolerance, ""};
   return rule;
 }

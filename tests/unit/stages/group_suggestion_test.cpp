@@ -18,8 +18,8 @@ TEST(GroupSuggestion, is_a_groups_file_that_can_be_read) {
   const std::vector<GroupRule> rules = read_groups(path).rules;
   ASSERT_EQ(rules.size(), 2U);
   EXPECT_EQ(rules[0].name, "wing");
-  EXPECT_EQ(rules[0].faces, std::vector<std::string>{"1-3"});
-  EXPECT_EQ(rules[1].faces, std::vector<std::string>{"5"});
+  EXPECT_EQ(rules[0].selection.faces, std::vector<std::string>{"1-3"});
+  EXPECT_EQ(rules[1].selection.faces, std::vector<std::string>{"5"});
   EXPECT_EQ(rules[1].role, "farfield");
   EXPECT_NE(read_text_file(path).find("# in none of them: faces 4, 6"), std::string::npos);
 }
