@@ -114,7 +114,7 @@ class LimitsMaker {
       if (rule.for_curves) change(rule, reference, face_.curve[f]);
     };
     for (const FaceId f : targets_[r].faces) apply(f);
-    if (rule.has_selection()) return;
+    if (!rule.selection.empty()) return;
     for (FaceId f = 0; f < t_.n_faces(); ++f)
       if (roles_.role[f] == FaceRole::kWall) apply(f);
   }
@@ -122,7 +122,7 @@ class LimitsMaker {
   void change(const SizeRule& rule, const std::function<LengthReference()>& reference, Limits& limits) const {
     if (rule.is_sampled == false)
       limits.reset();
-    else if (limits || rule.has_selection())
+    else if (limits || !rule.selection.empty())
       limits = changed_limits(rule, limits.value_or(wall_), reference());
   }
 

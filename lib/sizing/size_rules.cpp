@@ -68,11 +68,10 @@ std::vector<std::uint8_t> faces_of_groups(const SizeRule& rule, const char* key,
 }
 
 Mask edges_between(const SizeRule& rule, const ModelTables& t) {
-  const auto a = faces_of_groups(rule, "between", rule.between[0], t),
-             b = faces_of_groups(rule, "between", rule.between[1], t);
+  const std::string &first = rule.selection.between[0], &second = rule.selection.between[1];
+  const auto a = faces_of_groups(rule, "between", first, t), b = faces_of_groups(rule, "between", second, t);
   const std::vector<EdgeId> edges = st::edges_between(a, b, t);
-  if (edges.empty())
-    fail(rule, text_of("between: no edge separates '", rule.between[0], "' and '", rule.between[1], "'"));
+  if (edges.empty()) fail(rule, text_of("between: no edge separates '", first, "' and '", second, "'"));
   Mask chosen(t.n_edges(), 0);
   for (const EdgeId e : edges) chosen[e] = 1;
   return chosen;
@@ -85,7 +84,7 @@ struct GroupMembers {
 
 GroupMembers members_of_groups(const SizeRule& rule, const ModelTables& t) {
   GroupMembers all{Mask(t.n_faces(), 0), Mask(t.n_edges(), 0), Mask(t.n_vertices(), 0)};
-  for (const std::string& pattern : rule.groups) {
+  for (const std::string& pattern : rule.selection.groups) {
     const std::vector<EdgeId> edges = find_members(pattern, t.labels.edge_groups);
     const std::vector<VertexId> vertices = find_members(pattern, t.labels.vertex_groups);
     for (const EdgeId e : edges) all.edges[e] = 1;
@@ -99,14 +98,13 @@ GroupMembers members_of_groups(const SizeRule& rule, const ModelTables& t) {
 }
 
 Mask detected_edges(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
+  const std::vector<WingEdgeKind>& kinds = rule.selection.detected;
   Mask chosen(t.n_edges(), 0);
   bool is_any = false;
   for (const WingEdge& w : wing_edges)
-    if (std::find(rule.detected.begin(), rule.detected.end(), w.kind) != rule.detected.end())
-      chosen[w.edge] = is_any = true;
+    if (std::find(kinds.begin(), kinds.end(), w.kind) != kinds.end()) chosen[w.edge] = is_any = true;
   if (!is_any)
-    fail(rule,
-         text_of("no ", name_of(rule.detected.front()), " found; st-import --check lists what is, or name the edges"));
+    fail(rule, text_of("no ", name_of(kinds.front()), " found; st-import --check lists what is, or name the edges"));
   return chosen;
 }
 
@@ -129,16 +127,17 @@ std::vector<std::int32_t> ids_of(const Mask& chosen) {
 
 /// Edges that meet every key, where one of them is of edges: keys of faces stand for the edges of these.
 Mask edges_of_all_keys(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
+  const SizeSelection& wanted = rule.selection;
   Mask chosen(t.n_edges(), 1);
-  if (!rule.edges.empty()) keep(select(rule, rule.edges, {"edges", t.edge_name, t.labels.edge_groups}), chosen);
-  if (!rule.between.empty()) keep(edges_between(rule, t), chosen);
-  if (!rule.detected.empty()) keep(detected_edges(rule, t, wing_edges), chosen);
-  if (!rule.faces.empty()) {
+  if (!wanted.edges.empty()) keep(select(rule, wanted.edges, {"edges", t.edge_name, t.labels.edge_groups}), chosen);
+  if (!wanted.between.empty()) keep(edges_between(rule, t), chosen);
+  if (!wanted.detected.empty()) keep(detected_edges(rule, t, wing_edges), chosen);
+  if (!wanted.faces.empty()) {
     Mask of_faces(t.n_edges(), 0);
-    add_edges_of(select(rule, rule.faces, {"faces", t.labels.face_name, {}}), t, of_faces);
+    add_edges_of(select(rule, wanted.faces, {"faces", t.labels.face_name, {}}), t, of_faces);
     keep(of_faces, chosen);
   }
-  if (!rule.groups.empty()) {
+  if (!wanted.groups.empty()) {
     GroupMembers members = members_of_groups(rule, t);
     add_edges_of(members.faces, t, members.edges);
     keep(members.edges, chosen);
@@ -148,31 +147,32 @@ Mask edges_of_all_keys(const SizeRule& rule, const ModelTables& t, std::span<con
 
 }  // namespace
 
-bool add_detected(const std::string& word, SizeRule& rule) {
+bool add_detected(const std::string& word, SizeSelection& selection) {
   if (word != "trailing" && word != "leading") return false;
   if (word == "leading")
-    rule.detected.push_back(WingEdgeKind::kLeading);
+    selection.detected.push_back(WingEdgeKind::kLeading);
   else
-    rule.detected.insert(rule.detected.end(), {WingEdgeKind::kSharpTrailing, WingEdgeKind::kBluntTrailing});
+    selection.detected.insert(selection.detected.end(), {WingEdgeKind::kSharpTrailing, WingEdgeKind::kBluntTrailing});
   return true;
 }
 
 RuleTargets find_targets(const SizeRule& rule, const ModelTables& t, std::span<const WingEdge> wing_edges) {
+  const SizeSelection& wanted = rule.selection;
   RuleTargets targets;
-  if (!rule.has_selection()) return targets;
-  if (rule.selects_edges()) {
+  if (wanted.empty()) return targets;
+  if (wanted.is_of_edges()) {
     targets.edges = ids_of(edges_of_all_keys(rule, t, wing_edges));
-  } else if (rule.faces.empty()) {
+  } else if (wanted.faces.empty()) {
     const GroupMembers members = members_of_groups(rule, t);
     targets = {ids_of(members.faces), ids_of(members.edges), ids_of(members.vertices)};
   } else {
-    Mask faces = select(rule, rule.faces, {"faces", t.labels.face_name, {}});
-    if (!rule.groups.empty()) keep(members_of_groups(rule, t).faces, faces);
+    Mask faces = select(rule, wanted.faces, {"faces", t.labels.face_name, {}});
+    if (!wanted.groups.empty()) keep(members_of_groups(rule, t).faces, faces);
     targets.faces = ids_of(faces);
   }
   if (targets.faces.empty() && targets.edges.empty() && targets.vertices.empty())
     fail(rule,
-         rule.selects_edges() ? "no edge meets all keys of its selection" : "no face meets all keys of its selection");
+         wanted.is_of_edges() ? "no edge meets all keys of its selection" : "no face meets all keys of its selection");
   return targets;
 }
 

@@ -14,17 +14,25 @@
 
 namespace st {
 
-/// One rule. A rule without selection speaks of the whole model. What it selects meets every kind of selection that is
-/// given, of each kind any item, as with GroupRule. With edges, between or detected these are edges: faces and groups
-/// of faces then stand for the edges of their faces.
-struct SizeRule {
-  std::string where;                ///< for messages: "sizes.toml:12"
+/// What a rule speaks of; empty: of the whole model. It meets every kind of selection that is given, of each kind any
+/// item, as with GroupRule. With edges, between or detected these are edges: faces and groups of faces then stand for
+/// the edges of their faces.
+struct SizeSelection {
   std::vector<std::string> groups;  ///< glob patterns on names of groups of faces, edges or vertices, and of parts
   std::vector<std::string> faces, edges;  ///< 1-based ids "17", ranges "17-20", or glob patterns on names; of edges
                                           ///< also of their groups
   std::vector<std::string> between;  ///< two glob patterns: the edges between a face of a group of the first and one of
                                      ///< the second
   std::vector<WingEdgeKind> detected;  ///< edges that detection gives these kinds
+
+  bool empty() const { return groups.empty() && faces.empty() && !is_of_edges(); }
+  bool is_of_edges() const { return !edges.empty() || !between.empty() || !detected.empty(); }
+};
+
+/// One rule.
+struct SizeRule {
+  std::string where;  ///< for messages: "sizes.toml:12"
+  SizeSelection selection;
   std::optional<EdgeMeaning> meaning;  ///< of the edges selected, whatever their shape
   bool for_surfaces = true;            ///< the insides of the faces selected
   bool for_curves = true;              ///< the edges of the faces selected
@@ -38,12 +46,10 @@ struct SizeRule {
   bool asks_sizes() const {
     return is_sampled || lmin || lmax || chord || alpha_deg || gap_cells || wall_cells || edge_cells || max_aspect;
   }
-  bool has_selection() const { return !groups.empty() || !faces.empty() || selects_edges(); }
-  bool selects_edges() const { return !edges.empty() || !between.empty() || !detected.empty(); }
 };
 
-/// Adds the kinds of edges that "trailing" or "leading" mean to the rule; false: another word.
-bool add_detected(const std::string& word, SizeRule& rule);
+/// Adds the kinds of edges that "trailing" or "leading" mean; false: another word.
+bool add_detected(const std::string& word, SizeSelection& selection);
 
 /// What a rule selects; ids ascending.
 struct RuleTargets {

@@ -28,14 +28,15 @@ RuleTargets targets_of(const std::vector<std::string>& faces, const std::vector<
   if (faces.empty() && edges.empty()) return {};
   SizeRule own;
   own.where = rule.where;
-  own.faces = faces;
-  own.edges = edges;
+  own.selection.faces = faces;
+  own.selection.edges = edges;
   return find_targets(own, cad);
 }
 
 /// Whether a rule names faces or edges, by numbers or names of the CAD.
 bool select_any(const std::vector<SizeRule>& rules) {
-  return std::ranges::any_of(rules, [](const SizeRule& r) { return !r.faces.empty() || !r.edges.empty(); });
+  return std::ranges::any_of(
+      rules, [](const SizeRule& r) { return !r.selection.faces.empty() || !r.selection.edges.empty(); });
 }
 
 /// Whether some but not all of `whole` are among `chosen` (ascending).
@@ -72,10 +73,10 @@ bool select_parts(const std::vector<SizeRule>& rules, const GeometryArtifact& ge
   const Composites& composites = geometry.composites;
   const JoinedTables joined = join_tables(geometry.cad, composites);
   for (const SizeRule& rule : rules) {
-    const std::vector<FaceId> faces = targets_of(rule.faces, {}, rule, geometry.cad).faces;
+    const std::vector<FaceId> faces = targets_of(rule.selection.faces, {}, rule, geometry.cad).faces;
     for (std::int32_t i = 0; i < composites.size(); ++i)
       if (is_part(composites.members(i), faces, [](FaceId f) { return f; })) return true;
-    const std::vector<EdgeId> edges = targets_of({}, rule.edges, rule, geometry.cad).edges;
+    const std::vector<EdgeId> edges = targets_of({}, rule.selection.edges, rule, geometry.cad).edges;
     for (EdgeId e = 0; e < geometry.cad.n_edges(); ++e)
       if (is_part(joined.pieces_of(e), edges, [](const EdgePiece& p) { return p.edge; })) return true;
     if (std::ranges::any_of(edges, [&](EdgeId e) { return std::ranges::binary_search(composites.joined_edges, e); }))
@@ -91,14 +92,14 @@ std::vector<SizeRule> rules_on_joined(std::vector<SizeRule> rules, const Geometr
   for (EdgeId e = 0; e < geometry.cad.n_edges(); ++e)
     for (const EdgePiece& p : joined.pieces_of(e)) whole_edge[static_cast<std::size_t>(p.edge)] = e;
   for (SizeRule& rule : rules) {
-    if (!rule.faces.empty())
-      rule.faces = numbers_of(
-          whole_faces(targets_of(rule.faces, {}, rule, geometry.cad).faces, geometry.composites, rule.where));
-    if (rule.edges.empty()) continue;
-    std::vector<EdgeId> edges = targets_of({}, rule.edges, rule, geometry.cad).edges;
+    if (!rule.selection.faces.empty())
+      rule.selection.faces = numbers_of(
+          whole_faces(targets_of(rule.selection.faces, {}, rule, geometry.cad).faces, geometry.composites, rule.where));
+    if (rule.selection.edges.empty()) continue;
+    std::vector<EdgeId> edges = targets_of({}, rule.selection.edges, rule, geometry.cad).edges;
     for (EdgeId& e : edges) e = whole_edge[static_cast<std::size_t>(e)];
     sort_once(edges);
-    rule.edges = numbers_of(edges);
+    rule.selection.edges = numbers_of(edges);
   }
   return rules;
 }

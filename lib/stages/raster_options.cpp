@@ -19,7 +19,7 @@ constexpr double kDefaultMinLength = 1.0 / 64;  // of the largest length
 SizeRule detection_rule(const std::string& option, const std::string& word, const std::string& lengths) {
   SizeRule rule;
   rule.where = option;
-  add_detected(word, rule);
+  add_detected(word, rule.selection);
   const std::size_t colon = lengths.find(':');
   if (colon != std::string::npos) rule.lmin = parse_length(lengths.substr(0, colon), option);
   rule.lmax = parse_length(colon == std::string::npos ? lengths : lengths.substr(colon + 1), option);
@@ -75,7 +75,7 @@ std::vector<SizeRule> all_rules(const RasterStageOptions& o, const SizeRuleFile&
   for (const SizeRule& rule : rules) {
     for (const auto& [length, key] : {std::pair(rule.lmin, "lmin"), {rule.lmax, "lmax"}, {rule.chord, "chord"}})
       if (length) require_unit(*length, t.unit_in_m, rule.where + ": " + key);
-    if (rule.detected.empty()) find_targets(rule, t);
+    if (rule.selection.detected.empty()) find_targets(rule, t);
   }
   return rules;
 }

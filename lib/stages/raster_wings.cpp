@@ -134,7 +134,7 @@ GivenFloors find_floors(const std::vector<SizeRule>& rules, bool everywhere, con
     const RuleTargets targets = find_targets(rule, t, wing_edges);
     for (const EdgeId e : targets.edges) set_edge(e);
     for (FaceId f = 0; f < t.n_faces(); ++f)
-      if (!rule.has_selection() || std::binary_search(targets.faces.begin(), targets.faces.end(), f)) set_face(f);
+      if (rule.selection.empty() || std::binary_search(targets.faces.begin(), targets.faces.end(), f)) set_face(f);
   }
   return floors;
 }

@@ -30,7 +30,7 @@ class RuleReader : TomlEntry {
       fail(table(),
            "the rule sets nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells, max_aspect, "
            "sample, trailing_edge or leading_edge");
-    if (rule_.meaning && !rule_.has_selection())
+    if (rule_.meaning && rule_.selection.empty())
       fail(table(), "trailing_edge and leading_edge need a selection: give edges, between, detected or groups");
     return std::move(rule_);
   }
@@ -38,11 +38,11 @@ class RuleReader : TomlEntry {
  private:
   void read(const std::string& key, const toml::node& node) {
     if (key == "groups")
-      rule_.groups = names(key, node);
+      rule_.selection.groups = names(key, node);
     else if (key == "faces")
-      rule_.faces = names(key, node, "a number, a range \"3-7\",");
+      rule_.selection.faces = names(key, node, "a number, a range \"3-7\",");
     else if (key == "edges")
-      rule_.edges = names(key, node, "a number, a range \"3-7\",");
+      rule_.selection.edges = names(key, node, "a number, a range \"3-7\",");
     else if (key == "between")
       read_between(node);
     else if (key == "detected")
@@ -76,13 +76,15 @@ class RuleReader : TomlEntry {
   }
 
   void read_between(const toml::node& node) {
-    rule_.between = names("between", node);
-    if (rule_.between.size() != 2) fail(node, "between: takes two names of groups, such as [\"WING*\", \"BODY\"]");
+    rule_.selection.between = names("between", node);
+    if (rule_.selection.between.size() != 2)
+      fail(node, "between: takes two names of groups, such as [\"WING*\", \"BODY\"]");
   }
 
   void read_detected(const toml::node& node) {
     for (const std::string& name : names("detected", node))
-      if (!add_detected(name, rule_)) fail(node, "detected: takes \"trailing\", \"leading\" or a list of these");
+      if (!add_detected(name, rule_.selection))
+        fail(node, "detected: takes \"trailing\", \"leading\" or a list of these");
   }
 
   /// `if_not`: nullopt: false is refused.

@@ -75,12 +75,12 @@ TEST(WingEdges, select_edges_in_rules) {
   const std::vector<WingEdge> edges = find_wing_edges(model, face_roles(model.tables()), find_strips(model));
   SizeRule rule;
   rule.where = "rule";
-  ASSERT_TRUE(add_detected("trailing", rule));
+  ASSERT_TRUE(add_detected("trailing", rule.selection));
   const RuleTargets targets = find_targets(rule, model.tables(), edges);
   ASSERT_EQ(targets.edges.size(), 1u);
   EXPECT_EQ(targets.faces.size(), 0u);
   for (const WingEdge& w : edges) EXPECT_EQ(w.kind == WingEdgeKind::kSharpTrailing, w.edge == targets.edges[0]);
-  EXPECT_FALSE(add_detected("upper", rule));
+  EXPECT_FALSE(add_detected("upper", rule.selection));
   EXPECT_ANY_THROW(find_targets(rule, model.tables(), {})) << "nothing found";
 }
 

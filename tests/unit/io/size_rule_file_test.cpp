@@ -37,8 +37,8 @@ TEST_F(SizeRuleFiles, keep_what_each_key_sets) {
                             "groups = [\"WING*\", \"TAIL\"]\nfaces = 3\nlmin = 0.5\nlmax = \"2%\"\nalpha = 7.5\n"
                             "gap_cells = 3\nwall_cells = 4\nedge_cells = 0\nmax_aspect = 8\nfor = \"curves\"")
                             .rules.at(0);
-  EXPECT_EQ(rule.groups, (std::vector<std::string>{"WING*", "TAIL"}));
-  EXPECT_EQ(rule.faces, std::vector<std::string>{"3"});
+  EXPECT_EQ(rule.selection.groups, (std::vector<std::string>{"WING*", "TAIL"}));
+  EXPECT_EQ(rule.selection.faces, std::vector<std::string>{"3"});
   EXPECT_TRUE(rule.lmin && rule.lmax && !rule.chord);
   EXPECT_EQ(rule.alpha_deg, 7.5);
   EXPECT_EQ(rule.gap_cells, 3);

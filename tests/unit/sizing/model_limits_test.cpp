@@ -62,7 +62,7 @@ TEST(ModelLimits, stretch_lifting_surfaces_alone_by_more_than_16) {
   Aircraft aircraft;
   aircraft.wings.emplace_back().faces = {1};
   SizeRule rule;
-  rule.faces = {"strut"};
+  rule.selection.faces = {"strut"};
   rule.max_aspect = 40;
   const ModelLimits limits = model_limits(t, roles, wall, {rule}, {}, aircraft);
   EXPECT_EQ(limits.face[0]->max_aspect, 16);

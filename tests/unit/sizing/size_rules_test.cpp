@@ -57,7 +57,7 @@ std::string message_of(const SizeRule& rule) {
 
 TEST(SizeRules, of_a_group_change_its_faces_and_edges_and_the_finest_wins_between_two) {
   SizeRule rule = rule_of({}, 0.2);
-  rule.groups = {"W*G"};
+  rule.selection.groups = {"W*G"};
   const ModelLimits limits = limits_of({rule});
   EXPECT_EQ(limits.face[0]->max_length, 0.2);
   EXPECT_EQ(limits.face[1]->max_length, 0.5);
@@ -70,7 +70,7 @@ TEST(SizeRules, of_a_group_change_its_faces_and_edges_and_the_finest_wins_betwee
 
 TEST(SizeRules, tell_curves_from_surfaces) {
   SizeRule rule = rule_of({}, 0.2);
-  rule.groups = {"WING"};
+  rule.selection.groups = {"WING"};
   rule.for_surfaces = false;
   EXPECT_EQ(limits_of({rule}).face[0]->max_length, 0.5);
   EXPECT_EQ(limits_of({rule}).edge[0]->max_length, 0.2);
@@ -82,8 +82,8 @@ TEST(SizeRules, tell_curves_from_surfaces) {
 
 TEST(SizeRules, select_faces_and_edges_by_number_range_and_name) {
   SizeRule rule = rule_of({}, 0.2), of_edges = rule_of({}, 0.2);
-  rule.faces = {"wing_*"};
-  of_edges.edges = {"3-4"};
+  rule.selection.faces = {"wing_*"};
+  of_edges.selection.edges = {"3-4"};
   const ModelLimits limits = limits_of({rule, of_edges});
   EXPECT_EQ(limits.face[0]->max_length, 0.2);
   EXPECT_EQ(limits.edge[2]->max_length, 0.2);
@@ -95,7 +95,7 @@ TEST(SizeRules, sample_the_curves_between_two_groups_only) {
   SizeRule none = rule_of({}, {}), root = rule_of(0.002, 0.02);
   none.is_sampled = false;
   none.for_surfaces = false;
-  root.between = {"BODY", "WING"};
+  root.selection.between = {"BODY", "WING"};
   const ModelLimits limits = limits_of({none, root});
   EXPECT_FALSE(limits.edge[0]);
   ASSERT_TRUE(limits.edge[1]);
@@ -110,7 +110,7 @@ TEST(SizeRules, of_the_whole_model_leave_symmetry_and_far_field_alone_but_named_
   EXPECT_EQ(limits_of({rule}).face[1]->max_length, 0.2);
   EXPECT_FALSE(limits_of({rule}).face[2]);
   EXPECT_DOUBLE_EQ(limits_of({rule}).face[3]->max_length, 10);
-  rule.groups = {"SYM", "FAR"};
+  rule.selection.groups = {"SYM", "FAR"};
   EXPECT_EQ(limits_of({rule}).face[2]->max_length, 0.2);
   EXPECT_EQ(limits_of({rule}).face[3]->max_length, 0.2);
 }
@@ -127,14 +127,14 @@ TEST(SizeRules, apply_in_order_and_keep_what_they_do_not_name) {
 
 TEST(SizeRules, that_select_nothing_or_contradict_themselves_are_refused) {
   SizeRule rule = rule_of({}, 0.2);
-  rule.groups = {"FLAP"};
+  rule.selection.groups = {"FLAP"};
   EXPECT_NE(message_of(rule).find("sizes.toml:3: groups: no group or part matches 'FLAP'"), std::string::npos)
       << message_of(rule);
-  rule.groups.clear();
-  rule.edges = {"5"};
+  rule.selection.groups.clear();
+  rule.selection.edges = {"5"};
   EXPECT_NE(message_of(rule).find("edges: 5 does not exist, there are 4"), std::string::npos) << message_of(rule);
-  rule.edges.clear();
-  rule.between = {"WING", "SYM"};
+  rule.selection.edges.clear();
+  rule.selection.between = {"WING", "SYM"};
   EXPECT_NE(message_of(rule).find("no edge separates"), std::string::npos) << message_of(rule);
   EXPECT_NE(message_of(rule_of(0.4, 0.3)).find("lmin 0.4 is larger than lmax 0.3"), std::string::npos);
 }
@@ -150,12 +150,12 @@ ModelTables with_groups() {
 TEST(SizeRules, take_groups_of_edges_by_edges_and_by_groups) {
   const ModelTables t = with_groups();
   SizeRule rule = rule_of({}, 0.1);
-  rule.edges = {"te"};
+  rule.selection.edges = {"te"};
   EXPECT_EQ(find_targets(rule, t).edges, std::vector<EdgeId>{0});
-  rule.edges = {"TE_*", "bc:root", "3"};
+  rule.selection.edges = {"TE_*", "bc:root", "3"};
   EXPECT_EQ(find_targets(rule, t).edges, (std::vector<EdgeId>{0, 1, 2}));
-  rule.edges.clear();
-  rule.groups = {"te", "BODY"};
+  rule.selection.edges.clear();
+  rule.selection.groups = {"te", "BODY"};
   const RuleTargets both = find_targets(rule, t);
   EXPECT_EQ(both.edges, std::vector<EdgeId>{0});
   EXPECT_EQ(both.faces, std::vector<FaceId>{1});
@@ -167,7 +167,7 @@ TEST(SizeRules, take_groups_of_edges_by_edges_and_by_groups) {
 TEST(SizeRules, of_a_group_of_vertices_ask_for_lmax_there) {
   const ModelTables t = with_groups();
   SizeRule rule = rule_of({}, 0.1);
-  rule.groups = {"tip"};
+  rule.selection.groups = {"tip"};
   const ModelLimits limits = model_limits(t, face_roles(t), kWall, {rule});
   EXPECT_FALSE(limits.vertex[0]);
   EXPECT_EQ(limits.vertex[1]->max_length, 0.1);
@@ -176,7 +176,7 @@ TEST(SizeRules, of_a_group_of_vertices_ask_for_lmax_there) {
 TEST(SizeRules, say_of_between_that_it_takes_groups_of_faces) {
   const ModelTables t = with_groups();
   SizeRule rule = rule_of({}, 0.1);
-  rule.between = {"te", "BODY"};
+  rule.selection.between = {"te", "BODY"};
   try {
     find_targets(rule, t);
     FAIL();
@@ -188,18 +188,18 @@ TEST(SizeRules, say_of_between_that_it_takes_groups_of_faces) {
 TEST(SizeRules, of_several_keys_take_what_meets_all_of_them_and_of_a_list_what_meets_any) {
   const ModelTables t = with_groups();
   SizeRule rule = rule_of({}, 0.1);
-  rule.groups = {"WING", "BODY"};
+  rule.selection.groups = {"WING", "BODY"};
   EXPECT_EQ(find_targets(rule, t).faces, (std::vector<FaceId>{0, 1}));
-  rule.faces = {"2-4"};
+  rule.selection.faces = {"2-4"};
   EXPECT_EQ(find_targets(rule, t).faces, std::vector<FaceId>{1});
-  rule.edges = {"1", "2"};
+  rule.selection.edges = {"1", "2"};
   const RuleTargets of_body = find_targets(rule, t);
   EXPECT_EQ(of_body.edges, std::vector<EdgeId>{1}) << "faces stand for their edges";
   EXPECT_TRUE(of_body.faces.empty());
-  rule.faces.clear();
-  rule.groups = {"te"};
+  rule.selection.faces.clear();
+  rule.selection.groups = {"te"};
   EXPECT_EQ(find_targets(rule, t).edges, std::vector<EdgeId>{0}) << "a group of edges";
-  rule.between = {"WING", "BODY"};
+  rule.selection.between = {"WING", "BODY"};
   EXPECT_NE(message_of(rule).find("no group or part matches 'te'"), std::string::npos) << message_of(rule);
   EXPECT_ERROR(find_targets(rule, t), kUsage, "sizes.toml:3: no edge meets all keys of its selection");
 }
@@ -208,18 +208,18 @@ TEST(SizeRules, say_what_edges_are_in_their_order) {
   const ModelTables t = with_groups();
   SizeRule rule = rule_of({}, {});
   rule.meaning = EdgeMeaning::kTrailing;
-  rule.edges = {"TE_1"};
+  rule.selection.edges = {"TE_1"};
   SizeRule none = rule_of({}, {});
   none.meaning = EdgeMeaning::kNoTrailing;
-  none.groups = {"WING"};
+  none.selection.groups = {"WING"};
   const std::vector<SizeRule> rules = {rule, none};
   const std::vector<DeclaredEdge> declared = declared_edges(rules, t, {}, {});
   ASSERT_EQ(declared.size(), 3u) << "TE_1, and both edges of the wing that are no pole";
   EXPECT_EQ(declared[0].edge, 0);
   EXPECT_EQ(declared[0].meaning, EdgeMeaning::kTrailing);
   EXPECT_EQ(declared[1].meaning, EdgeMeaning::kNoTrailing);
-  rule.edges.clear();
-  rule.groups = {"WING"};
+  rule.selection.edges.clear();
+  rule.selection.groups = {"WING"};
   EXPECT_ERROR(declared_edges(std::vector<SizeRule>{rule}, t, {}, {}), kUsage, "is not the base of a blunt");
   const std::vector<Strip> bases = {{.face = 0, .edges = {0, 1}, .stations = {}}};
   ASSERT_EQ(declared_edges(std::vector<SizeRule>{rule}, t, bases, {}).size(), 1u);
@@ -228,14 +228,14 @@ TEST(SizeRules, say_what_edges_are_in_their_order) {
 TEST(SizeRules, without_sizes_leave_limits_alone) {
   SizeRule rule = rule_of({}, {});
   rule.meaning = EdgeMeaning::kTrailing;
-  rule.groups = {"SYM"};
+  rule.selection.groups = {"SYM"};
   const ModelLimits limits = limits_of({rule});
   EXPECT_FALSE(limits.face[2]) << "a symmetry plane asks for nothing";
-  rule.groups.clear();
-  rule.edges = {"TE_1"};
+  rule.selection.groups.clear();
+  rule.selection.edges = {"TE_1"};
   EXPECT_FALSE(limits_of({rule}).edge_is_ruled[0]);
-  rule.edges.clear();
-  add_detected("trailing", rule);
+  rule.selection.edges.clear();
+  add_detected("trailing", rule.selection);
   rule.meaning = EdgeMeaning::kNoTrailing;
   EXPECT_NO_THROW(limits_of({rule})) << "of what is found there is nothing left by now";
 }
@@ -246,9 +246,9 @@ TEST(SizeRules, take_the_detected_edges_of_a_group_alone) {
   found[0].edge = 0, found[1].edge = 2;
   for (WingEdge& w : found) w.kind = WingEdgeKind::kSharpTrailing;
   SizeRule rule = rule_of({}, 0.1);
-  add_detected("trailing", rule);
+  add_detected("trailing", rule.selection);
   EXPECT_EQ(find_targets(rule, t, found).edges, (std::vector<EdgeId>{0, 2}));
-  rule.groups = {"WING"};
+  rule.selection.groups = {"WING"};
   EXPECT_EQ(find_targets(rule, t, found).edges, std::vector<EdgeId>{0});
 }
 

@@ -23,8 +23,8 @@ GeometryArtifact joined_wing() {
 SizeRule rule_for(const std::vector<std::string>& faces, const std::vector<std::string>& edges) {
   SizeRule rule;
   rule.where = "s.toml:3";
-  rule.faces = faces;
-  rule.edges = edges;
+  rule.selection.faces = faces;
+  rule.selection.edges = edges;
   return rule;
 }
 
@@ -105,7 +105,7 @@ TEST(RulesOnJoined, are_the_same_where_nothing_is_joined) {
   GeometryArtifact plain;
   plain.tables = test::import_shape("box").tables;
   const auto rules = rules_on_joined({rule_for({"99", "T*"}, {})}, plain);
-  EXPECT_EQ(rules[0].faces, (std::vector<std::string>{"99", "T*"}));
+  EXPECT_EQ(rules[0].selection.faces, (std::vector<std::string>{"99", "T*"}));
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ TEST(RasterOptions, of_wings_are_rules_for_all_walls) {
   ASSERT_EQ(rules.size(), 2u);
   EXPECT_EQ(rules[0].where, "--lmin");
   EXPECT_TRUE(rules[0].lmin->is_of_wing());
-  EXPECT_FALSE(rules[0].has_selection());
+  EXPECT_TRUE(rules[0].selection.empty());
   EXPECT_EQ(rules[1].lmax->value, 2);
   EXPECT_EQ(resolve_limits(o, box_in_mm(), 64).min_length, 0.025) << "the rule's length is no one for all";
   o.trailing_edges = "2:1";
@@ -59,11 +59,11 @@ TEST(RasterOptions, rules_of_the_file_come_last_and_are_refused_where_they_meet_
   o.lmax = "3%chord";
   SizeRule rule;
   rule.where = "s.toml:3";
-  rule.faces = {"2"};
+  rule.selection.faces = {"2"};
   const std::vector<SizeRule> rules = all_rules(o, {{rule}, ""}, box_in_mm());
   ASSERT_EQ(rules.size(), 2u);
   EXPECT_EQ(rules[1].where, "s.toml:3");
-  rule.faces = {"99"};
+  rule.selection.faces = {"99"};
   EXPECT_ERROR(all_rules(o, {{rule}, ""}, box_in_mm()), kUsage, "s.toml:3");
 }
 
