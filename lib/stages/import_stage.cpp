@@ -104,8 +104,8 @@ nlohmann::json report(const std::string& model, const ImportResult& r) {
           {"groups", t.labels.group_name.size()},
           {"parts", t.labels.part_path.size()},
           {"tables", tables_json(t)},
-          {"free_edges", r.n_free_edges},
-          {"nonmanifold_edges", r.n_nonmanifold_edges},
+          {"free_edges", r.edge_uses.n_free},
+          {"nonmanifold_edges", r.edge_uses.n_nonmanifold},
           {"repairs", repairs},
           {"findings", findings},
           {"flow_domain", air_json(r.air)},
@@ -175,7 +175,7 @@ void say_crossing_parts(const ImportStageOptions& o, const ImportResult& r) {
   for (const ImportFinding& f : r.findings)
     if (f.kind == FindingKind::kOverlap)
       crossing.push_back(fmt::format("{} at ({:.6g}, {:.6g}, {:.6g})", f.detail, f.xyz.x, f.xyz.y, f.xyz.z));
-  const char* remedy = o.unite ? "repair them in the CAD system" : "--unite makes them one body";
+  const char* remedy = o.import.unite ? "repair them in the CAD system" : "--unite makes them one body";
   if (crossing.size() == 1)
     return log_warning(fmt::format("{}: two parts cross: {}; {}", o.model, crossing[0], remedy));
   if (!crossing.empty()) log_warning(fmt::format("{}: {} pairs of parts cross; {}:", o.model, crossing.size(), remedy));
@@ -277,7 +277,7 @@ void say_openings(const ImportStageOptions& o, const ImportResult& r) {
     if (f.kind == FindingKind::kOpeningLeft)
       log_warning(fmt::format("{}: {}, at ({:.6g}, {:.6g}, {:.6g})", o.model, f.what(), f.xyz.x, f.xyz.y, f.xyz.z));
   }
-  if (o.cap && std::ranges::none_of(r.findings, [](const ImportFinding& f) {
+  if (o.import.cap && std::ranges::none_of(r.findings, [](const ImportFinding& f) {
         return f.kind == FindingKind::kCapped || f.kind == FindingKind::kOpeningLeft;
       }))
     log_report("  --cap: there is no opening");
@@ -320,7 +320,7 @@ void say_air(const ImportStageOptions& o, const ImportResult& r) {
   else if (air.n_farfield > 0)
     log_report(fmt::format("  the file has its own air: {}; lengths in % refer to the rest, diagonal {:.4g}{}",
                            air.in_words(), r.tables.reference_diagonal(),
-                           air.is_by_shape && o.flow_domain == ImportOptions().flow_domain
+                           air.is_by_shape && o.import.air.flow_domain == AirOptions().flow_domain
                                ? "; --flow-domain no takes all faces as walls, a groups file names them"
                                : ""));
   else if (!air.doubt.empty())
@@ -331,19 +331,20 @@ void say_air(const ImportStageOptions& o, const ImportResult& r) {
 /// The first findings as text, where they are asked for; the rest is counted.
 void say(const ImportStageOptions& o, const ImportResult& r) {
   const std::string& model = o.model;
-  if (!r.is_closed && r.n_free_edges == 0 && r.n_contradictory_edges > 0)
+  if (!r.is_closed && r.edge_uses.n_free == 0 && r.edge_uses.n_contradictory > 0)
     log_warning(fmt::format("{}: the model encloses no volume: faces disagree at {} edges which side is outside", model,
-                            r.n_contradictory_edges));
-  else if (!r.is_closed && r.n_free_edges == 0)
+                            r.edge_uses.n_contradictory));
+  else if (!r.is_closed && r.edge_uses.n_free == 0)
     log_warning(fmt::format("{}: the model encloses no volume, because its faces form no shell", model));
   else if (!r.is_closed)
     log_warning(fmt::format("{}: the model is open: {} free edges; the mesh will have open boundaries there{}", model,
-                            r.n_free_edges,
+                            r.edge_uses.n_free,
                             !r.facets.empty() ? ""
-                            : o.cap           ? " (--sew joins edges further apart)"
+                            : o.import.cap    ? " (--sew joins edges further apart)"
                                               : " (--sew joins edges further apart, --cap closes openings in planes)"));
   if (const std::string repairs = repairs_in_words(r); !repairs.empty())
-    log_warning(fmt::format("{}: repaired: {}{}", model, repairs, o.check ? "" : "; -v lists places and sizes"));
+    log_warning(
+        fmt::format("{}: repaired: {}{}", model, repairs, o.import.check_only ? "" : "; -v lists places and sizes"));
   say_unit(o, r);
   say_air(o, r);
   say_bodies(o, r);
@@ -352,7 +353,7 @@ void say(const ImportStageOptions& o, const ImportResult& r) {
   say_open_vertices(o, r);
   say_mirror(r);
   say_openings(o, r);
-  const auto say_line = o.check ? log_report : log_info;
+  const auto say_line = o.import.check_only ? log_report : log_info;
   const std::size_t n = r.findings.size(), shown = std::min<std::size_t>(n, kFindingsShown);
   for (std::size_t i = 0; i < shown; ++i) {
     const ImportFinding& f = r.findings[i];
@@ -422,7 +423,9 @@ ImportResult import_triangles(const std::string& path, const ImportOptions& opti
 }
 
 /// Of whatever the file holds.
-ImportResult import_file(const ImportStageOptions& o, ImportOptions options) {
+ImportResult import_file(const ImportStageOptions& o, const GroupsFile& groups) {
+  ImportOptions options = o.import;
+  options.groups = groups.rules;
   o.kFeatureAngle.require(o.feature_angle);
   if (!triangulation_format(o.model).empty()) {
     options.feature_deg = o.feature_angle.value_or(options.feature_deg);
@@ -433,35 +436,37 @@ ImportResult import_file(const ImportStageOptions& o, ImportOptions options) {
   return import_model(o.model, options);
 }
 
-ImportOptions import_options(const ImportStageOptions& o, const GroupsFile& groups) {
-  ImportOptions options;
-  options.unit = o.unit;
-  options.small = o.small;
-  options.sew = o.sew;
-  options.symmetry = o.symmetry;
-  options.mirror = o.mirror;
-  options.farfield = o.farfield;
-  options.replace_farfield = o.replace_farfield;
-  options.flow_domain = o.flow_domain;
-  options.unite = o.unite;
-  options.join_touching = o.join;
-  options.cap = o.cap;
-  options.check_only = o.check;
-  options.require_closed = o.require_closed;
-  options.groups = groups.rules;
-  return options;
-}
-
 void require_composable(const ImportStageOptions& o) {
-  if (o.check) throw Error(ExitCode::kUsage, "--composite joins faces of what is written, and --check writes nothing");
-  if (!o.mirror.empty())
+  if (o.import.check_only)
+    throw Error(ExitCode::kUsage, "--composite joins faces of what is written, and --check writes nothing");
+  if (!o.import.air.mirror.empty())
     throw Error(ExitCode::kUsage, "--composite joins faces across the plane of --mirror; give one of them");
 }
 
 /// What --composite asks for.
 std::string composite_word(const ImportStageOptions& o) {
   if (!o.composite.empty()) return o.composite;
-  return o.check || !o.mirror.empty() || !triangulation_format(o.model).empty() ? "none" : "harm";
+  return o.import.check_only || !o.import.air.mirror.empty() || !triangulation_format(o.model).empty() ? "none"
+                                                                                                       : "harm";
+}
+
+/// For the artifact: what is not as it is without options.
+nlohmann::json options_json(const ImportStageOptions& o) {
+  const ImportOptions& i = o.import;
+  nlohmann::json used{{"unit", i.unit}, {"small", i.small}};
+  const std::pair<const char*, const std::string&> texts[] = {{"sew", i.sew},
+                                                              {"symmetry", i.air.symmetry},
+                                                              {"mirror", i.air.mirror},
+                                                              {"farfield", i.air.farfield},
+                                                              {"replace_farfield", i.air.replace_farfield}};
+  for (const auto& [name, text] : texts)
+    if (!text.empty()) used[name] = text;
+  if (i.air.flow_domain != AirOptions().flow_domain) used["flow_domain"] = i.air.flow_domain;
+  for (const auto& [name, given] : {std::pair{"unite", i.unite}, {"join", i.join_touching}, {"cap", i.cap}})
+    if (given) used[name] = true;
+  if (o.feature_angle) used["feature_angle"] = *o.feature_angle;
+  if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
+  return used;
 }
 
 /// Unless it was asked for, nothing is said where no faces are joined.
@@ -480,35 +485,26 @@ StageSummary import_here(const ImportStageOptions& o, const GroupsFile& groups) 
   const std::string composite = composite_word(o);
   const bool is_composed = asks_for_composites(composite, o.model);
   if (is_composed) require_composable(o);
-  ImportResult r = import_file(o, import_options(o, groups));
+  ImportResult r = import_file(o, groups);
   say(o, r);
   nlohmann::json json = report(o.model, r);
-  if (o.check) json["wing_edges"] = list_wing_edges(r);
+  if (o.import.check_only) json["wing_edges"] = list_wing_edges(r);
   if (!o.suggest_groups.empty()) json["suggested_groups"] = suggest(o, r);
   if (!o.groups.empty()) log_report(fmt::format("  {}: {}", o.groups, groups_in_words(r.tables.labels)));
   const ModelTables& t = r.tables;
   StageSummary s;
-  s.line = fmt::format("{}: {}, {}, {}, {}, {}, {}", o.check ? o.model : o.output, counted(t.n_faces(), "face"),
-                       counted(t.n_edges(), "edge"),
-                       r.is_closed ? "closed" : fmt::format("open ({})", counted(r.n_free_edges, "free edge")),
-                       extent(r), counted(r.findings.size() - r.n_repairs, "finding"), counted(r.n_repairs, "repair"));
+  s.line =
+      fmt::format("{}: {}, {}, {}, {}, {}, {}", o.import.check_only ? o.model : o.output, counted(t.n_faces(), "face"),
+                  counted(t.n_edges(), "edge"),
+                  r.is_closed ? "closed" : fmt::format("open ({})", counted(r.edge_uses.n_free, "free edge")),
+                  extent(r), counted(r.findings.size() - r.n_repairs(), "finding"), counted(r.n_repairs(), "repair"));
   if (const std::string faults = faults_in_words(r); !faults.empty()) s.line += "; " + faults;
-  if (!o.check) {
+  if (!o.import.check_only) {
     GeometryArtifact g;
     g.header.schema = "geometry";
     g.header.tool = "st-import";
     g.header.tool_version = ST_VERSION;
-    nlohmann::json used{{"unit", o.unit}, {"small", o.small}};
-    if (!o.sew.empty()) used["sew"] = o.sew;
-    if (!o.symmetry.empty()) used["symmetry"] = o.symmetry;
-    if (!o.mirror.empty()) used["mirror"] = o.mirror;
-    if (!o.farfield.empty()) used["farfield"] = o.farfield;
-    if (!o.replace_farfield.empty()) used["replace_farfield"] = o.replace_farfield;
-    if (o.flow_domain != ImportOptions().flow_domain) used["flow_domain"] = o.flow_domain;
-    for (const auto& [name, given] : {std::pair{"unite", o.unite}, {"join", o.join}, {"cap", o.cap}})
-      if (given) used[name] = true;
-    if (o.feature_angle) used["feature_angle"] = *o.feature_angle;
-    if (!o.groups.empty()) used["groups"] = std::filesystem::path(o.groups).filename().string();
+    nlohmann::json used = options_json(o);
     g.header.unit = t.unit;
     g.header.unit_in_m = t.unit_in_m;
     g.header.inputs = {{"cad", std::filesystem::path(o.model).filename().string(), file_hash(o.model)}};
@@ -545,7 +541,7 @@ struct LeftTemporaries {
 // OpenCASCADE may crash, hang or eat the memory on a damaged file: everything is done in a child, this process keeps
 // the last word.
 StageSummary run_import(const ImportStageOptions& o) {
-  if (!o.check) require_writable(o.output);
+  if (!o.import.check_only) require_writable(o.output);
   if (!o.suggest_groups.empty()) {
     if (!o.groups.empty())
       throw Error(ExitCode::kUsage, "--suggest-groups and --groups: give one of them; suggestions are made without");
@@ -556,9 +552,9 @@ StageSummary run_import(const ImportStageOptions& o) {
     const StageSummary s = import_here(o, groups);
     return s.line + '\n' + s.json;
   };
-  const LeftTemporaries left{o.check ? "" : o.output};
+  const LeftTemporaries left{o.import.check_only ? "" : o.output};
   const std::string folder = std::filesystem::absolute(o.output).parent_path().string();
-  const std::string both = run_in_child(work, {time_limit(o), o.check ? "" : folder}, o.model);
+  const std::string both = run_in_child(work, {time_limit(o), o.import.check_only ? "" : folder}, o.model);
   const std::size_t line_end = both.find('\n');
   if (!o.suggest_groups.empty())
     write_text_file(o.suggest_groups,

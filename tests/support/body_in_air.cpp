@@ -67,7 +67,7 @@ TopoDS_Shape first(const TopoDS_Shape& shape, TopAbs_ShapeEnum kind) {
 /// As st-import repairs it.
 TopoDS_Shape read_body(const std::string& path, const std::string& symmetry) {
   st::ImportOptions options;
-  options.symmetry = symmetry;
+  options.air.symmetry = symmetry;
   const st::ImportResult r = st::import_model(path, options);
   std::istringstream stream(std::string(reinterpret_cast<const char*>(r.brep.data()), r.brep.size()));
   TopoDS_Shape shape;

@@ -3,19 +3,20 @@
 namespace st {
 
 void declare(OptionSet& set, ImportStageOptions& o) {
-  set.unit("--unit", o.unit,
+  ImportOptions& i = o.import;
+  set.unit("--unit", i.unit,
            "length unit of the artifact: mm, cm, m, in or ft, needed for facets; default: the unit of the file");
-  set.length("--small", o.small, "0.01%", "list edges shorter and faces narrower than this");
-  set.length("--sew", o.sew, "0.01%", "join free edges that are at most this far apart");
-  set.text("--symmetry", o.symmetry, "AXIS=VALUE",
+  set.length("--small", i.small, "0.01%", "list edges shorter and faces narrower than this");
+  set.length("--sew", i.sew, "0.01%", "join free edges that are at most this far apart");
+  set.text("--symmetry", i.air.symmetry, "AXIS=VALUE",
            "cut or close the model at this plane: y=0 keeps the positive side, y=0- the negative side");
-  set.text("--mirror", o.mirror, "AXIS=VALUE",
+  set.text("--mirror", i.air.mirror, "AXIS=VALUE",
            "mesh one half of a symmetric model, the other is its image: y=0 the positive side, y=0- the negative");
-  set.text("--farfield", o.farfield, "KIND:SIZE",
+  set.text("--farfield", i.air.farfield, "KIND:SIZE",
            "add a far field: box:20 (half width) or sphere:50 (radius), in diagonals of the model");
-  set.text("--replace-farfield", o.replace_farfield, "KIND:SIZE",
+  set.text("--replace-farfield", i.air.replace_farfield, "KIND:SIZE",
            "likewise, in place of the far field that the file has; its symmetry plane stays one");
-  set.text("--flow-domain", o.flow_domain, "WORD",
+  set.text("--flow-domain", i.air.flow_domain, "WORD",
            "whether the file is the air around a body: auto (by shape where no name says so), yes or no");
   set.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
   set.number(o.kTimeLimit, o.time_limit);
@@ -24,11 +25,11 @@ void declare(OptionSet& set, ImportStageOptions& o) {
       "--composite", o.composite, "WORD",
       "make one face of CAD faces that meet smoothly: none, harm (where the edge between them spoils triangles) or "
       "smooth (wherever they do); default: harm");
-  set.flag("--unite", o.unite, "make solids that overlap or touch one body, without what is inside");
-  set.flag("--join", o.join, "give solids that touch common faces and edges, in groups of their own");
-  set.flag("--cap", o.cap,
+  set.flag("--unite", i.unite, "make solids that overlap or touch one body, without what is inside");
+  set.flag("--join", i.join_touching, "give solids that touch common faces and edges, in groups of their own");
+  set.flag("--cap", i.cap,
            "close openings whose rim lies in a plane, or in two or three, by faces named cap_1, cap_2 ...");
-  set.flag("--require-closed", o.require_closed, "end with exit code 4 when the model is not closed");
+  set.flag("--require-closed", i.require_closed, "end with exit code 4 when the model is not closed");
 }
 
 void declare(OptionSet& set, RasterStageOptions& o) {

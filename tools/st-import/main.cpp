@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   st::declare(tool, o);
   tool.output_option("--suggest-groups", o.suggest_groups,
                      "write a groups file that the shape suggests: wing, tail, fuselage, nacelle ...; to be edited");
-  tool.flag("--check", o.check, "print a report of the defects and write nothing");
+  tool.flag("--check", o.import.check_only, "print a report of the defects and write nothing");
   tool.threads();
   tool.main_options(
       {"--symmetry", "--farfield", "--groups", "--unit", "--sew", "--unite", "--join", "--check", "--require-closed"});

@@ -154,19 +154,20 @@ AirFaces counts_of(const FileAir& air) {
 }
 
 AskedAir parse_air(const ImportOptions& options) {
+  const AirOptions& air = options.air;
   AskedAir asked;
-  if (!options.symmetry.empty()) asked.plane = parse_symmetry(options.symmetry, "--symmetry");
-  if (!options.mirror.empty()) asked.mirror = parse_symmetry(options.mirror, "--mirror");
-  if (!options.farfield.empty()) asked.far = parse_farfield(options.farfield, "--farfield");
-  if (!options.replace_farfield.empty()) {
+  if (!air.symmetry.empty()) asked.plane = parse_symmetry(air.symmetry, "--symmetry");
+  if (!air.mirror.empty()) asked.mirror = parse_symmetry(air.mirror, "--mirror");
+  if (!air.farfield.empty()) asked.far = parse_farfield(air.farfield, "--farfield");
+  if (!air.replace_farfield.empty()) {
     if (asked.far) throw Error(ExitCode::kUsage, "--farfield and --replace-farfield: give one of them");
-    asked.far = parse_farfield(options.replace_farfield, "--replace-farfield");
+    asked.far = parse_farfield(air.replace_farfield, "--replace-farfield");
     asked.replaces = true;
   }
-  if (options.flow_domain != "auto" && options.flow_domain != "yes" && options.flow_domain != "no")
-    throw Error(ExitCode::kUsage, "--flow-domain: '" + options.flow_domain + "' is none of auto, yes, no");
-  asked.may_search = options.flow_domain != "no";
-  if (options.flow_domain == "yes") asked.search = AirSearch::kAsked;
+  if (air.flow_domain != "auto" && air.flow_domain != "yes" && air.flow_domain != "no")
+    throw Error(ExitCode::kUsage, "--flow-domain: '" + air.flow_domain + "' is none of auto, yes, no");
+  asked.may_search = air.flow_domain != "no";
+  if (air.flow_domain == "yes") asked.search = AirSearch::kAsked;
   if (asked.search == AirSearch::kSure && !asked.plane && !asked.far &&
       std::any_of(options.groups.begin(), options.groups.end(), speaks_of_air))
     asked.may_search = false;

@@ -24,9 +24,9 @@ namespace {
 
 void require_known(const ImportOptions& o, const std::string& path) {
   const std::pair<const char*, bool> given[] = {{"--sew", !o.sew.empty()},
-                                                {"--mirror", !o.mirror.empty()},
-                                                {"--replace-farfield", !o.replace_farfield.empty()},
-                                                {"--flow-domain", o.flow_domain != ImportOptions().flow_domain},
+                                                {"--mirror", !o.air.mirror.empty()},
+                                                {"--replace-farfield", !o.air.replace_farfield.empty()},
+                                                {"--flow-domain", o.air.flow_domain != AirOptions().flow_domain},
                                                 {"--join", o.join_touching},
                                                 {"--unite", o.unite},
                                                 {"--cap", o.cap}};
@@ -63,7 +63,7 @@ std::vector<Box3> edge_boxes(const FacetShape& shape, const ModelTables& tables)
 
 void report(const ImportOptions& options, ImportResult& result) {
   const ModelTables& t = result.tables;
-  result.is_closed = is_closed(t, occt::report_uses(result));
+  occt::report_uses(result);
   const double small =
       resolve_length(parse_length(options.small, "--small"), {t.reference_diagonal(), t.unit_in_m}, "--small");
   for (EdgeId e = 0; e < t.n_edges(); ++e)
@@ -77,7 +77,6 @@ void report(const ImportOptions& options, ImportResult& result) {
           {FindingKind::kSliverFace, t.face_label(f), t.face_box[f].center(), t.face_width[f], false});
   }
   if (result.is_closed) result.volume = t.volume.value_or(0);
-  for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
 }
 
 }  // namespace
@@ -87,8 +86,8 @@ ImportResult import_facets(FacetInput input, const ImportOptions& options, const
   write_names_as_utf8(input.part_name);
   std::optional<occt::SymmetryPlane> plane;
   std::optional<occt::FarField> far;
-  if (!options.symmetry.empty()) plane = occt::parse_symmetry(options.symmetry, "--symmetry");
-  if (!options.farfield.empty()) far = occt::parse_farfield(options.farfield, "--farfield");
+  if (!options.air.symmetry.empty()) plane = occt::parse_symmetry(options.air.symmetry, "--symmetry");
+  if (!options.air.farfield.empty()) far = occt::parse_farfield(options.air.farfield, "--farfield");
   if (far) require_no_air(input, path);
   const ModelUnit unit = choose_unit(std::nullopt, options.unit);
   ImportResult result;

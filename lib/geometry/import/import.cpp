@@ -126,15 +126,9 @@ std::optional<occt::MirrorShapes> mirror_model(ImportedShape& model, occt::Model
   return shapes;
 }
 
-/// A symmetry plane, a mirror or a far field gives faces other numbers.
-bool changes_numbers(const ImportOptions& options) {
-  return !options.mirror.empty() || !options.symmetry.empty() || !options.farfield.empty() ||
-         !options.replace_farfield.empty();
-}
-
 /// Numbers in a groups file are those before the far field goes: they would name others after it.
 void refuse_numbers(const ImportOptions& options) {
-  if (options.replace_farfield.empty()) return;
+  if (options.air.replace_farfield.empty()) return;
   for (const GroupRule& rule : options.groups)
     for (const std::vector<std::string>* items :
          {&rule.selection.faces, &rule.selection.edges, &rule.selection.vertices})
@@ -146,7 +140,7 @@ void refuse_numbers(const ImportOptions& options) {
 
 /// Whether the faces of a rule are known before sewing only by numbers that a symmetry plane or a far field changes.
 bool is_known_late(const GroupRule& rule, const ImportOptions& options) {
-  if (!changes_numbers(options)) return false;
+  if (!options.air.changes_numbers()) return false;
   return std::any_of(rule.selection.faces.begin(), rule.selection.faces.end(), [](const std::string& item) {
     return item.find_first_not_of("0123456789-") == std::string::npos;
   });
@@ -195,7 +189,7 @@ occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, con
 /// Sewing and voids may put the faces in another order: a group that names them by number must not end with others than
 /// those that were sewn for it. With a flow domain such groups are not sewn.
 void require_sewn_faces(const ImportedShape& model, const ModelTables& tables, const ImportOptions& options) {
-  if (changes_numbers(options)) return;
+  if (options.air.changes_numbers()) return;
   const std::vector<double> tolerances = face_tolerances(tables.labels);
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (model.attributes[f].is_sewn_by_group && (tolerances.empty() || tolerances[f] == 0))
@@ -337,7 +331,6 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
   if (options.require_closed) occt::require_closed(result, path);
   if (mirrored) result.mirror = mirrored->numbers_in(model.shape, path);
   name_parts(model, result);
-  for (const ImportFinding& f : result.findings) result.n_repairs += f.is_repair;
   return result;
 }
 

@@ -122,31 +122,28 @@ void report_groups(const std::vector<EmptyGroup>& groups, ImportResult& result) 
   }
 }
 
-EdgeUses report_uses(ImportResult& result) {
-  const EdgeUses uses = report_edge_uses(result.tables);
-  result.n_free_edges = uses.n_free;
-  result.n_nonmanifold_edges = uses.n_nonmanifold;
-  result.n_contradictory_edges = uses.n_contradictory;
-  result.findings.insert(result.findings.end(), uses.findings.begin(), uses.findings.end());
-  return uses;
+void report_uses(ImportResult& result) {
+  result.edge_uses = report_edge_uses(result.tables);
+  const std::vector<ImportFinding>& found = result.edge_uses.findings;
+  result.findings.insert(result.findings.end(), found.begin(), found.end());
+  result.is_closed = is_closed(result.tables, result.edge_uses);
 }
 
 void require_closed(const ImportResult& result, const std::string& path) {
-  if (!result.is_closed && result.n_free_edges == 0 && result.n_contradictory_edges > 0)
+  if (!result.is_closed && result.edge_uses.n_free == 0 && result.edge_uses.n_contradictory > 0)
     throw Error(ExitCode::kGeometry, path +
                                          ": the model encloses no volume: its faces disagree which side is outside; "
                                          "repair it in the CAD system, or import without --require-closed");
   if (!result.is_closed)
-    throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.n_free_edges) +
+    throw Error(ExitCode::kGeometry, path + ": the model is open: " + std::to_string(result.edge_uses.n_free) +
                                          " free edges; close it in the CAD system, or import without --require-closed");
 }
 
 void report_topology(const ImportedShape& model, const FaceMeasures& measures, double small, ImportResult& result) {
-  const EdgeUses uses = report_uses(result);
+  report_uses(result);
   report_faces(measures, small, result);
   report_edges(small, result);
   report_gaps(model, small, result);
-  result.is_closed = is_closed(result.tables, uses);
   for (double a : result.tables.face_area) result.area += a;
   if (!result.is_closed) return;
   std::vector<int> n_sides(result.tables.n_faces(), 0);

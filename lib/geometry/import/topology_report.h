@@ -11,8 +11,8 @@ namespace st::occt {
 /// edges shorter and faces narrower than this are listed.
 void report_topology(const ImportedShape& model, const FaceMeasures& measures, double small, ImportResult& result);
 
-/// Counts edges that not exactly two faces use, one each way, and adds a finding for each.
-EdgeUses report_uses(ImportResult& result);
+/// Fills edge_uses and is_closed, and adds a finding for each edge that not exactly two faces use, one each way.
+void report_uses(ImportResult& result);
 
 /// Adds a finding for each optional group without members.
 void report_groups(const std::vector<EmptyGroup>& groups, ImportResult& result);

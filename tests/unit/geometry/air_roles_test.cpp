@@ -15,9 +15,9 @@ namespace {
 
 ImportOptions with(const std::string& symmetry, const std::string& farfield, const std::string& replaced = "") {
   ImportOptions options;
-  options.symmetry = symmetry;
-  options.farfield = farfield;
-  options.replace_farfield = replaced;
+  options.air.symmetry = symmetry;
+  options.air.farfield = farfield;
+  options.air.replace_farfield = replaced;
   return options;
 }
 

@@ -13,7 +13,7 @@ using test::findings_of;
 
 ImportResult import_in_air(const std::string& shape) {
   ImportOptions options;
-  options.farfield = "box:3";
+  options.air.farfield = "box:3";
   return test::import_broken(shape, options);
 }
 

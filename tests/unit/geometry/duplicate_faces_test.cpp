@@ -24,7 +24,7 @@ TEST(DuplicateFaces, removes_a_face_that_is_there_twice) {
   const ImportResult r = import_broken("doubled_face");
   EXPECT_EQ(r.tables.n_faces(), 6);
   EXPECT_TRUE(r.is_closed);
-  EXPECT_EQ(r.n_nonmanifold_edges, 0);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 0);
   EXPECT_NEAR(r.volume, 48000, 1e-6);
   const auto found = findings_of(r, "duplicated face");
   ASSERT_EQ(found.size(), 1u);
@@ -55,7 +55,7 @@ TEST(DuplicateFaces, removes_a_solid_that_is_there_twice) {
 TEST(DuplicateFaces, keeps_faces_of_solids_that_touch) {
   const ImportResult r = import_broken("touching_boxes");
   EXPECT_EQ(r.tables.n_faces(), 12);
-  EXPECT_EQ(r.n_repairs, 0);
+  EXPECT_EQ(r.n_repairs(), 0);
 }
 
 TEST(DuplicateFaces, are_not_faces_of_solids_that_touch_whatever_else_is_in_the_file) {
@@ -102,7 +102,7 @@ TEST(DuplicateFaces, between_the_same_edges_are_one_wall_of_both_solids) {
   const ImportResult r = test::import_faces(boxes_with_common_edges(0));
   EXPECT_EQ(r.tables.n_faces(), 11);
   EXPECT_EQ(r.tables.n_solids, 2);
-  EXPECT_EQ(r.n_nonmanifold_edges, 4);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 4);
   EXPECT_NEAR(r.volume, 900, 1e-6);
   EXPECT_EQ(findings_of(r, "duplicated face").size(), 1u);
   EXPECT_TRUE(findings_of(r, "bodies touch").empty());
@@ -123,7 +123,7 @@ TEST(DuplicateFaces, of_instances_of_one_solid_at_different_places_stay) {
   up.SetTranslation(gp_Vec(0, 0, 5));
   const ImportResult r = test::import_faces({box, box.Moved(up)});
   EXPECT_EQ(r.tables.n_faces(), 12);
-  EXPECT_EQ(r.n_repairs, 0);
+  EXPECT_EQ(r.n_repairs(), 0);
   EXPECT_EQ(findings_of(r, "bodies touch").size(), 1u);
 }
 

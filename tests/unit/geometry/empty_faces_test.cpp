@@ -39,7 +39,7 @@ TEST(EmptyFaces, that_are_lines_leave_their_neighbours_joined) {
   const ImportResult r = import_faces(faces);
   EXPECT_TRUE(r.is_closed);
   EXPECT_EQ(r.tables.n_faces(), 6);
-  EXPECT_EQ(r.n_nonmanifold_edges, 0);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 0);
   EXPECT_EQ(findings_of(r, "face without area, left out").size(), 2u);
 }
 

@@ -68,7 +68,7 @@ ImportResult half_of_coil(double u0, double u1, const std::string& symmetry) {
   const TemporaryDirectory dir;
   BRepTools::Write(coil(u0, u1), (dir / "coil.brep").c_str());
   ImportOptions options;
-  options.symmetry = symmetry;
+  options.air.symmetry = symmetry;
   return import_model(dir / "coil.brep", options);
 }
 

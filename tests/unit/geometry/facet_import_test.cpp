@@ -33,7 +33,7 @@ TEST(FacetImport, asks_for_a_unit_and_refuses_what_needs_cad) {
 
 TEST(FacetImport, puts_half_a_body_into_its_air) {
   ImportOptions options = in_metres();
-  options.symmetry = "z=0", options.farfield = "sphere:3";
+  options.air.symmetry = "z=0", options.air.farfield = "sphere:3";
   const ImportResult r = import_facets(test::torus_facets(48, 24), options, "torus.stl");
   EXPECT_TRUE(r.is_closed);
   const FaceLabels& labels = r.tables.labels;
@@ -44,7 +44,7 @@ TEST(FacetImport, puts_half_a_body_into_its_air) {
   FacetInput named = test::cube_facets();
   named.part_name = {"farfield"};
   EXPECT_ERROR(import_facets(named, options, "cube.stl"), kUsage, "is a far field already");
-  options.farfield = "cube:3";
+  options.air.farfield = "cube:3";
   EXPECT_ERROR(import_facets(test::cube_facets(), options, "cube.stl"), kUsage, "--farfield");
 }
 
@@ -59,7 +59,7 @@ TEST(FacetImport, lists_what_is_open) {
   FacetInput open = test::cube_facets();
   open.corners.pop_back(), open.part.pop_back();
   ImportOptions options = in_metres();
-  EXPECT_EQ(import_facets(open, options, "open.stl").n_free_edges, 3);
+  EXPECT_EQ(import_facets(open, options, "open.stl").edge_uses.n_free, 3);
   options.require_closed = true;
   EXPECT_ERROR(import_facets(open, options, "open.stl"), kGeometry, "open.stl: the model is open: 3 free edges");
 }

@@ -95,7 +95,7 @@ FliteFile box_with_hole() {
 TEST(FliteReader, takes_several_loops_of_a_region) {
   const ImportResult r = import_file(box_with_hole());
   EXPECT_EQ(r.tables.face_loop_offsets[5] - r.tables.face_loop_offsets[4], 2);
-  EXPECT_EQ(r.n_free_edges, 2);
+  EXPECT_EQ(r.edge_uses.n_free, 2);
   EXPECT_NEAR(r.tables.face_area[4], 1 - 0.09 * kPi, 1e-4);
 }
 
@@ -129,7 +129,7 @@ TEST(FliteReader, gives_a_collapsed_side_its_pole) {
   for (const bool with_point : {false, true}) {
     const ImportResult r = import_file(octant(with_point));
     EXPECT_EQ(std::count(r.tables.edge_is_degenerate.begin(), r.tables.edge_is_degenerate.end(), 1), 1) << with_point;
-    EXPECT_EQ(r.n_free_edges, 3);
+    EXPECT_EQ(r.edge_uses.n_free, 3);
     EXPECT_NEAR(r.area, 0.5 * kPi, 2e-4);
   }
 }

@@ -56,7 +56,7 @@ TEST_P(FliteRoundTrip, keeps_shells_areas_and_volume_within_the_tolerance) {
   EXPECT_NEAR(free_length(b.tables), free_length(a.tables), 1e-3 * free_length(a.tables));
   EXPECT_LE(*std::max_element(b.tables.edge_tolerance.begin(), b.tables.edge_tolerance.end()),
             5 * kTolerance * diagonal);
-  EXPECT_EQ(b.n_nonmanifold_edges, a.n_nonmanifold_edges);
+  EXPECT_EQ(b.edge_uses.n_nonmanifold, a.edge_uses.n_nonmanifold);
   if (a.is_closed) {
     EXPECT_TRUE(b.is_closed);
     EXPECT_EQ(b.tables.n_shells, a.tables.n_shells);

@@ -10,7 +10,7 @@ TEST(FoldedSlivers, are_merged_into_the_neighbour_that_they_lie_on) {
   const ImportResult r = test::import_broken("folded_sliver");
   ASSERT_EQ(r.tables.n_faces(), 1);
   EXPECT_NEAR(r.area, 40 - 4.75, 1e-6) << "covered once, up to the sliver's free edges";
-  EXPECT_EQ(r.n_free_edges, 6);
+  EXPECT_EQ(r.edge_uses.n_free, 6);
   EXPECT_EQ(test::findings_of(r, "face folded back onto its neighbour, merged into face 1").size(), 1u);
   EXPECT_TRUE(test::findings_of(r, "faces cross").empty());
 }

@@ -18,8 +18,8 @@ ImportResult import_domain(const std::string& shape, const std::string& symmetry
   const TemporaryDirectory dir;
   test::write_brep(shape, dir / "model.brep");
   ImportOptions options;
-  options.symmetry = symmetry;
-  options.farfield = farfield;
+  options.air.symmetry = symmetry;
+  options.air.farfield = farfield;
   return import_model(dir / "model.brep", options);
 }
 
@@ -143,8 +143,8 @@ TEST(HalfModel, wrong_values_are_usage_errors) {
 ImportResult import_half(const std::string& shape, const std::string& symmetry, const std::string& farfield = "",
                          bool unite = false) {
   ImportOptions options;
-  options.symmetry = symmetry;
-  options.farfield = farfield;
+  options.air.symmetry = symmetry;
+  options.air.farfield = farfield;
   options.unite = unite;
   return test::import_broken(shape, options);
 }

@@ -70,7 +70,7 @@ TEST(ImportRepair, makes_slits_of_edges_inside_a_face_on_which_others_end) {
   int n_rims = 0;
   for (EdgeId e = 0; e < t.n_edges(); ++e) n_rims += offsets[e + 1] - offsets[e] == 3;
   EXPECT_EQ(n_rims, 1);
-  EXPECT_EQ(r.n_free_edges, 3);
+  EXPECT_EQ(r.edge_uses.n_free, 3);
 }
 
 TEST(ImportRepair, keeps_the_period_and_the_pole_of_a_trimming_curve_projected_again) {
@@ -86,7 +86,7 @@ TEST(ImportRepair, bounds_a_face_without_loops) {
   const ImportResult r = import_broken("bare_sphere");
   EXPECT_EQ(r.tables.n_loops(), 1);
   EXPECT_NEAR(r.area, 400 * kPi, 1e-3);
-  EXPECT_GE(r.n_repairs, 1);
+  EXPECT_GE(r.n_repairs(), 1);
 }
 
 TEST(ImportRepair, bounds_a_ring_whose_loop_encloses_nothing) {
@@ -222,7 +222,7 @@ GroupRule tolerance_group(const char* faces, double tolerance) {
 TEST(ImportRepair, joins_faces_of_a_group_as_far_apart_as_its_tolerance) {
   ImportOptions options;
   options.groups = {tolerance_group("1-6", 0.01)};
-  EXPECT_EQ(import_broken("gappy_box", options).n_free_edges, 24) << "the gaps are wider";
+  EXPECT_EQ(import_broken("gappy_box", options).edge_uses.n_free, 24) << "the gaps are wider";
   options.groups = {tolerance_group("1-6", 0.15)};
   const ImportResult r = import_broken("gappy_box", options);
   EXPECT_TRUE(r.is_closed);
@@ -238,11 +238,12 @@ TEST(ImportRepair, joins_by_a_tolerance_only_edges_of_two_faces_that_have_it) {
   ImportOptions options;
   options.groups = {tolerance_group("1-4", 0.15)};
   const ImportResult some = import_broken("gappy_box", options);
-  EXPECT_EQ(some.n_free_edges, 16) << "four faces of the box have four edges in common";
+  EXPECT_EQ(some.edge_uses.n_free, 16) << "four faces of the box have four edges in common";
   GroupRule rest = tolerance_group("5-6", 0.01);
   rest.name = "rest";
   options.groups.push_back(rest);
-  EXPECT_EQ(import_broken("gappy_box", options).n_free_edges, 16) << "between two groups the smaller tolerance holds";
+  EXPECT_EQ(import_broken("gappy_box", options).edge_uses.n_free, 16)
+      << "between two groups the smaller tolerance holds";
   options.sew = "0.15";
   EXPECT_TRUE(import_broken("gappy_box", options).is_closed) << "a group's tolerance does not keep --sew from joining";
 }

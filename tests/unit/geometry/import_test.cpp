@@ -189,11 +189,11 @@ TEST(Import, makes_instances_faces_of_their_own_in_their_place) {
 TEST(Import, sews_loose_faces_to_a_solid_and_says_so) {
   const ImportResult r = test::import_shape("loose_box");
   EXPECT_TRUE(r.is_closed);
-  EXPECT_EQ(r.n_free_edges, 0);
+  EXPECT_EQ(r.edge_uses.n_free, 0);
   EXPECT_EQ(r.tables.n_edges(), 12);
   EXPECT_EQ(r.tables.n_solids, 1);
   EXPECT_NEAR(r.volume, 48000, 1e-6);
-  EXPECT_GE(r.n_repairs, 1);
+  EXPECT_GE(r.n_repairs(), 1);
   EXPECT_TRUE(std::any_of(r.findings.begin(), r.findings.end(),
                           [](const ImportFinding& f) { return f.is_repair && f.kind == FindingKind::kSewn; }));
 }
@@ -218,9 +218,9 @@ TEST(Import, does_not_touch_a_closed_model) {
   for (const char* shape :
        {"box", "sphere", "cylinder", "cone", "torus", "drilled_cylinder", "mirrored_cylinder", "two_boxes"}) {
     const ImportResult r = test::import_shape(shape);
-    EXPECT_EQ(r.n_repairs, 0) << shape;
+    EXPECT_EQ(r.n_repairs(), 0) << shape;
     EXPECT_TRUE(r.is_closed) << shape;
-    EXPECT_EQ(r.n_free_edges, 0) << shape;
+    EXPECT_EQ(r.edge_uses.n_free, 0) << shape;
     EXPECT_GT(r.volume, 0) << shape;
   }
 }
@@ -228,7 +228,7 @@ TEST(Import, does_not_touch_a_closed_model) {
 TEST(Import, reports_free_edges_with_their_places) {
   const ImportResult r = test::import_shape("square");
   EXPECT_FALSE(r.is_closed);
-  EXPECT_EQ(r.n_free_edges, 4);
+  EXPECT_EQ(r.edge_uses.n_free, 4);
   EXPECT_EQ(r.volume, 0);
   double length = 0;
   for (const ImportFinding& f : r.findings)
@@ -237,16 +237,16 @@ TEST(Import, reports_free_edges_with_their_places) {
 }
 
 TEST(Import, does_not_take_poles_and_seams_for_free_edges) {
-  EXPECT_EQ(test::import_shape("sphere").n_free_edges, 0);
-  EXPECT_EQ(test::import_shape("torus").n_free_edges, 0);
-  EXPECT_EQ(test::import_shape("cone_side").n_free_edges, 1);
-  EXPECT_EQ(test::import_shape("periodic_tube").n_free_edges, 2);
+  EXPECT_EQ(test::import_shape("sphere").edge_uses.n_free, 0);
+  EXPECT_EQ(test::import_shape("torus").edge_uses.n_free, 0);
+  EXPECT_EQ(test::import_shape("cone_side").edge_uses.n_free, 1);
+  EXPECT_EQ(test::import_shape("periodic_tube").edge_uses.n_free, 2);
 }
 
 TEST(Import, reports_an_edge_of_three_faces) {
   const ImportResult r = test::import_shape("t_junction");
-  EXPECT_EQ(r.n_nonmanifold_edges, 1);
-  EXPECT_EQ(r.n_free_edges, 9);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 1);
+  EXPECT_EQ(r.edge_uses.n_free, 9);
 }
 
 TEST(Import, refuses_an_open_model_where_a_closed_one_is_required) {

@@ -25,7 +25,7 @@ TEST(Imprints, of_a_sheet_across_a_box_make_two_rooms) {
   EXPECT_TRUE(r.is_closed);
   EXPECT_EQ(r.tables.n_faces(), 11);
   EXPECT_EQ(r.tables.n_solids, 2);
-  EXPECT_EQ(r.n_nonmanifold_edges, 4);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 4);
   EXPECT_NEAR(r.volume, 2000, 1e-6);
   EXPECT_NEAR(r.area, 1100, 1e-6);
   EXPECT_FALSE(findings_of(r, "ends or lies on other faces, joined there").empty());
@@ -35,7 +35,7 @@ TEST(Imprints, of_a_sheet_that_ends_in_the_air_leave_it_a_sheet) {
   std::vector<TopoDS_Shape> faces = loose_box(gp_Pnt(0, 0, 0), gp_Pnt(20, 10, 10));
   faces.push_back(polygon({gp_Pnt(5, 2, 10), gp_Pnt(5, 8, 10), gp_Pnt(5, 8, 15), gp_Pnt(5, 2, 15)}));
   const ImportResult r = import_faces(faces);
-  EXPECT_EQ(r.n_free_edges, 3);
+  EXPECT_EQ(r.edge_uses.n_free, 3);
   EXPECT_EQ(r.tables.n_solids, 1);
   EXPECT_NEAR(r.area, 1000 + 30, 1e-6);
 }
@@ -54,7 +54,7 @@ TEST(Imprints, of_sheets_onto_a_sheet_divide_it) {
   const ImportResult r =
       import_faces({polygon({gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0), gp_Pnt(10, 10, 0), gp_Pnt(0, 10, 0)}), sheet(0, 5)});
   EXPECT_EQ(r.tables.n_faces(), 3);
-  EXPECT_EQ(r.n_nonmanifold_edges, 1);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 1);
   EXPECT_NEAR(r.area, 150, 1e-9);
 }
 

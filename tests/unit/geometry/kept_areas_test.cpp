@@ -13,7 +13,7 @@ TEST(KeptAreas, a_twisted_band_is_not_sewn_to_itself) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_FALSE(found[0].is_repair);
   EXPECT_NEAR(r.area, 249, 1);
-  EXPECT_EQ(r.n_free_edges, 4);
+  EXPECT_EQ(r.edge_uses.n_free, 4);
 }
 
 TEST(KeptAreas, what_closes_without_a_change_is_sewn) {

@@ -82,7 +82,7 @@ TEST(LoopPeriods, faces_that_begin_at_a_hole_beside_its_face_are_named_and_open)
   EXPECT_FALSE(found[0].is_repair);
   EXPECT_EQ(found[0].what(), "hole outside its face, left out; open there: face 7");
   EXPECT_FALSE(r.is_closed);
-  EXPECT_EQ(r.n_free_edges, 2);
+  EXPECT_EQ(r.edge_uses.n_free, 2);
   EXPECT_NEAR(r.area, 8800 + 2 * kPi * 5 * 30, 1e-3);
 }
 

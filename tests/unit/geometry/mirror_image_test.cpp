@@ -60,7 +60,7 @@ TEST_P(MirroredModel, has_its_area_and_volume_and_each_entity_has_an_image_of_th
   EXPECT_NEAR(after.area, before.area, 2e-5 * before.area);
   EXPECT_EQ(after.is_closed, before.is_closed);
   EXPECT_NEAR(after.volume, before.volume, 5e-5 * std::abs(before.volume));
-  EXPECT_EQ(after.n_free_edges == 0, before.n_free_edges == 0);
+  EXPECT_EQ(after.edge_uses.n_free == 0, before.edge_uses.n_free == 0);
   EXPECT_EQ(after.tables.n_solids, before.tables.n_solids);
   expect_images(after, 1e-9 * size);
 }

@@ -13,7 +13,7 @@ inline ImportResult import_mirrored(const std::string& shape, const std::string&
   const TemporaryDirectory dir;
   write_brep(shape, dir / "model.brep");
   ImportOptions options;
-  options.mirror = plane;
+  options.air.mirror = plane;
   return import_model(dir / "model.brep", options);
 }
 

@@ -51,11 +51,11 @@ TEST(OwnAirOf, machine_parts_is_none) {
 TEST(OwnAirOf, what_looks_like_air_and_may_be_a_part_is_said_and_taken_where_it_is_asked_for) {
   EXPECT_NE(test::import_broken("blind_hole").air.doubt.find("pocket"), std::string::npos);
   ImportOptions asked;
-  asked.flow_domain = "yes";
+  asked.air.flow_domain = "yes";
   const ImportResult r = test::import_broken("blind_hole", asked);
   EXPECT_EQ(r.air.n_farfield, 5);
   EXPECT_EQ(r.air.n_symmetry, 1);
-  asked.flow_domain = "no";
+  asked.air.flow_domain = "no";
   EXPECT_EQ(test::import_broken("pod_in_box_50", asked).air.n_farfield, 0);
 }
 

@@ -13,10 +13,10 @@ using test::import_broken;
 using test::largest_gap;
 
 TEST(Sewing, joins_edges_as_far_apart_as_asked_and_no_further) {
-  EXPECT_EQ(import_broken("gappy_box").n_free_edges, 24);
+  EXPECT_EQ(import_broken("gappy_box").edge_uses.n_free, 24);
   ImportOptions options;
   options.sew = "0.01";
-  EXPECT_EQ(import_broken("gappy_box", options).n_free_edges, 24);
+  EXPECT_EQ(import_broken("gappy_box", options).edge_uses.n_free, 24);
   options.sew = "0.15";
   const ImportResult r = import_broken("gappy_box", options);
   EXPECT_TRUE(r.is_closed);
@@ -30,7 +30,7 @@ TEST(Sewing, joins_edges_as_far_apart_as_asked_and_no_further) {
 
 TEST(Sewing, leaves_no_tolerance_as_long_as_the_edge_where_partners_run_at_different_speeds) {
   const ImportResult r = import_broken("speeds");
-  EXPECT_EQ(r.n_free_edges, 6);
+  EXPECT_EQ(r.edge_uses.n_free, 6);
   EXPECT_EQ(findings_of(r, "sewn").size(), 1u);
   for (double tolerance : r.tables.edge_tolerance) EXPECT_LE(tolerance, 1e-3);
   const Model model(r.tables, r.brep);
@@ -63,13 +63,14 @@ TEST(Sewing, joins_more_the_more_it_may) {
     ImportOptions options;
     options.sew = largest;
     const ImportResult r = import_broken("gappy_box", options);
-    EXPECT_LE(r.n_free_edges, last) << largest;
+    EXPECT_LE(r.edge_uses.n_free, last) << largest;
     EXPECT_EQ(r.tables.n_faces(), 6) << largest;
-    if (r.n_free_edges < 24) {
-      EXPECT_EQ(findings_of(r, "sewn: 24 free edges before, " + std::to_string(r.n_free_edges) + " after").size(), 1u)
+    if (r.edge_uses.n_free < 24) {
+      EXPECT_EQ(findings_of(r, "sewn: 24 free edges before, " + std::to_string(r.edge_uses.n_free) + " after").size(),
+                1u)
           << largest;
     }
-    last = r.n_free_edges;
+    last = r.edge_uses.n_free;
   }
   EXPECT_EQ(last, 0);
 }
@@ -108,11 +109,11 @@ TEST(Sewing, keeps_faces_with_their_names_in_their_order) {
 TEST(Sewing, does_not_touch_what_is_closed_or_open_by_right) {
   for (const char* shape : {"box", "cylinder", "sphere", "torus", "drilled_block", "two_boxes"}) {
     const ImportResult r = test::import_shape(shape);
-    EXPECT_EQ(r.n_free_edges, 0) << shape;
+    EXPECT_EQ(r.edge_uses.n_free, 0) << shape;
     EXPECT_TRUE(findings_of(r, "sewn").empty()) << shape;
   }
   const ImportResult sheet = test::import_shape("square");
-  EXPECT_EQ(sheet.n_free_edges, 4);
+  EXPECT_EQ(sheet.edge_uses.n_free, 4);
   EXPECT_TRUE(findings_of(sheet, "sewn").empty());
 }
 

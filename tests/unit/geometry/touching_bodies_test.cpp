@@ -93,11 +93,11 @@ TEST(TouchingBodies, at_one_place_are_one) {
 
 TEST(TouchingBodies, bound_the_flow_around_them_without_their_common_faces) {
   ImportOptions options;
-  options.farfield = "box:3";
+  options.air.farfield = "box:3";
   const ImportResult r = join_broken("offset_boxes", options);
   EXPECT_EQ(r.tables.n_faces(), 11 + 6);
   EXPECT_TRUE(r.is_closed);
-  EXPECT_EQ(r.n_nonmanifold_edges, 0);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 0);
 }
 
 TEST(TouchingBodies, stay_apart_where_nobody_asks) {
@@ -110,7 +110,7 @@ TEST(TouchingBodies, that_touch_themselves_along_an_edge_have_it_once_unasked) {
   EXPECT_EQ(r.tables.n_vertices(), 14);
   EXPECT_EQ(r.tables.n_edges(), 23);
   EXPECT_EQ(r.tables.n_faces(), 10);
-  EXPECT_EQ(r.n_nonmanifold_edges, 1);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 1);
   EXPECT_NEAR(r.volume, 10 * (30 * 20 - 50), 1e-6);
   EXPECT_EQ(findings_of(r, "bodies that touch joined").size(), 1u);
 }

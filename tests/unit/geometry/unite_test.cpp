@@ -31,7 +31,7 @@ TEST(Unite, makes_a_wing_a_body_and_a_pylon_through_both_one) {
   EXPECT_EQ(r.tables.n_solids, 1);
   EXPECT_EQ(r.tables.n_shells, 1);
   EXPECT_TRUE(r.is_closed);
-  EXPECT_EQ(r.n_nonmanifold_edges, 0);
+  EXPECT_EQ(r.edge_uses.n_nonmanifold, 0);
   const double body = kPi * 4 * 20, wing = 4 * (30 - 4) * 0.5, pylon = 0.4 * 1.5;  // what is outside of the body
   EXPECT_NEAR(r.volume, body + wing + pylon, 0.01 * body);
 }

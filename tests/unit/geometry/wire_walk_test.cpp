@@ -13,7 +13,7 @@ TEST(WireWalk, loses_no_edge_of_a_loop_that_passes_a_vertex_twice) {
   ASSERT_EQ(r.tables.n_faces(), 1);
   EXPECT_EQ(r.tables.loop_coedge_offsets, (std::vector<std::int32_t>{0, 6}));
   EXPECT_NEAR(r.tables.face_area[0], 200, 1e-9);
-  EXPECT_EQ(r.n_repairs, 0);
+  EXPECT_EQ(r.n_repairs(), 0);
 }
 
 TEST(WireWalk, goes_from_head_to_tail) {
