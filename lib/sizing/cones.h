@@ -102,6 +102,16 @@ inline ConeStretch::ConeStretch(const SampleStretch& of_sample) {
 
 struct SampleSites;
 
+/// What ConeTable has, without what is not stored.
+struct ConeView {
+  std::span<const Cone> cone;
+  std::span<const std::int32_t> cause, first, of_site;
+  std::span<const ConeStretch> stretch;
+  std::span<const std::int32_t> first_along, along_of_site;
+
+  bool empty() const { return first.empty(); }
+};
+
 /// The cones of an octree, and which of them tell the length in each site.
 struct ConeTable {
   std::vector<Cone> cone;               ///< those that tell any, by leaf
@@ -115,6 +125,8 @@ struct ConeTable {
   std::vector<ConeStretch> stretch;         ///< [cones]
   std::vector<std::int32_t> first_along;    ///< [n_sites + 1] into `along_of_site`
   std::vector<std::int32_t> along_of_site;  ///< cones that tell lengths along besides those of the site, in such order
+
+  ConeView view() const { return {cone, cause, first, of_site, stretch, first_along, along_of_site}; }
 };
 
 /// The cones that tell the smallest of length + slope * distance, bounded by `max_length` (model unit, > 0), in each

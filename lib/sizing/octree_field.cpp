@@ -25,7 +25,7 @@ OctreeField::OctreeField(const OctreeFieldData& data, std::shared_ptr<const void
         std::min_element(data.cells.begin(), data.cells.end(),
                          [](const CellLength& a, const CellLength& b) { return a.at_centre() < b.at_centre(); });
     min_length = smallest->at_centre();
-    for (const Cone& c : data.cones) min_length = std::min<double>(min_length, c.length);
+    for (const Cone& c : data.cones.cone) min_length = std::min<double>(min_length, c.length);
   }
   if (data_.sources) min_length = std::min(min_length, data_.sources->min_size());
   min_size_ = min_length * data_.scale;
@@ -71,10 +71,10 @@ Vec3 OctreeField::from_center(std::int32_t leaf, const Place& x) const {
 
 double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t* winner) const {
   const SplitPlace place(x.from_lo);
-  const std::int32_t first = data_.first_cone[site];
-  const std::int32_t* const own = data_.site_cones.data() + first;
+  const std::int32_t first = data_.cones.first[site];
+  const std::int32_t* const own = data_.cones.of_site.data() + first;
   const float length =
-      kernels_.least(reinterpret_cast<const float*>(data_.cones.data()), own, data_.first_cone[site + 1] - first,
+      kernels_.least(reinterpret_cast<const float*>(data_.cones.cone.data()), own, data_.cones.first[site + 1] - first,
                      place.numbers(), static_cast<float>(data_.max_length), winner);
   if (winner && *winner != kNone) *winner = own[*winner];
   return static_cast<double>(length);
@@ -122,34 +122,24 @@ double OctreeField::size(Vec3 xyz, int& hint) const {
 
 /// The direction is that of the cone that tells the length.
 LocalSize OctreeField::cone_local(std::int32_t site, const Place& x) const {
-  const std::int32_t own = data_.first_cone[site], more = data_.first_along[site];
-  const AlongCones cones{reinterpret_cast<const float*>(data_.cones.data()),
-                         reinterpret_cast<const float*>(data_.stretch.data()),
-                         data_.site_cones.data() + own,
-                         data_.site_along.data() + more,
-                         data_.first_cone[site + 1] - own,
-                         data_.first_along[site + 1] - more,
+  const std::int32_t own = data_.cones.first[site], more = data_.cones.first_along[site];
+  const AlongCones cones{reinterpret_cast<const float*>(data_.cones.cone.data()),
+                         reinterpret_cast<const float*>(data_.cones.stretch.data()),
+                         data_.cones.of_site.data() + own,
+                         data_.cones.along_of_site.data() + more,
+                         data_.cones.first[site + 1] - own,
+                         data_.cones.first_along[site + 1] - more,
                          data_.max_length,
                          data_.max_aspect};
   const LeastAlong least = kernels_.least_along(cones, SplitPlace(x.from_lo).numbers());
   const double length = scaled(static_cast<double>(least.length)), along = scaled(static_cast<double>(least.along));
   if (least.winner == kNone || !(along > length)) return {length, length, {}};
-  const float(&unit)[3] = data_.stretch[least.winner].direction;
+  const float(&unit)[3] = data_.cones.stretch[least.winner].direction;
   return {length, along, normalized(Vec3{unit[0], unit[1], unit[2]})};
 }
 
-LocalSize OctreeField::cell_local(std::int32_t site, const Place& x) const {
-  const double length = scaled(length_at(site, x));
-  const double along =
-      std::min(scaled(length_in(data_.along[site], from_center(leaf_of(site), x))), data_.max_aspect * length);
-  const Vec3 direction = normalized(Vec3(data_.direction[site]));
-  if (direction == Vec3{} || !(along > length)) return {length, length, {}};
-  return {length, along, direction};
-}
-
 LocalSize OctreeField::local_in(std::int32_t site, const Place& x) const {
-  if (!data_.stretch.empty()) return cone_local(site, x);
-  if (!data_.along.empty()) return cell_local(site, x);
+  if (!data_.cones.stretch.empty()) return cone_local(site, x);
   const double length = scaled(length_at(site, x));
   return {length, length, {}};
 }
@@ -171,7 +161,7 @@ LocalSize OctreeField::local_on(Vec3 xyz, Vec3 normal, int& hint) const {
 
 OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) const {
   Answer answer;
-  const double length = data_.first_cone.empty() ? cell_length(site, x) : cone_length(site, x, &answer.cone);
+  const double length = data_.cones.empty() ? cell_length(site, x) : cone_length(site, x, &answer.cone);
   const std::int32_t n = data_.octree.n_leaves(), leaf = leaf_of(site);
   double least = length;
   if (data_.sources)
@@ -183,10 +173,10 @@ OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) co
     answer.cause = data_.sources->entry(answer.source).cause;
     answer.gradient = data_.scale * data_.sources->gradient(answer.source, x.xyz);
   } else if (answer.cone != kNone) {
-    const Cone& c = data_.cones[answer.cone];
-    answer.cause = data_.cone_cause[answer.cone];
+    const Cone& c = data_.cones.cone[answer.cone];
+    answer.cause = data_.cones.cause[answer.cone];
     answer.gradient = data_.scale * c.slope * normalized(c.way_to(x.from_lo));
-  } else if (data_.first_cone.empty()) {
+  } else if (data_.cones.empty()) {
     const CellLength& c = cell_of(site);
     answer.cause = site < n ? data_.cause[site] : data_.second_cause[site - n];
     const bool is_cut_off = length >= std::abs(static_cast<double>(c.upper)) || data_.scale * length <= min_size_;
@@ -212,8 +202,8 @@ ProlongedLengths lengths_at_centers(const OctreeFieldData& data, std::span<const
     const auto largest = static_cast<float>(data.max_length);
     cause = kNone;
     if (cone == kNone) return {largest, {0, 0, 0}, largest};
-    cause = data.cone_cause[cone];
-    const Cone& c = data.cones[cone];
+    cause = data.cones.cause[cone];
+    const Cone& c = data.cones.cone[cone];
     const Vec3 way = c.way_to(data.octree.leaf_center(leaf) - data.octree.lo);
     const double away = norm(way), length = c.length + c.slope * away,
                  reach = 0.5 * std::sqrt(3.0) * data.octree.cell_edge(data.octree.leaf_levels[leaf]);
@@ -252,7 +242,7 @@ SizeExplanation OctreeField::explain(Vec3 xyz, Vec3 normal) const {
   result.cell_edge = data_.octree.cell_edge(result.level);
   result.has_origin = answer.cone != kNone || answer.source != kNone;
   if (answer.cone != kNone) {
-    const Cone& c = data_.cones[answer.cone];
+    const Cone& c = data_.cones.cone[answer.cone];
     result.origin = xyz - c.way_to(x.from_lo);
     result.origin_length = data_.scale * c.length;
   } else if (answer.source != kNone) {

@@ -31,32 +31,12 @@ struct OctreeFieldData {
   std::span<const CellSplit> split = {};
   std::span<const CellLength> second_cells = {};
   std::span<const std::int32_t> second_cause = {};
-  /// Lengths along a direction by cell, as older files have them: [n_sites] each, or empty. Unknown: none.
-  std::span<const CellLength> along = {};
-  std::span<const SmallNormal> direction = {};
   double max_aspect = 1;  ///< largest length along a direction over the length
-  /// Cones of samples (ConeTable). Where there are any, they tell the lengths, and `cells` tell no more than which
-  /// leaves are split.
-  std::span<const Cone> cones = {};
-  std::span<const std::int32_t> cone_cause = {};
-  std::span<const std::int32_t> first_cone = {};  ///< [n_sites + 1]
-  std::span<const std::int32_t> site_cones = {};
-  std::span<const ConeStretch> stretch = {};       ///< [cones] or empty: the same length in all directions
-  std::span<const std::int32_t> first_along = {};  ///< [n_sites + 1] likewise
-  std::span<const std::int32_t> site_along = {};
-  double max_length = 0;                ///< where nothing asks for less
+  ConeView cones = {};    ///< where there are any, they tell the lengths, and `cells` only which leaves are split
+  double max_length = 0;  ///< with cones: where nothing asks for less
   const SourceTree* sources = nullptr;  ///< in the octree's frame, before scale; asked everywhere. Null: none
 
-  void set_cones(const ConeTable& table, double largest) {
-    cones = table.cone;
-    cone_cause = table.cause;
-    first_cone = table.first;
-    site_cones = table.of_site;
-    stretch = table.stretch;
-    first_along = table.first_along;
-    site_along = table.along_of_site;
-    max_length = largest;
-  }
+  void set_cones(const ConeTable& table, double largest) { cones = table.view(), max_length = largest; }
 };
 
 /// What stands behind the length at a place.
@@ -125,7 +105,7 @@ class OctreeField : public SizeField {
     std::int32_t cone = kNone, source = kNone;  // if it is one
   };
 
-  bool octree_is_stretched() const { return !data_.stretch.empty() || !data_.along.empty(); }
+  bool octree_is_stretched() const { return !data_.cones.stretch.empty(); }
   Place locate(Vec3 xyz, int& hint) const;
   Vec3 from_center(std::int32_t leaf, const Place& x) const;
   /// Of a site.
@@ -140,7 +120,6 @@ class OctreeField : public SizeField {
   /// The leaf, or the second part of one that is split.
   std::int32_t find_site(std::int32_t leaf, const Place& x) const;
   LocalSize local_in(std::int32_t site, const Place& x) const;
-  LocalSize cell_local(std::int32_t site, const Place& x) const;
   LocalSize cone_local(std::int32_t site, const Place& x) const;
   static double length_in(const CellLength& cell, Vec3 d) {
     const double rise = cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
@@ -157,7 +136,7 @@ class OctreeField : public SizeField {
   double cone_length(std::int32_t site, const Place& x, std::int32_t* winner = nullptr) const;
   /// Before scale.
   double length_at(std::int32_t site, const Place& x) const {
-    return data_.first_cone.empty() ? cell_length(site, x) : cone_length(site, x);
+    return data_.cones.empty() ? cell_length(site, x) : cone_length(site, x);
   }
   double scaled(double length) const { return std::max(data_.scale * length, min_size_); }
   Answer answer_at(std::int32_t site, const Place& x) const;

@@ -334,10 +334,6 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
 /// Other sources for a finished field; what the octree tells stays.
 ProlongedSizes change_sources(ProlongStageOptions o, Progress& progress) {
   SizingArtifact sizing = read_sizing(o.raster);
-  if (sizing.faces.n_faces() == 0)
-    throw Error(ExitCode::kInput, fmt::format("{}: an older version of st-prolong made it, without the places of the "
-                                              "faces; give the raster, or run st-prolong on it once",
-                                              o.raster));
   const Json made_with = Json::parse(sizing.header.options_json);
   const ProlongStageOptions defaults;
   if (!o.slope_of.empty() || !o.blank.empty() || o.no_blank || !o.geometry.empty() || o.only ||

@@ -57,7 +57,7 @@ void write_numbers(Hdf5Writer& file, const SizingNumbers& n) {
 
 SizingNumbers read_numbers(const Hdf5Reader& file) {
   const auto get = [&](const char* name) { return file.double_attribute(kSizing, name); };
-  const bool is_stretched = file.has(kSampleAlong) || file.has(kAlong) || file.has(kConeStretch);
+  const bool is_stretched = file.has(kSampleAlong) || file.has(kConeStretch);
   for (const char* name : {"min_length", "max_length", "far_length", "alpha_deg", "cell_per_length", "diagonal"})
     if (!is_finite(get(name)) || get(name) < 0) file.fail(std::string(kSizing) + "@" + name, "is no length");
   for (const char* name : {"max_length", "far_length"})

@@ -20,7 +20,6 @@ inline constexpr const char* kFaceName = "/st/face/name";
 inline constexpr const char* kFaceOffset = "/st/face/cell_offset";
 inline constexpr const char* kEdgeName = "/st/edge/name";
 inline constexpr const char* kSampleAlong = "/st/sample/along";
-inline constexpr const char* kAlong = "/st/octree/along";
 inline constexpr const char* kConeStretch = "/st/cone/stretch";
 
 inline bool is_positive(float x) { return is_finite(x) & (x > 0); }

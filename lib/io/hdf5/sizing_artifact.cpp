@@ -31,16 +31,10 @@ struct Element<CellColour> : Elements<ElementType::kUint8> {};
 
 namespace {
 
-constexpr int kOpenSizingVersion = 2;       // of a sizing without a surface in it
-constexpr int kUnmovedSizingVersion = 3;    // of one whose octree lies where it was made
-constexpr int kPlainSizingVersion = 4;      // of a sizing with the same length in all directions
-constexpr int kStretchedSizingVersion = 5;  // of one whose cells tell the lengths, not cones
-constexpr int kConeSizingVersion = 6;       // of one without faces and sources
-constexpr int kFacesSizingVersion = 7;      // of one whose cones have the same length in all directions
-constexpr int kStretchedConesVersion = 8;   // of one without lengths on surfaces
-constexpr int kSurfaceSizesVersion = 9;     // of one without metrics
+constexpr int kPlainSizingVersion = 7;     // of one with the same length in all directions
+constexpr int kStretchedConesVersion = 8;  // of one without lengths on surfaces
+constexpr int kSurfaceSizesVersion = 9;    // of one without metrics
 constexpr const char* kFrame = "/st/octree/frame";
-constexpr const char* kDirection = "/st/octree/direction";
 constexpr const char* kCell = "/st/octree/cell";
 constexpr const char* kCause = "/st/octree/cause";
 constexpr const char* kColour = "/st/octree/colour";
@@ -87,25 +81,25 @@ void require_site_cones(const Hdf5Reader& file, const char* first_name, const ch
   if (first.size() != data.cells.size() + data.split_leaf.size() + 1)
     file.fail(first_name, "does not fit the number of cells");
   require_offsets(file, first_name, first, cones.size());
-  require_ids(file, name, cones, data.cones.size());
+  require_ids(file, name, cones, data.cones.cone.size());
   for (std::size_t site = 0; site + 1 < first.size(); ++site)
     for (std::int32_t k = first[site] + 1; k < first[site + 1]; ++k)
-      if (data.cones[cones[k]].length < data.cones[cones[k - 1]].length)
+      if (data.cones.cone[cones[k]].length < data.cones.cone[cones[k - 1]].length)
         file.fail(name, "row " + std::to_string(k) + " names a shorter cone than the row before");
 }
 
 void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
-  require_rows_to_be(file, kCone, data.cones, "a place with a length and a slope > 0", [](const Cone& c) {
+  require_rows_to_be(file, kCone, data.cones.cone, "a place with a length and a slope > 0", [](const Cone& c) {
     return are_finite(c.x) & is_positive(c.length) & is_positive(c.slope) & is_rectangle(c);
   });
-  if (data.cone_cause.size() != data.cones.size()) file.fail(kConeCause, "does not fit the number of cones");
-  require_site_cones(file, kFirstCone, kSiteCones, data, data.first_cone, data.site_cones);
-  if (data.stretch.empty()) return;
-  require_rows_to_be(file, kConeStretch, data.stretch, "a direction with a length", [](const ConeStretch& s) {
+  if (data.cones.cause.size() != data.cones.cone.size()) file.fail(kConeCause, "does not fit the number of cones");
+  require_site_cones(file, kFirstCone, kSiteCones, data, data.cones.first, data.cones.of_site);
+  if (data.cones.stretch.empty()) return;
+  require_rows_to_be(file, kConeStretch, data.cones.stretch, "a direction with a length", [](const ConeStretch& s) {
     return are_finite(s.direction) & is_finite(s.along) & (s.along >= 0);
   });
-  if (data.stretch.size() != data.cones.size()) file.fail(kConeStretch, "does not fit the number of cones");
-  require_site_cones(file, kFirstAlong, kSiteAlong, data, data.first_along, data.site_along);
+  if (data.cones.stretch.size() != data.cones.cone.size()) file.fail(kConeStretch, "does not fit the number of cones");
+  require_site_cones(file, kFirstAlong, kSiteAlong, data, data.cones.first_along, data.cones.along_of_site);
 }
 
 /// Slope and scale of a sizing.
@@ -138,14 +132,14 @@ Similarity read_frame(const Hdf5Reader& file) {
 
 /// The cones of a file that has them.
 void map_cones(const Hdf5Reader& file, MappedArrays& mapped, OctreeFieldData& data) {
-  data.cones = mapped.map<Cone>(file, kCone);
-  data.cone_cause = mapped.map<std::int32_t>(file, kConeCause);
-  data.first_cone = mapped.map<std::int32_t>(file, kFirstCone);
-  data.site_cones = mapped.map<std::int32_t>(file, kSiteCones);
+  data.cones.cone = mapped.map<Cone>(file, kCone);
+  data.cones.cause = mapped.map<std::int32_t>(file, kConeCause);
+  data.cones.first = mapped.map<std::int32_t>(file, kFirstCone);
+  data.cones.of_site = mapped.map<std::int32_t>(file, kSiteCones);
   if (file.has(kConeStretch)) {
-    data.stretch = mapped.map<ConeStretch>(file, kConeStretch);
-    data.first_along = mapped.map<std::int32_t>(file, kFirstAlong);
-    data.site_along = mapped.map<std::int32_t>(file, kSiteAlong);
+    data.cones.stretch = mapped.map<ConeStretch>(file, kConeStretch);
+    data.cones.first_along = mapped.map<std::int32_t>(file, kFirstAlong);
+    data.cones.along_of_site = mapped.map<std::int32_t>(file, kSiteAlong);
     data.max_aspect = read_numbers(file).max_aspect;
   }
   data.max_length = read_numbers(file).far_length;
@@ -184,14 +178,6 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   require_cells(file, kCell, data.cells);
   require_split(file, data.split_leaf, data.split, data.cells.size());
   require_cells(file, kSplitCell, data.second_cells);
-  if (file.has(kAlong)) {
-    data.along = mapped->map<CellLength>(file, kAlong);
-    data.direction = mapped->map<SmallNormal>(file, kDirection);
-    if (data.along.size() != data.cells.size() + data.split_leaf.size() || data.direction.size() != data.along.size())
-      file.fail(kAlong, "does not fit the number of cells");
-    require_cells(file, kAlong, data.along);
-    data.max_aspect = read_numbers(file).max_aspect;
-  }
   if (file.has(kCone)) map_cones(file, *mapped, data);
   const std::shared_ptr<const SourceTree> sources = read_sources(file).tree();
   mapped->owners.push_back(sources);
@@ -241,12 +227,7 @@ std::string cause_text(const CauseNames& names, std::int32_t cause) {
 std::string write_sizing(const std::string& path, const SizingArtifact& sizing) {
   ArtifactHeader header = sizing.header;
   const bool is_blanked = !sizing.blanking.colour.empty();
-  const bool is_moved = sizing.frame != Similarity();
-  header.schema_version = is_moved ? kPlainSizingVersion : is_blanked ? kUnmovedSizingVersion : kOpenSizingVersion;
-  if (!sizing.along.empty()) header.schema_version = kStretchedSizingVersion;
-  if (!sizing.cones.first.empty()) header.schema_version = kConeSizingVersion;
-  const bool has_faces = sizing.faces.n_faces() > 0;
-  if (has_faces) header.schema_version = kFacesSizingVersion;
+  header.schema_version = kPlainSizingVersion;
   if (!sizing.cones.stretch.empty()) header.schema_version = kStretchedConesVersion;
   if (!sizing.sources.background.triangles.empty()) header.schema_version = kSurfaceSizesVersion;
   if (!sizing.sources.background.node_metric.empty()) header.schema_version = kSizingVersion;
@@ -260,7 +241,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   file.set_attribute(kSizing, "scale", sizing.scale);
   file.set_attribute(kSizing, "smallest_length", smallest);
   write_shape(file, sizing.shape);
-  if (is_moved) write_frame(file, sizing.frame);
+  if (sizing.frame != Similarity()) write_frame(file, sizing.frame);
   file.write<CellLength>(kCell, sizing.lengths.cells);
   file.write<std::int32_t>(kCause, sizing.lengths.cause);
   if (is_blanked) {
@@ -269,10 +250,6 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
     file.write<CellSplit>(kSplitPlane, sizing.blanking.split);
     file.write<CellLength>(kSplitCell, sizing.lengths.second_cells);
     file.write<std::int32_t>(kSplitCause, sizing.lengths.second_cause);
-  }
-  if (!sizing.along.empty()) {
-    file.write<CellLength>(kAlong, sizing.along);
-    file.write<SmallNormal>(kDirection, sizing.direction);
   }
   if (!sizing.cones.first.empty()) {
     file.write<Cone>(kCone, sizing.cones.cone);
@@ -285,12 +262,10 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
     file.write<std::int32_t>(kFirstAlong, sizing.cones.first_along);
     file.write<std::int32_t>(kSiteAlong, sizing.cones.along_of_site);
   }
-  if (has_faces) {
-    write_sources(file, sizing.sources);
-    write_face_cells(file, sizing.faces);
-    write_groups(file, sizing.labels);
-    write_undercuts(file, sizing.face_lmin, sizing.undercuts);
-  }
+  write_sources(file, sizing.sources);
+  write_face_cells(file, sizing.faces);
+  write_groups(file, sizing.labels);
+  write_undercuts(file, sizing.face_lmin, sizing.undercuts);
   file.write<double>(kFaceWeight, sizing.face_weight);
   file.write_strings(kFaceName, sizing.names.face);
   file.write_strings(kEdgeName, sizing.names.edge);
@@ -301,7 +276,7 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
 
 SizingArtifact read_sizing(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
-  require_version(file, kOpenSizingVersion, "st-prolong");
+  require_version(file, kPlainSizingVersion, "st-prolong");
   SizingArtifact sizing;
   sizing.header = file.header();
   sizing.numbers = read_numbers(file);
@@ -322,12 +297,6 @@ SizingArtifact read_sizing(const std::string& path) {
     require_split(file, sizing.blanking.split_leaf, sizing.blanking.split, n);
     require_cells(file, kSplitCell, sizing.lengths.second_cells);
   }
-  if (file.has(kAlong)) {
-    const std::size_t n_sites = n + sizing.blanking.split_leaf.size();
-    sizing.along = file.read_rows<CellLength>(kAlong, n_sites);
-    sizing.direction = file.read_rows<SmallNormal>(kDirection, n_sites);
-    require_cells(file, kAlong, sizing.along);
-  }
   if (file.has(kCone)) {
     sizing.cones.cone = file.read<Cone>(kCone);
     sizing.cones.cause = file.read<std::int32_t>(kConeCause);
@@ -344,30 +313,28 @@ SizingArtifact read_sizing(const std::string& path) {
   sizing.names = read_names(file);
   sizing.sources = read_sources(file);
   sizing.wings = read_wings(file);
-  if (file.has(kFaceOffset)) {
-    sizing.faces = read_face_cells(file, n);
-    sizing.labels = read_face_labels(file, sizing.faces);
-    read_undercuts(file, sizing.labels.face_name.size(), sizing.face_lmin, sizing.undercuts);
-  }
+  sizing.faces = read_face_cells(file, n);
+  sizing.labels = read_face_labels(file, sizing.faces);
+  read_undercuts(file, sizing.labels.face_name.size(), sizing.face_lmin, sizing.undercuts);
   return sizing;
 }
 
 MappedSizing map_sizing(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
-  require_version(file, kOpenSizingVersion, "st-prolong");
+  require_version(file, kPlainSizingVersion, "st-prolong");
   return {file.header(), read_numbers(file), read_face_weight(file),
           map_field(file, file.double_attribute(kSizing, "smallest_length"))};
 }
 
 CauseNames read_cause_names(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
-  require_version(file, kOpenSizingVersion, "st-prolong");
+  require_version(file, kPlainSizingVersion, "st-prolong");
   return read_names(file);
 }
 
 std::vector<WingRecord> read_asked_wings(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
-  require_version(file, kOpenSizingVersion, "st-prolong");
+  require_version(file, kPlainSizingVersion, "st-prolong");
   const double scale = read_slope_and_scale(file).second;
   const Similarity frame = read_frame(file);
   std::vector<WingRecord> wings;

@@ -84,23 +84,27 @@ struct SizingArtifact {
   ConeTable cones;    ///< tell the lengths; `lengths` are those at the leaves' centres then. Empty: `lengths`
                       ///< tell them
   SourceSet sources;  ///< count besides, everywhere
-  std::vector<CellLength> along;       ///< lengths along a direction by cell, of a file of an older version; see
-                                       ///< OctreeFieldData
-  std::vector<SmallNormal> direction;  ///< likewise
-  Blanking blanking;                   ///< colours and splits; empty: no surface blanks anything. Links are not stored
-  FaceCells faces;                     ///< as in the raster; empty: not known, so that sources cannot be changed
-  FaceLabels labels;                   ///< likewise
-  std::vector<WingRecord> wings;       ///< lifting surfaces, in the octree's own frame and before `scale`
-  std::vector<double> face_weight;     ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
-  std::vector<double> face_lmin;       ///< as in the raster
-  std::vector<Undercut> undercuts;     ///< where the field is below that on faces, by what causes it, most first
+  Blanking blanking;  ///< colours and splits; empty: no surface blanks anything. Links are not stored
+  FaceCells faces;    ///< as in the raster
+  FaceLabels labels;  ///< likewise
+  std::vector<WingRecord> wings;    ///< lifting surfaces, in the octree's own frame and before `scale`
+  std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
+  std::vector<double> face_lmin;    ///< as in the raster
+  std::vector<Undercut> undercuts;  ///< where the field is below that on faces, by what causes it, most first
   CauseNames names;
 
   /// Views of the arrays above, in the octree's own frame. `tree`: of `sources`.
   OctreeFieldData field_data(const SourceTree* tree) const {
-    OctreeFieldData data{
-        shape.view(),   lengths.cells,        lengths.cause,        slope, scale,     blanking.split_leaf,
-        blanking.split, lengths.second_cells, lengths.second_cause, along, direction, numbers.max_aspect};
+    OctreeFieldData data{shape.view(),
+                         lengths.cells,
+                         lengths.cause,
+                         slope,
+                         scale,
+                         blanking.split_leaf,
+                         blanking.split,
+                         lengths.second_cells,
+                         lengths.second_cause,
+                         numbers.max_aspect};
     data.set_cones(cones, numbers.far_length);
     data.sources = tree;
     return data;

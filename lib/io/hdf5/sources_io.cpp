@@ -14,7 +14,6 @@
 namespace st {
 namespace {
 
-constexpr const char* kOther = "/st/octree/other";  // sources by cell: version 6 alone
 constexpr const char* kSourceKind = "/st/source/kind";
 constexpr const char* kSourceNumbers = "/st/source/numbers";
 constexpr const char* kSourceSlope = "source_slope";
@@ -135,9 +134,6 @@ void write_sources(Hdf5Writer& file, const SourceSet& set) {
 
 SourceSet read_sources(const Hdf5Reader& file) {
   SourceSet set;
-  if (file.has(kOther))
-    file.fail(kOther, "holds sources by cell, as one version of st-prolong stored them: run st-prolong again");
-  if (!file.has(kFaceOffset)) return set;
   set.slope = file.double_attribute(kSizing, kSourceSlope);
   if (!is_finite(set.slope) || !(set.slope > 0))
     file.fail(std::string(kSizing) + "@" + kSourceSlope, "is no slope > 0");

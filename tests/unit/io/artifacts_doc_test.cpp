@@ -141,8 +141,6 @@ SizingArtifact sample_sizing() {
   s.face_lmin = {0.1, 0, 0.2};
   s.undercuts.resize(9);
   s.labels = sample_raster().labels;
-  s.along.resize(17);
-  s.direction.resize(17);
   s.face_weight = {1, 2, 3};
   s.wings = sample_raster().wings;
   s.names = {std::vector<std::string>(5), std::vector<std::string>(3), {"wake", ""}};

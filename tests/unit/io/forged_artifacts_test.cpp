@@ -128,7 +128,8 @@ std::vector<Sample> samples() {
          write_raster(p, raster);
        },
        [](const auto& p) { read_raster(p); }},
-      {"sizing", [](const auto& p) { write_sizing(p, stretched_sizing()); }, [](const auto& p) { read_sizing(p); }},
+      {"sizing", [](const auto& p) { write_sizing(p, sizing_of_stretched_cones()); },
+       [](const auto& p) { read_sizing(p); }},
       {"patches", [](const auto& p) { write_patches(p, sample_patches()); }, [](const auto& p) { read_patches(p); }},
       {"mesh", [](const auto& p) { write_mesh(p, sample_mesh()); }, [](const auto& p) { read_mesh(p); }}};
 }

@@ -260,16 +260,14 @@ TEST(Hdf5Damage, of_the_place_of_an_array_is_refused) {
 template <class ArtifactKind>
 using ArtifactBreaks = std::vector<std::pair<const char*, std::function<void(ArtifactKind&)>>>;
 
-/// Stretched, with two cells split by a surface, and moved.
+/// With two cells split by a surface, and moved.
 SizingArtifact split_sizing() {
-  SizingArtifact sizing = stretched_sizing();
+  SizingArtifact sizing = sample_sizing();
   sizing.blanking.colour.assign(sizing.lengths.cells.size(), CellColour::kFlow);
   sizing.blanking.split_leaf = {3, 7};
   sizing.blanking.split.assign(2, {{0, 0, 1}, 0, 0});
   sizing.lengths.second_cells.assign(2, sizing.lengths.cells[0]);
   sizing.lengths.second_cause.assign(2, kNone);
-  sizing.along.resize(sizing.along.size() + 2, sizing.along[0]);
-  sizing.direction.resize(sizing.along.size());
   sizing.frame.translation = {1, 2, 3};
   return sizing;
 }
@@ -277,7 +275,7 @@ SizingArtifact split_sizing() {
 /// Likewise, with two cones, one of them in each site, both in the last.
 SizingArtifact cone_sizing() {
   SizingArtifact sizing = split_sizing();
-  const auto n_sites = static_cast<std::int32_t>(sizing.along.size());
+  const auto n_sites = static_cast<std::int32_t>(sizing.lengths.cells.size() + sizing.lengths.second_cells.size());
   sizing.cones.cone = {Cone({{0.1, 0.2, 0.3}, 0.02F, kNone, {}, {}, reach_of({0.01, 0, 0}, {0, 0.02, 0})}, 0.2F, {}),
                        Cone({{0.5, 0.2, 0.3}, 0.03F}, 0.1F, {})};
   sizing.cones.cause = {kNone, kNone};
@@ -299,14 +297,11 @@ SizingArtifact source_sizing() {
   line.spacing = {{{0.002, 0, 0}, {0.003, 0, 0}, {}}};
   line.aspect = 3;
   line.direction = {0, 0, 1};
-  sizing.sources.slope = 0.2;
   sizing.sources.sources = {point, line};
   sizing.sources.background.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   sizing.sources.background.node_size.assign(4, {0.01, 0.01, {}});
   sizing.sources.background.tets = {{0, 1, 2, 3}};
   sizing.names.source = {"wake", "tip"};
-  sizing.faces = sample_raster().faces;
-  sizing.labels = sample_raster().labels;
   return sizing;
 }
 
@@ -333,7 +328,7 @@ TEST(SizingDamage, of_cones_is_refused_by_both_readers) {
   EXPECT_EQ(read.cones.of_site, cone_sizing().cones.of_site);
   EXPECT_EQ(read.cones.cone[1].slope, 0.1F);
   const MappedSizing mapped = map_sizing(path);
-  EXPECT_EQ(mapped.field->data().cones.size(), 2U);
+  EXPECT_EQ(mapped.field->data().cones.cone.size(), 2U);
   const ArtifactBreaks<SizingArtifact> breaks = {
       {"/st/cone/cone: row 1 is not a place with a length and a slope > 0",
        [](auto& s) { s.cones.cone[1].x[2] = kNan; }},
@@ -393,7 +388,6 @@ TEST(SizingDamage, is_refused_by_both_readers) {
       {"/st/split/leaf: does not ascend at row 1", [](auto& s) { s.blanking.split_leaf[1] = 3; }},
       {"/st/split/plane: row 0 is not a plane", [](auto& s) { s.blanking.split[0].margin = kNan; }},
       {"/st/split/cell: row 1 is not a finite length > 0", [](auto& s) { s.lengths.second_cells[1].length = kNan; }},
-      {"/st/octree/along: row 2 is not a finite length > 0", [](auto& s) { s.along[2].length = kNan; }},
       {"/st/octree/frame: row 12 is not finite", [](auto& s) { s.frame.translation.z = kNan; }},
       {"/st/octree/frame: its scale is not positive", [](auto& s) { s.frame.scale = -1; }}};
   expect_refused_by_both(path, split_sizing(), breaks);
@@ -435,8 +429,8 @@ TEST(SizingDamage, is_not_what_an_older_tool_wrote) {
   const std::string path = dir / "a.hdf";
   Hdf5Writer(path, header_of("raster", 1)).commit();
   EXPECT_ERROR(read_raster(path), kInput, "schema version 1 of an older st-raster; run st-raster again");
-  Hdf5Writer(path, header_of("sizing", 1)).commit();
-  const char* says = "schema version 1 of an older st-prolong; run st-prolong again";
+  Hdf5Writer(path, header_of("sizing", 6)).commit();
+  const char* says = "schema version 6 of an older st-prolong; run st-prolong again";
   EXPECT_ERROR(read_sizing(path), kInput, says);
   EXPECT_ERROR(map_sizing(path), kInput, says);
   EXPECT_ERROR(read_cause_names(path), kInput, says);

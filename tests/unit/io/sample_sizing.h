@@ -43,24 +43,16 @@ inline SizingArtifact sample_sizing() {
   sizing.names = raster.cause_names();
   sizing.names.source = {"wake"};
   sizing.shape = raster.octree.shape;
+  sizing.sources.slope = 0.2;
+  sizing.faces = raster.faces;
+  sizing.labels = raster.labels;
   return sizing;
 }
 
-/// By cell, as older versions wrote it.
-inline SizingArtifact stretched_sizing() {
-  SizingArtifact sizing = sample_sizing();
-  sizing.numbers.max_aspect = 8;
-  for (const CellLength& cell : sizing.lengths.cells) {
-    sizing.along.push_back({6 * cell.length, {0, 0, 0}, 6 * cell.length});
-    sizing.direction.push_back(SmallNormal(Vec3{0, 1, 0}));
-  }
-  return sizing;
-}
-
-/// Every third sample is stretched.
-inline SizingArtifact sizing_of_stretched_cones() {
+/// Each sample of so many is stretched.
+inline SizingArtifact sizing_of_stretched_cones(std::size_t every = 3) {
   RasterArtifact raster = sample_raster();
-  for (std::size_t i = 0; i < raster.samples.size(); i += 3)
+  for (std::size_t i = 0; i < raster.samples.size(); i += every)
     raster.samples[i].stretch = {SmallNormal(Vec3{0, 1, 0}), 6 * raster.samples[i].length};
   SizingArtifact sizing = sample_sizing();
   sizing.numbers.max_aspect = 8;

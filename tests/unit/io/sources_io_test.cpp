@@ -14,14 +14,11 @@ namespace {
 /// A sizing with a line and a background mesh of a tetrahedron and a triangle.
 SizingArtifact sizing_with_sources() {
   SizingArtifact sizing = sample_sizing();
-  sizing.faces = sample_raster().faces;
-  sizing.labels = sample_raster().labels;
   SourceSpec line;
   line.kind = SourceKind::kLine;
   line.name = sizing.names.source.at(0);
   line.point[1] = {1, 2, 3};
   for (SourceSpacing& s : line.spacing) s = {0.05, 0.1, 0.3};
-  sizing.sources.slope = 0.2;
   sizing.sources.sources = {line};
   BackgroundMesh& mesh = sizing.sources.background;
   mesh.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
