@@ -159,7 +159,7 @@ void warn_of_place(const std::string& path, const SurfaceMesh& mesh, const Raste
   if (ratio < 1 / kSmaller || ratio > kLarger)
     return log_warning(fmt::format(
         "--blank {}: its extent is {:.3g} times that of the walls; is it in the model's unit?", path, ratio));
-  const double share = share_near(mesh.node_xyz, raster.octree.shape.view(), raster.faces.leaf);
+  const double share = share_near(mesh.node_xyz, raster.octree.shape.view(), raster.model.faces.leaf);
   if (share < (ratio < 1 / kOtherSize || ratio > kOtherSize ? kLeastOfOther : kLeastShare))
     log_warning(
         fmt::format("--blank {}: only {:.0f} % of its nodes are near the model's faces; is it a mesh of this "
@@ -277,24 +277,24 @@ ProlongedSizes add_sources(const ProlongStageOptions& o, Json octree_options, Pr
   SourceInput input = read_sources(
       o.sources, o.background, parse_similarity(o.transform, "--transform").then(sizing.frame.inverse()),
       octree_options["slope"].get<double>(), {sizing.numbers.diagonal * sizing.frame.scale, sizing.header.unit_in_m},
-      sizing.faces, sizing.shape.view());
+      sizing.model.faces, sizing.shape.view());
   if (octree_options.contains(kOnly))
     raise_background(octree_options[kOnly].get<double>(), sizing, input.set.background);
   input.set.background.triangles = telling_triangles(input.set.background, input.set.slope);
   warn_of_places(input, sizing.shape.view(), sizing.numbers.far_length, sizing.header.unit);
-  warn_of_outside(input.set.background, sizing.faces, sizing.header.unit);
+  warn_of_outside(input.set.background, sizing.model.faces, sizing.header.unit);
   sizing.sources = std::move(input.set);
-  sizing.names.source = std::move(input.names);
+  sizing.source_name = std::move(input.names);
   progress.step("expected triangles", 0.8);
-  SizeTally tally = tally_by_group(sizing.labels, sizing.faces.n_faces());
+  SizeTally tally = tally_by_group(sizing.model.labels, sizing.model.faces.n_faces());
   UndercutTally undercuts;
   std::vector<FaceWeight> weights =
-      face_weights(sizing.faces, sizing.shape.view(), *sizing.field(), [&](const SizedPart& part) {
+      face_weights(sizing.model.faces, sizing.shape.view(), *sizing.field(), [&](const SizedPart& part) {
         tally.add(part);
-        if (!sizing.face_lmin.empty())
-          undercuts.add(part.cause, part.least, sizing.face_lmin[part.face], sizing.frame(part.place));
+        if (!sizing.model.face_lmin.empty())
+          undercuts.add(part.cause, part.least, sizing.model.face_lmin[part.face], sizing.frame(part.place));
       });
-  sizing.undercuts = undercuts.take();
+  sizing.model.undercuts = undercuts.take();
   const double scale = o.target_triangles ? scale_to(*o.target_triangles, weights) : o.scale;
   std::vector<InputRef>& inputs = sizing.header.inputs;
   std::erase_if(inputs, [](const InputRef& i) { return i.role == "sources" || i.role == "background"; });
@@ -315,11 +315,7 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
   const Barrier barrier = o.only ? Barrier{} : find_barrier(o, raster, moved.motion.inverse());
   if (o.only) forget_walls(raster);
   make_lengths(o, barrier, progress, raster, sizing);
-  sizing.names = {std::move(raster.edge_name), raster.labels.face_name, {}};
-  sizing.faces = std::move(raster.faces);
-  sizing.labels = std::move(raster.labels);
-  sizing.wings = std::move(raster.wings);
-  sizing.face_lmin = std::move(raster.face_lmin);
+  sizing.model = std::move(raster.model);
   sizing.header = raster.header;
   sizing.header.schema = "sizing";
   sizing.header.tool = "st-prolong";
@@ -351,11 +347,12 @@ ProlongedSizes change_sources(ProlongStageOptions o, Progress& progress) {
 
 /// Where the smallest lengths that were given do not hold on faces.
 void report_undercuts(const SizingArtifact& sizing) {
-  if (sizing.undercuts.empty()) return;
+  if (sizing.model.undercuts.empty()) return;
   const double scale = sizing.scale * sizing.frame.scale;
   log_report(fmt::format("  {} places on faces are below the lmin given for them, down to {:.4g}{}, because of {}",
-                         count(sizing.undercuts), scale * least_of(sizing.undercuts), in_unit(sizing.header.unit),
-                         undercut_text(sizing.undercuts, sizing.names, scale)));
+                         count(sizing.model.undercuts), scale * least_of(sizing.model.undercuts),
+                         in_unit(sizing.header.unit),
+                         undercut_text(sizing.model.undercuts, sizing.cause_names(), scale)));
 }
 
 StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizing,
@@ -367,7 +364,7 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   const double lo = scale * std::min<double>(smallest->at_centre(), sizing.sources.min_size()),
                hi = scale * largest->at_centre(), n = expected_triangles(sizing.face_weight);
   const std::string scaled = o.target_triangles ? fmt::format(" scaled by {:.4g}", sizing.scale) : "";
-  const std::string sources = sizing.names.source.empty() ? "" : ", " + counted(sizing.names.source.size(), "source");
+  const std::string sources = sizing.source_name.empty() ? "" : ", " + counted(sizing.source_name.size(), "source");
   const std::vector<CellColour>& colour = sizing.blanking.colour;
   const auto n_blanked = std::count(colour.begin(), colour.end(), CellColour::kBlanked);
   const auto n_cut = std::count(colour.begin(), colour.end(), CellColour::kCut);
@@ -378,23 +375,24 @@ StageSummary summarize(const ProlongStageOptions& o, const SizingArtifact& sizin
   summary.line = fmt::format("{}: {} cells{}{}{}{}, slope {:g}, about {:.0f} triangles, {:.2f} s", o.output,
                              sizing.lengths.cells.size(), blanked, sources, range_text(groups, sizing.header.unit),
                              scaled, o.slope, n, seconds);
-  summary.json = json_text(Json{{"tool", "st-prolong"},
-                                {"output", o.output},
-                                {"cells", sizing.lengths.cells.size()},
-                                {"blanked_cells", n_blanked},
-                                {"cut_cells", n_cut},
-                                {"split_cells", sizing.blanking.split.size()},
-                                {"sources", sizing.names.source.size()},
-                                {"lmin", lo},
-                                {"lmax", hi},
-                                {"slope", o.slope},
-                                {"scale", sizing.scale},
-                                {"expected_triangles", n < kMostExact ? Json(std::llround(n)) : Json(n)},
-                                {"below_lmin", undercuts_json(sizing.undercuts, sizing.names, "places", scale)},
-                                {"groups", groups_json(groups, sizing.names)},
-                                {"hash", sizing.header.content_hash},
-                                {"seconds", seconds},
-                                {"processor_seconds", processor_json()}});
+  summary.json =
+      json_text(Json{{"tool", "st-prolong"},
+                     {"output", o.output},
+                     {"cells", sizing.lengths.cells.size()},
+                     {"blanked_cells", n_blanked},
+                     {"cut_cells", n_cut},
+                     {"split_cells", sizing.blanking.split.size()},
+                     {"sources", sizing.source_name.size()},
+                     {"lmin", lo},
+                     {"lmax", hi},
+                     {"slope", o.slope},
+                     {"scale", sizing.scale},
+                     {"expected_triangles", n < kMostExact ? Json(std::llround(n)) : Json(n)},
+                     {"below_lmin", undercuts_json(sizing.model.undercuts, sizing.cause_names(), "places", scale)},
+                     {"groups", groups_json(groups, sizing.cause_names())},
+                     {"hash", sizing.header.content_hash},
+                     {"seconds", seconds},
+                     {"processor_seconds", processor_json()}});
   return summary;
 }
 
@@ -453,12 +451,12 @@ StageSummary run_prolong(const ProlongStageOptions& o) {
   if (!o.sample.empty()) require_writable(o.sample_output);
   ProlongedSizes sizes = read_and_prolong(o);
   SizingArtifact& sizing = sizes.sizing;
-  report_expected_triangles(sizing.face_weight, sizing.names.face, o.max_triangles, o.output);
+  report_expected_triangles(sizing.face_weight, sizing.model.labels.face_name, o.max_triangles, o.output);
   if (!o.sample.empty()) {
-    sample_sizes(*sizing.field(sizing.frame), sizing.names, o.sample, o.sample_output);
+    sample_sizes(*sizing.field(sizing.frame), sizing.cause_names(), o.sample, o.sample_output);
   }
   sizing.header.content_hash = write_sizing(o.output, sizing);
-  for (const std::string& line : group_lines(sizes.groups, sizing.names, kMostGroups, sizing.header.unit))
+  for (const std::string& line : group_lines(sizes.groups, sizing.cause_names(), kMostGroups, sizing.header.unit))
     log_report(line);
   report_undercuts(sizing);
   const StageSummary summary = summarize(o, sizing, sizes.groups, timer.seconds());

@@ -48,23 +48,23 @@ constexpr const char* kPassageLine =
     "--sizes: size = [{ edges = [...], trailing_edge = false }]";
 
 void report_undercuts(const RasterArtifact& a) {
-  if (a.undercuts.empty()) return;
+  if (a.model.undercuts.empty()) return;
   log_report(fmt::format(
       "  {} of {} samples are below the lmin given for them, down to {:.4g}{}, on narrower strips or bases: {}",
-      count(a.undercuts), a.samples.size(), least_of(a.undercuts), in_unit(a.header.unit),
-      undercut_text(a.undercuts, a.cause_names(), 1)));
+      count(a.model.undercuts), a.samples.size(), least_of(a.model.undercuts), in_unit(a.header.unit),
+      undercut_text(a.model.undercuts, a.model.cause_names(), 1)));
 }
 
 nlohmann::ordered_json below_lmin_json(const RasterArtifact& a) {
-  if (a.undercuts.empty()) return nullptr;
+  if (a.model.undercuts.empty()) return nullptr;
   constexpr std::size_t kPlaces = 3;
   nlohmann::ordered_json places = nlohmann::ordered_json::array();
-  for (const Undercut& u : a.undercuts)
+  for (const Undercut& u : a.model.undercuts)
     if (places.size() < kPlaces) places.push_back({u.place.x, u.place.y, u.place.z});
-  return {{"samples", count(a.undercuts)},
-          {"least", least_of(a.undercuts)},
+  return {{"samples", count(a.model.undercuts)},
+          {"least", least_of(a.model.undercuts)},
           {"places", places},
-          {"causes", undercuts_json(a.undercuts, a.cause_names(), "samples", 1)}};
+          {"causes", undercuts_json(a.model.undercuts, a.model.cause_names(), "samples", 1)}};
 }
 
 void fill_header(const RasterStageOptions& o, const ArtifactHeader& geometry, const SamplingLimits& limits,
@@ -151,7 +151,7 @@ StageSummary summarize(const RasterStageOptions& o, const RasterArtifact& a, con
                                                   {"not_sampled", counts.n_failures},
                                                   {"beyond_depth", depth_json(counts.depth)},
                                                   {"below_lmin", below_lmin_json(a)},
-                                                  {"groups", sampled_json(groups, a.cause_names())},
+                                                  {"groups", sampled_json(groups, a.model.cause_names())},
                                                   {"hash", a.header.content_hash},
                                                   {"seconds", seconds},
                                                   {"seconds_of", times.wall()},
@@ -221,7 +221,7 @@ class RasterRun {
       artifact_.samples = merged_samples(std::move(samples));
       if (has_surface) cells = prolong_openly(artifact_);
     };
-    artifact_.faces = locate_faces(sampled(), artifact_.octree.shape, meanwhile, trace_, counts_.n_failures);
+    artifact_.model.faces = locate_faces(sampled(), artifact_.octree.shape, meanwhile, trace_, counts_.n_failures);
     times_.end("faces");
     trace_.begin_phase("surface");
     progress.step("surface", 0.7);
@@ -316,12 +316,12 @@ class RasterRun {
 
   void write() {
     artifact_.n_not_sampled = static_cast<std::int64_t>(counts_.n_failures);
-    artifact_.edge_name = in_.model.tables().edge_name;
-    artifact_.labels = in_.model.tables().labels;
-    artifact_.wings = std::move(wings_.records);
+    artifact_.model.edge_name = in_.model.tables().edge_name;
+    artifact_.model.labels = in_.model.tables().labels;
+    artifact_.model.wings = std::move(wings_.records);
     const GivenFloors floors = find_floors(in_.rules, !o_.lmin.empty(), in_.model.tables(), wings_.edges, limits_);
-    if (std::ranges::any_of(floors.face, [](double lmin) { return lmin > 0; })) artifact_.face_lmin = floors.face;
-    artifact_.undercuts = sample_undercuts(artifact_.samples, floors);
+    if (std::ranges::any_of(floors.face, [](double lmin) { return lmin > 0; })) artifact_.model.face_lmin = floors.face;
+    artifact_.model.undercuts = sample_undercuts(artifact_.samples, floors);
     fill_header(o_, in_.geometry.header, wall_, in_.sizes.hash, artifact_.header);
     artifact_.header.content_hash = write_raster(o_.output, artifact_);
   }
@@ -330,7 +330,8 @@ class RasterRun {
     report_wings(o_, wings_, artifact_.header.unit);
     report_unused(o_, in_.model, roles_, wings_);
     const std::vector<GroupSizes> groups = sampled_groups(artifact_);
-    for (const std::string& line : sampled_lines(groups, artifact_.cause_names(), kMostGroups, artifact_.header.unit))
+    for (const std::string& line :
+         sampled_lines(groups, artifact_.model.cause_names(), kMostGroups, artifact_.header.unit))
       log_report(line);
     report_undercuts(artifact_);
     return summarize(o_, artifact_, counts_, in_.rules.size(), wings_, groups, times_);

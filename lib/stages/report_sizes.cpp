@@ -95,6 +95,7 @@ TriangleCauses triangle_causes(const SizingArtifact& sizing, const SurfaceMesh& 
   constexpr std::size_t kMost = std::numeric_limits<std::uint16_t>::max();
   TriangleCauses causes{nlohmann::ordered_json::array(), {}};
   const auto field = sizing.field(sizing.frame);
+  const CauseNames names = sizing.cause_names();
   std::map<std::pair<std::int32_t, SizeReason>, std::uint16_t> known;
   for (TriangleId t = 0; t < mesh.n_triangles(); ++t) {
     const auto& n = mesh.triangles[t].n;
@@ -104,7 +105,7 @@ TriangleCauses triangle_causes(const SizingArtifact& sizing, const SurfaceMesh& 
     const auto next = static_cast<std::uint16_t>(std::min(known.size(), kMost));
     const auto [at, is_new] = known.try_emplace({cause, reason}, next);
     if (is_new && next < kMost)
-      causes.list.push_back({{"text", cause_text(sizing.names, cause)}, {"reason", static_cast<int>(reason)}});
+      causes.list.push_back({{"text", cause_text(names, cause)}, {"reason", static_cast<int>(reason)}});
     causes.index.push_back(std::min(at->second, static_cast<std::uint16_t>(causes.list.size() - 1)));
   }
   return causes;

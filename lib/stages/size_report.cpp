@@ -74,13 +74,13 @@ RasterArtifact read_own_raster(const std::string& artifact, const ArtifactHeader
 
 /// [n_faces] 1: of this group or part (find_faces), or, where there is none, of this name.
 std::vector<std::uint8_t> find_named_faces(const std::string& name, const RasterArtifact& raster) {
-  std::vector<std::uint8_t> is_in = find_faces(name, raster.labels);
+  std::vector<std::uint8_t> is_in = find_faces(name, raster.model.labels);
   if (!is_in.empty()) return is_in;
-  for (const std::string& face_name : raster.labels.face_name) is_in.push_back(face_name == name);
+  for (const std::string& face_name : raster.model.labels.face_name) is_in.push_back(face_name == name);
   if (std::find(is_in.begin(), is_in.end(), 1) == is_in.end())
     throw Error(ExitCode::kUsage, fmt::format("--why '{}': no group of faces, part or face has this name{}; "
                                               "st-info geometry.hdf --groups lists them",
-                                              name, say_other_name(name, raster.labels)));
+                                              name, say_other_name(name, raster.model.labels)));
   return is_in;
 }
 
@@ -90,7 +90,7 @@ GroupSizes sizes_of_faces(const std::string& name, const std::vector<std::uint8_
   std::vector<std::int32_t> group;
   for (const std::uint8_t in : is_in) group.push_back(in ? 0 : kNone);
   SizeTally tally({name}, std::move(group));
-  face_weights(raster.faces, raster.octree.shape.view(), field, [&](const SizedPart& part) { tally.add(part); });
+  face_weights(raster.model.faces, raster.octree.shape.view(), field, [&](const SizedPart& part) { tally.add(part); });
   const std::vector<GroupSizes> groups = tally.groups(1, field.frame().scale);
   return groups.empty() ? GroupSizes{name, 0, 0, 0, {}} : groups[0];
 }
@@ -109,7 +109,7 @@ struct PointSize {
 Vec3 normal_at(const std::string& artifact, const OctreeField& field, Vec3 x) {
   if (!field.has_metrics()) return {};
   const SizingArtifact sizing = read_sizing(artifact);
-  return sizing.frame.rotated(normal_near(sizing.faces, sizing.shape.view(), sizing.frame.inverse()(x)));
+  return sizing.frame.rotated(normal_near(sizing.model.faces, sizing.shape.view(), sizing.frame.inverse()(x)));
 }
 
 PointSize find_size(const std::string& artifact, const OctreeField& field, Vec3 x) {

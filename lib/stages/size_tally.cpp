@@ -111,12 +111,12 @@ std::string range_text(const std::vector<GroupSizes>& groups, const std::string&
 }
 
 std::vector<GroupSizes> sampled_groups(const RasterArtifact& raster) {
-  SizeTally tally = tally_by_group(raster.labels, raster.faces.n_faces());
-  for (FaceId f = 0; f < raster.faces.n_faces(); ++f)
-    for (std::int64_t k = raster.faces.offsets[f]; k < raster.faces.offsets[f + 1]; ++k) {
-      const std::int32_t leaf = raster.faces.leaf[k];
+  SizeTally tally = tally_by_group(raster.model.labels, raster.model.faces.n_faces());
+  for (FaceId f = 0; f < raster.model.faces.n_faces(); ++f)
+    for (std::int64_t k = raster.model.faces.offsets[f]; k < raster.model.faces.offsets[f + 1]; ++k) {
+      const std::int32_t leaf = raster.model.faces.leaf[k];
       const double length = static_cast<double>(raster.octree.stored_length[leaf]),
-                   area = static_cast<double>(raster.faces.area[k]);
+                   area = static_cast<double>(raster.model.faces.area[k]);
       if (std::isfinite(length))
         tally.add({f, raster.octree.stored_cause[leaf], area, length, {area / (length * length), 0}});
     }

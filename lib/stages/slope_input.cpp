@@ -30,21 +30,21 @@ NamedSlope parse_slope(const std::string& item) {
 
 /// [n_faces] 1: the face has this name, or, where none has, belongs to a group or part of it.
 std::vector<std::uint8_t> faces_of(const NamedSlope& s, const RasterArtifact& raster) {
-  const std::vector<std::string>& face_name = raster.labels.face_name;
+  const std::vector<std::string>& face_name = raster.model.labels.face_name;
   std::vector<std::uint8_t> is_in(face_name.size(), 0);
   for (std::size_t f = 0; f < face_name.size(); ++f) is_in[f] = face_name[f] == s.name;
   if (std::find(is_in.begin(), is_in.end(), 1) != is_in.end()) return is_in;
-  is_in = find_faces(s.name, raster.labels);
+  is_in = find_faces(s.name, raster.model.labels);
   if (is_in.empty())
     throw Error(ExitCode::kUsage, fmt::format("--slope-of '{}': no face, group of faces or part has this name{}; "
                                               "st-info geometry.hdf --groups lists them",
-                                              s.name, say_other_name(s.name, raster.labels)));
+                                              s.name, say_other_name(s.name, raster.model.labels)));
   return is_in;
 }
 
 /// Smallest slope that a face is given; 0: none.
 std::vector<double> face_slopes(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster) {
-  std::vector<double> result(raster.labels.face_name.size(), 0);
+  std::vector<double> result(raster.model.labels.face_name.size(), 0);
   for (const NamedSlope& s : slopes) {
     const std::vector<std::uint8_t> is_in = faces_of(s, raster);
     for (std::size_t f = 0; f < result.size(); ++f)
@@ -68,13 +68,13 @@ std::vector<NamedSlope> parse_slopes(const std::string& text) {
 SlopeSeeds::SlopeSeeds(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster)
     : raster_shape_(raster.octree.shape),
       of_face_(face_slopes(slopes, raster)),
-      of_edge_(raster.edge_name.size(), 0),
+      of_edge_(raster.model.edge_name.size(), 0),
       of_leaf_(raster.octree.stored_cause.size(), 0) {
   const auto lower = [](double& slope, double other) { slope = slope > 0 ? std::min(slope, other) : other; };
-  for (std::int32_t f = 0; f < raster.faces.n_faces(); ++f) {
+  for (std::int32_t f = 0; f < raster.model.faces.n_faces(); ++f) {
     if (!(of_face_[f] > 0)) continue;
-    for (std::int64_t i = raster.faces.offsets[f]; i < raster.faces.offsets[f + 1]; ++i) {
-      const std::int32_t leaf = raster.faces.leaf[i], cause = raster.octree.stored_cause[leaf];
+    for (std::int64_t i = raster.model.faces.offsets[f]; i < raster.model.faces.offsets[f + 1]; ++i) {
+      const std::int32_t leaf = raster.model.faces.leaf[i], cause = raster.octree.stored_cause[leaf];
       lower(of_leaf_[leaf], of_face_[f]);
       if (cause != kNone && cause_kind(cause) == CauseKind::kEdge) lower(of_edge_[cause_id(cause)], of_face_[f]);
     }

@@ -113,7 +113,7 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   if (raster.n_not_sampled > 0) header.schema_version = kPartialRasterVersion;
   if (!raster.surface.triangles.empty()) header.schema_version = kSurfaceRasterVersion;
   if (raster.numbers.max_aspect > 1) header.schema_version = kStretchedRasterVersion;
-  if (raster.faces.origin != Vec3{}) header.schema_version = kFarRasterVersion;
+  if (raster.model.faces.origin != Vec3{}) header.schema_version = kFarRasterVersion;
   const bool has_reach = std::any_of(raster.samples.begin(), raster.samples.end(),
                                      [](const LengthSample& s) { return s.reach != SampleReach{}; });
   if (has_reach) header.schema_version = kRasterVersion;
@@ -124,14 +124,9 @@ std::string write_raster(const std::string& path, const RasterArtifact& raster) 
   file.write<float>(kStoredLength, raster.octree.stored_length);
   file.write<std::int32_t>(kStoredCause, raster.octree.stored_cause);
   if (!raster.samples.empty())
-    write_samples(file, raster.samples, raster.faces.origin, has_reach, raster.numbers.max_aspect > 1);
+    write_samples(file, raster.samples, raster.model.faces.origin, has_reach, raster.numbers.max_aspect > 1);
   if (!raster.surface.triangles.empty()) write_surface(file, raster.surface);
-  write_face_cells(file, raster.faces);
-  file.write_strings(kFaceName, raster.labels.face_name);
-  file.write_strings(kEdgeName, raster.edge_name);
-  write_wings(file, raster.wings);
-  write_groups(file, raster.labels);
-  write_undercuts(file, raster.face_lmin, raster.undercuts);
+  write_model(file, raster.model);
   return file.commit();
 }
 
@@ -150,12 +145,8 @@ RasterArtifact read_raster(const std::string& path) {
   if (file.has(kSurfaceTriangle)) raster.surface = read_surface(file);
   require_rows_to_be(file, kStoredLength, std::span<const float>(raster.octree.stored_length), "a length > 0",
                      [](float x) { return x > 0; });
-  raster.faces = read_face_cells(file, n);
-  if (file.has(kSamplePoint)) raster.samples = read_samples(file, raster.faces.origin);
-  raster.edge_name = file.read_strings(kEdgeName);
-  raster.wings = read_wings(file);
-  raster.labels = read_face_labels(file, raster.faces);
-  read_undercuts(file, raster.labels.face_name.size(), raster.face_lmin, raster.undercuts);
+  raster.model = read_model(file, n);
+  if (file.has(kSamplePoint)) raster.samples = read_samples(file, raster.model.faces.origin);
   return raster;
 }
 

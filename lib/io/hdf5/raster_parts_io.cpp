@@ -4,6 +4,7 @@
 
 #include "base/limits.h"
 #include "io/hdf5/face_labels_io.h"
+#include "io/hdf5/wing_records_io.h"
 
 namespace st {
 
@@ -41,6 +42,80 @@ Vec3 read_place_origin(const Hdf5Reader& file) {
   const std::vector<double> x = file.read_rows<double>(kPlaceOrigin, 3);
   require_finite(file, kPlaceOrigin, x);
   return {x[0], x[1], x[2]};
+}
+
+FaceCells read_face_cells(const Hdf5Reader& file, std::size_t n_leaves) {
+  FaceCells faces{
+      file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}, {}, read_place_origin(file)};
+  faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
+  faces.plane = file.read_rows<CellPlane>(kFacePlane, faces.leaf.size(), 6);
+  require_offsets(file, kFaceOffset, faces.offsets, faces.leaf.size());
+  require_ids(file, kFaceLeaf, faces.leaf, n_leaves);
+  require_lengths(file, kFaceArea, faces.area);
+  require_rows_to_be(file, kFacePlane, std::span<const CellPlane>(faces.plane), "a plane",
+                     [](const CellPlane& p) { return are_finite(p.center) & are_finite(p.normal); });
+  return faces;
+}
+
+void write_face_cells(Hdf5Writer& file, const FaceCells& faces) {
+  const Vec3 origin = faces.origin;
+  if (origin != Vec3{}) file.write<double>(kPlaceOrigin, std::vector<double>{origin.x, origin.y, origin.z});
+  file.write<std::int64_t>(kFaceOffset, faces.offsets);
+  file.write<std::int32_t>(kFaceLeaf, faces.leaf);
+  file.write<float>(kFaceArea, faces.area);
+  file.write<CellPlane>(kFacePlane, faces.plane);
+}
+
+/// What a file says of faces besides their names.
+void write_groups(Hdf5Writer& file, const FaceLabels& labels) {
+  if (labels.face_group.empty()) return;
+  file.write_strings(kGroupName, labels.group_name);
+  file.write<std::int32_t>(kFaceGroup, labels.face_group);
+  write_labels(file, labels);
+}
+
+FaceLabels read_face_labels(const Hdf5Reader& file, const FaceCells& faces) {
+  FaceLabels labels;
+  labels.face_name = file.read_strings(kFaceName);
+  if (faces.offsets.size() != labels.face_name.size() + 1) file.fail(kFaceOffset, "does not fit the number of faces");
+  if (file.has(kFaceGroup)) return read_labels(file, labels.face_name.size());  // files before groups were have none
+  return labels;
+}
+
+/// Nothing where no least length is given.
+void write_undercuts(Hdf5Writer& file, const SizedModel& model) {
+  if (!model.face_lmin.empty()) file.write<double>(kFaceLmin, model.face_lmin);
+  if (model.undercuts.empty()) return;
+  std::vector<std::int32_t> causes;
+  std::vector<std::int64_t> counts;
+  std::vector<double> least;
+  std::vector<Vec3> places;
+  for (const Undercut& u : model.undercuts) {
+    causes.push_back(u.cause);
+    counts.push_back(u.n);
+    least.push_back(u.least);
+    places.push_back(u.place);
+  }
+  file.write<std::int32_t>(kUndercutCause, causes);
+  file.write<std::int64_t>(kUndercutCount, counts);
+  file.write<double>(kUndercutLeast, least);
+  file.write<Vec3>(kUndercutPlace, places);
+}
+
+void read_undercuts(const Hdf5Reader& file, SizedModel& model) {
+  if (file.has(kFaceLmin)) {
+    model.face_lmin = file.read_rows<double>(kFaceLmin, model.labels.face_name.size());
+    require_lengths(file, kFaceLmin, model.face_lmin);
+  }
+  if (!file.has(kUndercutCause)) return;
+  const std::vector<std::int32_t> causes = file.read<std::int32_t>(kUndercutCause);
+  const std::vector<std::int64_t> counts = file.read_rows<std::int64_t>(kUndercutCount, causes.size());
+  const std::vector<double> least = file.read_rows<double>(kUndercutLeast, causes.size());
+  const std::vector<Vec3> places = file.read_rows<Vec3>(kUndercutPlace, causes.size());
+  require_lengths(file, kUndercutLeast, least);
+  require_finite(file, kUndercutPlace, places);
+  for (std::size_t i = 0; i < causes.size(); ++i)
+    model.undercuts.push_back({causes[i], counts[i], least[i], places[i]});
 }
 
 }  // namespace
@@ -97,76 +172,23 @@ OctreeView map_shape(const Hdf5Reader& file, MappedArrays& mapped) {
   return octree;
 }
 
-FaceCells read_face_cells(const Hdf5Reader& file, std::size_t n_leaves) {
-  FaceCells faces{
-      file.read<std::int64_t>(kFaceOffset), file.read<std::int32_t>(kFaceLeaf), {}, {}, read_place_origin(file)};
-  faces.area = file.read_rows<float>(kFaceArea, faces.leaf.size());
-  faces.plane = file.read_rows<CellPlane>(kFacePlane, faces.leaf.size(), 6);
-  require_offsets(file, kFaceOffset, faces.offsets, faces.leaf.size());
-  require_ids(file, kFaceLeaf, faces.leaf, n_leaves);
-  require_lengths(file, kFaceArea, faces.area);
-  require_rows_to_be(file, kFacePlane, std::span<const CellPlane>(faces.plane), "a plane",
-                     [](const CellPlane& p) { return are_finite(p.center) & are_finite(p.normal); });
-  return faces;
+void write_model(Hdf5Writer& file, const SizedModel& model) {
+  write_face_cells(file, model.faces);
+  file.write_strings(kFaceName, model.labels.face_name);
+  file.write_strings(kEdgeName, model.edge_name);
+  write_wings(file, model.wings);
+  write_groups(file, model.labels);
+  write_undercuts(file, model);
 }
 
-void write_face_cells(Hdf5Writer& file, const FaceCells& faces) {
-  const Vec3 origin = faces.origin;
-  if (origin != Vec3{}) file.write<double>(kPlaceOrigin, std::vector<double>{origin.x, origin.y, origin.z});
-  file.write<std::int64_t>(kFaceOffset, faces.offsets);
-  file.write<std::int32_t>(kFaceLeaf, faces.leaf);
-  file.write<float>(kFaceArea, faces.area);
-  file.write<CellPlane>(kFacePlane, faces.plane);
-}
-
-void write_groups(Hdf5Writer& file, const FaceLabels& labels) {
-  if (labels.face_group.empty()) return;
-  file.write_strings(kGroupName, labels.group_name);
-  file.write<std::int32_t>(kFaceGroup, labels.face_group);
-  write_labels(file, labels);
-}
-
-FaceLabels read_face_labels(const Hdf5Reader& file, const FaceCells& faces) {
-  FaceLabels labels;
-  labels.face_name = file.read_strings(kFaceName);
-  if (faces.offsets.size() != labels.face_name.size() + 1) file.fail(kFaceOffset, "does not fit the number of faces");
-  if (file.has(kFaceGroup)) return read_labels(file, labels.face_name.size());  // files before groups were have none
-  return labels;
-}
-
-void write_undercuts(Hdf5Writer& file, const std::vector<double>& face_lmin, const std::vector<Undercut>& undercuts) {
-  if (!face_lmin.empty()) file.write<double>(kFaceLmin, face_lmin);
-  if (undercuts.empty()) return;
-  std::vector<std::int32_t> causes;
-  std::vector<std::int64_t> counts;
-  std::vector<double> least;
-  std::vector<Vec3> places;
-  for (const Undercut& u : undercuts) {
-    causes.push_back(u.cause);
-    counts.push_back(u.n);
-    least.push_back(u.least);
-    places.push_back(u.place);
-  }
-  file.write<std::int32_t>(kUndercutCause, causes);
-  file.write<std::int64_t>(kUndercutCount, counts);
-  file.write<double>(kUndercutLeast, least);
-  file.write<Vec3>(kUndercutPlace, places);
-}
-
-void read_undercuts(const Hdf5Reader& file, std::size_t n_faces, std::vector<double>& face_lmin,
-                    std::vector<Undercut>& undercuts) {
-  if (file.has(kFaceLmin)) {
-    face_lmin = file.read_rows<double>(kFaceLmin, n_faces);
-    require_lengths(file, kFaceLmin, face_lmin);
-  }
-  if (!file.has(kUndercutCause)) return;
-  const std::vector<std::int32_t> causes = file.read<std::int32_t>(kUndercutCause);
-  const std::vector<std::int64_t> counts = file.read_rows<std::int64_t>(kUndercutCount, causes.size());
-  const std::vector<double> least = file.read_rows<double>(kUndercutLeast, causes.size());
-  const std::vector<Vec3> places = file.read_rows<Vec3>(kUndercutPlace, causes.size());
-  require_lengths(file, kUndercutLeast, least);
-  require_finite(file, kUndercutPlace, places);
-  for (std::size_t i = 0; i < causes.size(); ++i) undercuts.push_back({causes[i], counts[i], least[i], places[i]});
+SizedModel read_model(const Hdf5Reader& file, std::size_t n_leaves) {
+  SizedModel model;
+  model.faces = read_face_cells(file, n_leaves);
+  model.edge_name = file.read_strings(kEdgeName);
+  model.labels = read_face_labels(file, model.faces);
+  model.wings = read_wings(file);
+  read_undercuts(file, model);
+  return model;
 }
 
 }  // namespace st

@@ -1,4 +1,4 @@
-// What raster.hdf and sizing.hdf both have: resolved numbers, an octree, the cells of faces, undercuts of lmin.
+// What raster.hdf and sizing.hdf both have: resolved numbers, an octree, and what they know of the model.
 #pragma once
 
 #include <cstddef>
@@ -51,15 +51,7 @@ OctreeShape read_shape(const Hdf5Reader& file);
 /// The arrays stay in the file, and `mapped` keeps them alive.
 OctreeView map_shape(const Hdf5Reader& file, MappedArrays& mapped);
 
-void write_face_cells(Hdf5Writer& file, const FaceCells& faces);
-FaceCells read_face_cells(const Hdf5Reader& file, std::size_t n_leaves);
-/// What a file says of faces besides their names.
-void write_groups(Hdf5Writer& file, const FaceLabels& labels);
-FaceLabels read_face_labels(const Hdf5Reader& file, const FaceCells& faces);
-
-/// Nothing where no least length is given.
-void write_undercuts(Hdf5Writer& file, const std::vector<double>& face_lmin, const std::vector<Undercut>& undercuts);
-void read_undercuts(const Hdf5Reader& file, std::size_t n_faces, std::vector<double>& face_lmin,
-                    std::vector<Undercut>& undercuts);
+void write_model(Hdf5Writer& file, const SizedModel& model);
+SizedModel read_model(const Hdf5Reader& file, std::size_t n_leaves);
 
 }  // namespace st

@@ -193,10 +193,6 @@ std::vector<double> read_face_weight(const Hdf5Reader& file) {
   return weight;
 }
 
-CauseNames read_names(const Hdf5Reader& file) {
-  return {file.read_strings(kEdgeName), file.read_strings(kFaceName), file.read_strings(kSourceName)};
-}
-
 }  // namespace
 
 std::unique_ptr<OctreeField> SizingArtifact::field(const Similarity& of) const {
@@ -263,14 +259,9 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
     file.write<std::int32_t>(kSiteAlong, sizing.cones.along_of_site);
   }
   write_sources(file, sizing.sources);
-  write_face_cells(file, sizing.faces);
-  write_groups(file, sizing.labels);
-  write_undercuts(file, sizing.face_lmin, sizing.undercuts);
+  write_model(file, sizing.model);
   file.write<double>(kFaceWeight, sizing.face_weight);
-  file.write_strings(kFaceName, sizing.names.face);
-  file.write_strings(kEdgeName, sizing.names.edge);
-  file.write_strings(kSourceName, sizing.names.source);
-  write_wings(file, sizing.wings);
+  file.write_strings(kSourceName, sizing.source_name);
   return file.commit();
 }
 
@@ -310,12 +301,9 @@ SizingArtifact read_sizing(const std::string& path) {
     require_cones(file, sizing.field_data(nullptr));
   }
   sizing.face_weight = read_face_weight(file);
-  sizing.names = read_names(file);
   sizing.sources = read_sources(file);
-  sizing.wings = read_wings(file);
-  sizing.faces = read_face_cells(file, n);
-  sizing.labels = read_face_labels(file, sizing.faces);
-  read_undercuts(file, sizing.labels.face_name.size(), sizing.face_lmin, sizing.undercuts);
+  sizing.model = read_model(file, n);
+  sizing.source_name = file.read_strings(kSourceName);
   return sizing;
 }
 
@@ -329,7 +317,7 @@ MappedSizing map_sizing(const std::string& path) {
 CauseNames read_cause_names(const std::string& path) {
   const Hdf5Reader file(path, "sizing", kSizingVersion);
   require_version(file, kPlainSizingVersion, "st-prolong");
-  return read_names(file);
+  return {file.read_strings(kEdgeName), file.read_strings(kFaceName), file.read_strings(kSourceName)};
 }
 
 std::vector<WingRecord> read_asked_wings(const std::string& path) {

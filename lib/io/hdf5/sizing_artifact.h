@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/hdf5/artifact.h"
@@ -51,24 +52,32 @@ struct Undercut {
   bool operator==(const Undercut&) const = default;
 };
 
+/// What rasters and sizings know of the model besides lengths.
+struct SizedModel {
+  FaceCells faces;                     ///< where in the octree each face lies, with its area there
+  std::vector<std::string> edge_name;  ///< [n_edges]; "": none
+  FaceLabels labels;                   ///< names of faces, and groups for slopes of groups, or none
+  std::vector<WingRecord> wings;       ///< lifting surfaces, in the octree's own frame and before scale
+  std::vector<double> face_lmin;       ///< [n_faces] least length that is given for it, 0: none; empty: for none
+  std::vector<Undercut> undercuts;     ///< lengths below that, by what causes them, most first: of a raster samples of
+                                       ///< strips and bases, of a sizing the field on faces
+
+  CauseNames cause_names(std::vector<std::string> sources = {}) const {
+    return {edge_name, labels.face_name, std::move(sources)};
+  }
+};
+
 /// raster.hdf
 struct RasterArtifact {
   ArtifactHeader header;
   SizingNumbers numbers;
   RasterOctree octree;
-  std::vector<LengthSample> samples;   ///< all samples, where cell_per_length is larger than 2; else empty.
-                                       ///< Rounded from faces.origin
-  BlankSurface surface;                ///< coarse triangles of a closed model; empty: not closed
-  FaceCells faces;                     ///< where in the octree each face lies, with its area there
-  std::vector<std::string> edge_name;  ///< [n_edges]; "": none
-  FaceLabels labels;                   ///< names of faces, and groups for slopes of groups, or none
-  std::vector<WingRecord> wings;       ///< lifting surfaces
-  std::vector<double> face_lmin;       ///< [n_faces] least length that is given for it, 0: none; empty: for none
-  std::vector<Undercut> undercuts;     ///< samples of strips and bases below that, most first
-  std::int64_t n_not_sampled = 0;      ///< faces and batches of edges that could not be sampled; > 0: the raster is
-                                       ///< incomplete
-
-  CauseNames cause_names() const { return {edge_name, labels.face_name, {}}; }
+  std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty.
+                                      ///< Rounded from model.faces.origin
+  BlankSurface surface;               ///< coarse triangles of a closed model; empty: not closed
+  SizedModel model;
+  std::int64_t n_not_sampled = 0;  ///< faces and batches of edges that could not be sampled; > 0: the raster is
+                                   ///< incomplete
 };
 
 /// sizing.hdf
@@ -85,14 +94,11 @@ struct SizingArtifact {
                       ///< tell them
   SourceSet sources;  ///< count besides, everywhere
   Blanking blanking;  ///< colours and splits; empty: no surface blanks anything. Links are not stored
-  FaceCells faces;    ///< as in the raster
-  FaceLabels labels;  ///< likewise
-  std::vector<WingRecord> wings;    ///< lifting surfaces, in the octree's own frame and before `scale`
+  SizedModel model;
   std::vector<double> face_weight;  ///< [n_faces] integral of 1/h^2: number of triangles times sqrt(3)/4
-  std::vector<double> face_lmin;    ///< as in the raster
-  std::vector<Undercut> undercuts;  ///< where the field is below that on faces, by what causes it, most first
-  CauseNames names;
+  std::vector<std::string> source_name;
 
+  CauseNames cause_names() const { return model.cause_names(source_name); }
   /// Views of the arrays above, in the octree's own frame. `tree`: of `sources`.
   OctreeFieldData field_data(const SourceTree* tree) const {
     OctreeFieldData data{shape.view(),

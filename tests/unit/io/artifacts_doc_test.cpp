@@ -85,24 +85,24 @@ RasterArtifact sample_raster() {
   r.samples[4].reach = reach_of({1, 0, 0});
   r.surface.points.resize(13);
   r.surface.triangles.resize(6, {{0, 1, 2}});
-  r.faces.offsets = {0, 3, 6, 7};
-  r.faces.leaf.resize(7);
-  r.faces.area.resize(7, 1);
-  r.faces.plane.resize(7);
-  r.faces.origin = {1, 2, 3};
-  r.edge_name.resize(5);
-  r.labels = sample_labels(3);
-  r.labels.face_name.resize(3);
-  r.labels.group_name = {"body", "wing"};
-  r.labels.face_group = {0, 1, 0};
+  r.model.faces.offsets = {0, 3, 6, 7};
+  r.model.faces.leaf.resize(7);
+  r.model.faces.area.resize(7, 1);
+  r.model.faces.plane.resize(7);
+  r.model.faces.origin = {1, 2, 3};
+  r.model.edge_name.resize(5);
+  r.model.labels = sample_labels(3);
+  r.model.labels.face_name.resize(3);
+  r.model.labels.group_name = {"body", "wing"};
+  r.model.labels.face_group = {0, 1, 0};
   r.n_not_sampled = 1;
-  r.wings.resize(2);
-  r.wings[0].stations.resize(11);
-  r.wings[0].edges.resize(3);
-  r.wings[1].faces.resize(7);
-  r.wings[1].bases.resize(4);
-  r.face_lmin = {0.1, 0, 0.2};
-  r.undercuts.resize(9);
+  r.model.wings.resize(2);
+  r.model.wings[0].stations.resize(11);
+  r.model.wings[0].edges.resize(3);
+  r.model.wings[1].faces.resize(7);
+  r.model.wings[1].bases.resize(4);
+  r.model.face_lmin = {0.1, 0, 0.2};
+  r.model.undercuts.resize(9);
   return r;
 }
 
@@ -137,13 +137,9 @@ SizingArtifact sample_sizing() {
   s.sources.background.node_metric.resize(4);
   s.sources.background.tets.resize(6);
   s.sources.background.triangles.resize(5);
-  s.faces = sample_raster().faces;
-  s.face_lmin = {0.1, 0, 0.2};
-  s.undercuts.resize(9);
-  s.labels = sample_raster().labels;
+  s.model = sample_raster().model;
   s.face_weight = {1, 2, 3};
-  s.wings = sample_raster().wings;
-  s.names = {std::vector<std::string>(5), std::vector<std::string>(3), {"wake", ""}};
+  s.source_name = {"wake", ""};
   return s;
 }
 

@@ -301,7 +301,7 @@ SizingArtifact source_sizing() {
   sizing.sources.background.node_xyz = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   sizing.sources.background.node_size.assign(4, {0.01, 0.01, {}});
   sizing.sources.background.tets = {{0, 1, 2, 3}};
-  sizing.names.source = {"wake", "tip"};
+  sizing.source_name = {"wake", "tip"};
   return sizing;
 }
 
@@ -361,14 +361,14 @@ TEST(SizingDamage, of_sources_is_refused_by_both_readers) {
     EXPECT_EQ(static_cast<const SizeField&>(*mapped.field).size(x),
               static_cast<const SizeField&>(*good.field()).size(x));
   EXPECT_EQ(read.sources.sources[1].direction.z, 1);
-  EXPECT_EQ(read.faces.leaf, good.faces.leaf);
+  EXPECT_EQ(read.model.faces.leaf, good.model.faces.leaf);
   const ArtifactBreaks<SizingArtifact> breaks = {
       {"/st/source/numbers: row 31 is not finite", [](auto& s) { s.sources.sources[0].direction.z = kNan; }},
       {"/st/source/numbers: row 1 asks for no length > 0", [](auto& s) { s.sources.sources[1].spacing[1].length = 0; }},
       {"/st/source/numbers: row 0 asks for no length > 0", [](auto& s) { s.sources.sources[0].aspect = 0.5; }},
       {"/st/source/kind: names a kind that is unknown",
        [](auto& s) { s.sources.sources[0].kind = static_cast<SourceKind>(7); }},
-      {"/st/source/name: does not fit the number of sources", [](auto& s) { s.names.source.pop_back(); }},
+      {"/st/source/name: does not fit the number of sources", [](auto& s) { s.source_name.pop_back(); }},
       {"/st/sizing@source_slope: is no slope > 0", [](auto& s) { s.sources.slope = 0; }},
       {"/st/background/node: row 2 is not finite", [](auto& s) { s.sources.background.node_xyz[2].x = kNan; }},
       {"/st/background/size: row 1 is no length > 0", [](auto& s) { s.sources.background.node_size[1].length = 0; }},

@@ -50,12 +50,12 @@ TEST_F(RasterArtifacts, of_which_parts_are_missing_say_so_and_older_programs_ref
 
 TEST_F(RasterArtifacts, far_from_the_origin_have_places_that_count_from_their_middle) {
   RasterArtifact raster = sample_raster();
-  raster.faces.origin = {1e6, -2e6, 3e6};
-  for (LengthSample& s : raster.samples) s.xyz += raster.faces.origin;
+  raster.model.faces.origin = {1e6, -2e6, 3e6};
+  for (LengthSample& s : raster.samples) s.xyz += raster.model.faces.origin;
   write_raster(file("a.hdf"), raster);
   const RasterArtifact read = read_raster(file("a.hdf"));
   EXPECT_EQ(read.header.schema_version, 7);
-  EXPECT_EQ(read.faces.origin, raster.faces.origin);
+  EXPECT_EQ(read.model.faces.origin, raster.model.faces.origin);
   for (std::size_t i = 0; i < raster.samples.size(); ++i)
     EXPECT_LT(distance(read.samples[i].xyz, raster.samples[i].xyz), 1e-7) << i;
   EXPECT_EQ(write_raster(file("b.hdf"), read), read.header.content_hash);
@@ -79,11 +79,11 @@ TEST_F(RasterArtifacts, whose_links_or_numbers_are_wrong_are_refused) {
       {"octree", [](auto& r) { r.octree.shape.lo.x = std::numeric_limits<double>::infinity(); }},
       {"stored_length", [](auto& r) { r.octree.stored_length[2] = 0; }},
       {"stored_length", [&](auto& r) { r.octree.stored_length[2] = nan; }},
-      {"cell_offset", [](auto& r) { r.faces.offsets[1] = -1; }},
-      {"cell_offset", [](auto& r) { r.faces.offsets[1] = 1000; }},
-      {"cell_leaf", [&](auto& r) { r.faces.leaf[0] = n_leaves; }},
-      {"cell_area", [&](auto& r) { r.faces.area[0] = nan; }},
-      {"cell_plane", [&](auto& r) { r.faces.plane[1].normal[0] = nan; }},
+      {"cell_offset", [](auto& r) { r.model.faces.offsets[1] = -1; }},
+      {"cell_offset", [](auto& r) { r.model.faces.offsets[1] = 1000; }},
+      {"cell_leaf", [&](auto& r) { r.model.faces.leaf[0] = n_leaves; }},
+      {"cell_area", [&](auto& r) { r.model.faces.area[0] = nan; }},
+      {"cell_plane", [&](auto& r) { r.model.faces.plane[1].normal[0] = nan; }},
       {"sample/point", [&](auto& r) { r.samples[1].xyz.x = nan; }},
       {"sample/length", [](auto& r) { r.samples[1].length = -1; }},
       {"max_length", [](auto& r) { r.numbers.max_length = 0; }},

@@ -22,10 +22,11 @@ inline RasterArtifact sample_raster() {
                      pack_cause(CauseKind::kEdge, i)});
   raster.octree = build_octree({{0, 0, 0}, {1, 1, 1}}, boxes);
   raster.samples = sorted_samples(boxes);
-  raster.faces.append_face(std::vector<CellArea>{{1, 0.5F, {1, 2, 3}, {0, 0, 1}}, {7, 0.25F, {4, 5, 6}, {1, 0, 0}}});
-  raster.faces.append_face({});
-  raster.edge_name = {"TE", ""};
-  raster.labels.face_name = {"wing", "tip"};
+  raster.model.faces.append_face(
+      std::vector<CellArea>{{1, 0.5F, {1, 2, 3}, {0, 0, 1}}, {7, 0.25F, {4, 5, 6}, {1, 0, 0}}});
+  raster.model.faces.append_face({});
+  raster.model.edge_name = {"TE", ""};
+  raster.model.labels.face_name = {"wing", "tip"};
   return raster;
 }
 
@@ -40,12 +41,10 @@ inline SizingArtifact sample_sizing() {
   sizing.lengths = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length,
                            raster.octree.stored_cause, {0.2, 0.2});
   sizing.face_weight = {12.5, 0};
-  sizing.names = raster.cause_names();
-  sizing.names.source = {"wake"};
+  sizing.model = raster.model;
+  sizing.source_name = {"wake"};
   sizing.shape = raster.octree.shape;
   sizing.sources.slope = 0.2;
-  sizing.faces = raster.faces;
-  sizing.labels = raster.labels;
   return sizing;
 }
 

@@ -16,7 +16,7 @@ SizingArtifact sizing_with_sources() {
   SizingArtifact sizing = sample_sizing();
   SourceSpec line;
   line.kind = SourceKind::kLine;
-  line.name = sizing.names.source.at(0);
+  line.name = sizing.source_name.at(0);
   line.point[1] = {1, 2, 3};
   for (SourceSpacing& s : line.spacing) s = {0.05, 0.1, 0.3};
   sizing.sources.sources = {line};

@@ -31,7 +31,7 @@ class WingRecords : public testing::Test {
   std::string path() const { return dir_ / "a.hdf"; }
   void write_sizing_with(const WingRecord& wing) const {
     SizingArtifact sizing = sample_sizing();
-    sizing.wings = {wing};
+    sizing.model.wings = {wing};
     write_sizing(path(), sizing);
   }
   TemporaryDirectory dir_;
@@ -39,9 +39,9 @@ class WingRecords : public testing::Test {
 
 TEST_F(WingRecords, are_read_as_they_were_written) {
   RasterArtifact raster = sample_raster();
-  raster.wings = two_wings();
+  raster.model.wings = two_wings();
   const std::string hash = write_raster(path(), raster);
-  const std::vector<WingRecord> read = read_raster(path()).wings;
+  const std::vector<WingRecord> read = read_raster(path()).model.wings;
   ASSERT_EQ(read.size(), 2u);
   EXPECT_EQ(read[0].stations.size(), 2u);
   EXPECT_EQ(read[0].stations[1].nose, (Vec3{0, 1, 0}));
@@ -50,13 +50,13 @@ TEST_F(WingRecords, are_read_as_they_were_written) {
   EXPECT_EQ(read[0].covered, 0.75);
   EXPECT_EQ(read[1].edges, (std::vector<EdgeId>{0, 1}));
   EXPECT_FALSE(read[1].has_noses);
-  raster.wings = read;
+  raster.model.wings = read;
   EXPECT_EQ(write_raster(path(), raster), hash);
 }
 
 TEST_F(WingRecords, of_a_sizing_are_scaled_and_moved) {
   SizingArtifact sizing = sample_sizing();  // its scale is 1.5
-  sizing.wings = two_wings();
+  sizing.model.wings = two_wings();
   sizing.frame.scale = 2;
   write_sizing(path(), sizing);
   const std::vector<WingRecord> read = read_asked_wings(path());
@@ -64,7 +64,7 @@ TEST_F(WingRecords, of_a_sizing_are_scaled_and_moved) {
   EXPECT_DOUBLE_EQ(read[0].stations[0].asked, 0.03);
   EXPECT_EQ(read[0].stations[0].chord, 2);
   EXPECT_EQ(read[0].stations[0].trailing, (Vec3{2, 0, 0}));
-  EXPECT_EQ(read_sizing(path()).wings[0].stations[0].asked, 0.01);
+  EXPECT_EQ(read_sizing(path()).model.wings[0].stations[0].asked, 0.01);
 }
 
 TEST_F(WingRecords, that_are_none_are_refused) {

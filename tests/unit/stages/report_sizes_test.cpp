@@ -24,7 +24,8 @@ SizingArtifact two_levels() {
   }
   s.lengths.cause[9] = pack_cause(CauseKind::kEdge, 1);
   s.scale = 2;
-  s.names = {{"", "TE"}, {"WING", ""}, {}};
+  s.model.edge_name = {"", "TE"};
+  s.model.labels.face_name = {"WING", ""};
   return s;
 }
 

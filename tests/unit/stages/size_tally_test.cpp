@@ -96,9 +96,9 @@ TEST_F(SizesOfModel, parts_sum_up_to_the_weights_of_the_faces) {
   staged_.make_sizing();
   const RasterArtifact raster = read_raster(staged_.raster.output);
   const MappedSizing sizing = map_sizing(staged_.prolong.output);
-  SizeTally tally = tally_by_group(raster.labels, raster.faces.n_faces());
+  SizeTally tally = tally_by_group(raster.model.labels, raster.model.faces.n_faces());
   std::vector<double> weight(sizing.face_weight.size(), 0), area(weight.size(), 0);
-  face_weights(raster.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) {
+  face_weights(raster.model.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) {
     EXPECT_LE(p.least, p.length());
     weight[p.face] += p.weight.at(1);
     area[p.face] += p.area;
@@ -107,8 +107,8 @@ TEST_F(SizesOfModel, parts_sum_up_to_the_weights_of_the_faces) {
   for (std::size_t f = 0; f < weight.size(); ++f) {
     EXPECT_NEAR(weight[f] / sizing.face_weight[f], 1, 1e-9);
     double in_cells = 0;
-    for (std::int64_t k = raster.faces.offsets[f]; k < raster.faces.offsets[f + 1]; ++k)
-      in_cells += static_cast<double>(raster.faces.area[static_cast<std::size_t>(k)]);
+    for (std::int64_t k = raster.model.faces.offsets[f]; k < raster.model.faces.offsets[f + 1]; ++k)
+      in_cells += static_cast<double>(raster.model.faces.area[static_cast<std::size_t>(k)]);
     EXPECT_NEAR(area[f] / in_cells, 1, 1e-9);
   }
   double triangles = 0;
@@ -125,8 +125,9 @@ TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
   const RasterArtifact raster = read_raster(staged_.raster.output);
   const MappedSizing sizing = map_sizing(staged_.prolong.output);
   const std::vector<GroupSizes> sampled = sampled_groups(raster);
-  SizeTally tally = tally_by_group(raster.labels, raster.faces.n_faces());
-  face_weights(raster.faces, raster.octree.shape.view(), *sizing.field, [&](const SizedPart& p) { tally.add(p); });
+  SizeTally tally = tally_by_group(raster.model.labels, raster.model.faces.n_faces());
+  face_weights(raster.model.faces, raster.octree.shape.view(), *sizing.field,
+               [&](const SizedPart& p) { tally.add(p); });
   const std::vector<GroupSizes> groups = tally.groups(1, 1);
   ASSERT_EQ(sampled.size(), groups.size());
   for (const GroupSizes& g : sampled) {
@@ -139,7 +140,7 @@ TEST_F(SizesOfModel, of_the_samples_are_at_least_those_of_the_field) {
         << "growth makes lengths smaller only; beside a sample they are larger";
     EXPECT_NEAR(sum_of_shares(g), 1, 1e-12);
   }
-  const std::vector<std::string> lines = sampled_lines(sampled, raster.cause_names(), 12);
+  const std::vector<std::string> lines = sampled_lines(sampled, raster.model.cause_names(), 12);
   EXPECT_EQ(lines.size(), 1 + sampled.size());
   EXPECT_EQ(lines[0].find("triangles"), std::string::npos);
 }

@@ -39,22 +39,22 @@ class UndercutsOfModel : public testing::Test {
 
 TEST_F(UndercutsOfModel, by_strips_are_stored_in_the_raster) {
   const RasterArtifact raster = read_raster(staged_.raster.output);
-  ASSERT_FALSE(raster.undercuts.empty());
-  EXPECT_EQ(raster.face_lmin, std::vector<double>(raster.labels.face_name.size(), 0.03));
-  for (const Undercut& u : raster.undercuts) {
+  ASSERT_FALSE(raster.model.undercuts.empty());
+  EXPECT_EQ(raster.model.face_lmin, std::vector<double>(raster.model.labels.face_name.size(), 0.03));
+  for (const Undercut& u : raster.model.undercuts) {
     EXPECT_EQ(cause_kind(u.cause), CauseKind::kFace);
     EXPECT_NEAR(u.least, 0.025, 1e-4);
     EXPECT_NEAR(u.place.z, 0.01, 1e-4);
   }
   staged_.raster.lmin.clear();
   staged_.make_raster("thin_plate");
-  EXPECT_TRUE(read_raster(staged_.raster.output).undercuts.empty());
-  EXPECT_TRUE(read_raster(staged_.raster.output).face_lmin.empty());
+  EXPECT_TRUE(read_raster(staged_.raster.output).model.undercuts.empty());
+  EXPECT_TRUE(read_raster(staged_.raster.output).model.face_lmin.empty());
 }
 
 TEST_F(UndercutsOfModel, by_neighbours_and_sources_are_stored_in_the_sizing) {
   staged_.make_sizing();
-  const std::vector<Undercut> plain = read_sizing(staged_.prolong.output).undercuts;
+  const std::vector<Undercut> plain = read_sizing(staged_.prolong.output).model.undercuts;
   ASSERT_FALSE(plain.empty()) << "the plate beside its sides";
   for (const Undercut& u : plain) EXPECT_NE(cause_kind(u.cause), CauseKind::kSource);
   staged_.prolong.sources = {staged_.dir / "s.toml"};
@@ -63,14 +63,14 @@ TEST_F(UndercutsOfModel, by_neighbours_and_sources_are_stored_in_the_sizing) {
   const nlohmann::json summary = staged_.make_sizing();
   const SizingArtifact sizing = read_sizing(staged_.prolong.output);
   const auto of_source = [](const Undercut& u) { return cause_kind(u.cause) == CauseKind::kSource; };
-  const auto found = std::find_if(sizing.undercuts.begin(), sizing.undercuts.end(), of_source);
-  ASSERT_NE(found, sizing.undercuts.end());
+  const auto found = std::find_if(sizing.model.undercuts.begin(), sizing.model.undercuts.end(), of_source);
+  ASSERT_NE(found, sizing.model.undercuts.end());
   EXPECT_NEAR(found->least, 0.005, 1e-6);
-  EXPECT_EQ(summary["below_lmin"].size(), sizing.undercuts.size());
+  EXPECT_EQ(summary["below_lmin"].size(), sizing.model.undercuts.size());
   staged_.prolong.raster = staged_.prolong.output;  // on the finished field
   staged_.prolong.sources.clear();
   staged_.make_sizing();
-  EXPECT_EQ(read_sizing(staged_.prolong.output).undercuts, plain);
+  EXPECT_EQ(read_sizing(staged_.prolong.output).model.undercuts, plain);
 }
 
 }  // namespace
