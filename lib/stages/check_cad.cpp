@@ -253,19 +253,21 @@ double volume_of_gaps(const ModelTables& tables, const std::vector<double>& give
 void compare_wholes(const ModelTables& tables, Findings& f) {
   double area = 0;
   for (const double a : tables.face_area) area += a;
-  if (area > 0) f.area_difference = f.measure.area / area - 1;
+  if (area > 0) f.cad->area_difference = f.measure.area / area - 1;
   const bool has_volume =
       f.topology.is_closed() && f.topology.n_cad_boundary_edges == 0 && f.topology.n_cad_nonmanifold_edges == 0;
-  if (has_volume && tables.volume && *tables.volume != 0) f.volume_difference = f.measure.volume / *tables.volume - 1;
+  if (has_volume && tables.volume && *tables.volume != 0)
+    f.cad->volume_difference = f.measure.volume / *tables.volume - 1;
 }
 
 /// The area of all faces together: small ones may be below the sizes, the whole may not. Faces that are missing have a
 /// check of their own.
 Check check_cad_area(const Findings& f, bool has_all_faces, double tolerance) {
   Check c{"cad-area", "meshes whose area differs from the CAD's", {}, true, ""};
-  if (!f.area_difference) return c;
-  if (has_all_faces && std::fabs(*f.area_difference) > std::max(kMostOff, tolerance)) c.defects.add({});
-  c.note = fmt::format("mesh area / CAD area {:.6f}", 1 + *f.area_difference);
+  const std::optional<double>& difference = f.cad->area_difference;
+  if (!difference) return c;
+  if (has_all_faces && std::fabs(*difference) > std::max(kMostOff, tolerance)) c.defects.add({});
+  c.note = fmt::format("mesh area / CAD area {:.6f}", 1 + *difference);
   return c;
 }
 
@@ -275,19 +277,20 @@ Check check_cad_volume(const FacesOfMesh& mesh, const ModelTables& tables, const
                        const Findings& f) {
   constexpr double kTolerance = 0.005;  // relative
   Check c{"cad-volume", "closed meshes whose volume differs from the CAD's", {}, true, ""};
-  if (!f.volume_difference) {
+  const std::optional<double>& difference = f.cad->volume_difference;
+  if (!difference) {
     c.note = tables.volume ? "open or non-manifold: none" : "open, or faces between solids: none";
     return c;
   }
-  const ChordError& chords = *f.chords;
+  const ChordError& chords = f.cad->chords;
   double explained = volume_of_tolerances(tables, chords, given) + volume_of_gaps(tables, given);
   for (const FaceMoments& part : mesh.moments) explained += part.strip_volume;
   for (const double volume : chords.volume) explained += volume;
   explained /= std::fabs(*tables.volume);
-  if (std::fabs(*f.volume_difference) > kTolerance + explained) c.defects.add({});
+  if (std::fabs(*difference) > kTolerance + explained) c.defects.add({});
   c.note =
       fmt::format("mesh volume / CAD volume {:.6f} (chords of the sizes, closed strips, tolerances, gaps: {:.3g} %)",
-                  1 + *f.volume_difference, 100 * explained);
+                  1 + *difference, 100 * explained);
   return c;
 }
 
@@ -335,11 +338,11 @@ std::vector<FaceMoments> measure_faces(const SurfaceMesh& mesh, const OwnTriangl
 void check_against_cad(const FacesOfMesh& mesh, const ModelTables& tables, double sewing, double area_tolerance,
                        Findings& f) {
   f.measure.face_area.resize(tables.n_faces(), 0);
-  f.cad_area = tables.face_area;
-  f.face_group = tables.labels.face_group;
+  f.cad->face_area = tables.face_area;
+  f.cad->face_group = tables.labels.face_group;
   f.checks.push_back(check_faces(mesh, tables));
   const bool has_all_faces = !f.checks.back().fails();
-  const AreaChecks areas = check_areas(mesh, f.measure, tables, *f.chords, area_tolerance);
+  const AreaChecks areas = check_areas(mesh, f.measure, tables, f.cad->chords, area_tolerance);
   f.checks.push_back(areas.areas);
   f.checks.push_back(areas.below);
   compare_wholes(tables, f);
@@ -347,9 +350,9 @@ void check_against_cad(const FacesOfMesh& mesh, const ModelTables& tables, doubl
   const std::vector<double> given = given_tolerances(tables, sewing);
   f.checks.push_back(check_cad_volume(mesh, tables, given, f));
   const std::vector<double> of_group = face_tolerances(tables.labels);
-  f.checks.push_back(check_on_surface(tables, *f.chords, of_group, f.unit));
-  if (!of_group.empty()) f.checks.push_back(check_group_tolerance(tables, *f.chords, of_group, f.unit));
-  f.checks.push_back(check_off_surface(tables, *f.chords, given));
+  f.checks.push_back(check_on_surface(tables, f.cad->chords, of_group, f.unit));
+  if (!of_group.empty()) f.checks.push_back(check_group_tolerance(tables, f.cad->chords, of_group, f.unit));
+  f.checks.push_back(check_off_surface(tables, f.cad->chords, given));
 }
 
 }  // namespace st

@@ -34,8 +34,8 @@ struct FacesOfMesh {
   std::span<const FaceMoments> moments;       ///< of all shares
 };
 
-/// Adds the checks and what they compare to `f`, whose chords, measure and topology are there. `sewing`: tolerance that
-/// the user let st-import sew by, model unit; `area_tolerance`: of a face's area.
+/// Adds the checks and what they compare to `f`, whose cad->chords, measure and topology are there. `sewing`: tolerance
+/// that the user let st-import sew by, model unit; `area_tolerance`: of a face's area.
 void check_against_cad(const FacesOfMesh& mesh, const ModelTables& tables, double sewing, double area_tolerance,
                        Findings& f);
 

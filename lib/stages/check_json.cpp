@@ -129,7 +129,7 @@ json groups_json(const SurfaceMesh& mesh, const Findings& f, ReportDetail detail
                {"jumps", jump_json(f.quality.group_jumps[g], detail)}};
     if (f.conformity && g < f.conformity->groups.size())
       entry["sizes"] = conformity_json(f.conformity->groups[g], detail);
-    if (f.deviation) entry["deviation"] = deviation_json(deviation[g], detail);
+    if (f.cad) entry["deviation"] = deviation_json(deviation[g], detail);
     groups.push_back(entry);
   }
   return groups;
@@ -137,8 +137,8 @@ json groups_json(const SurfaceMesh& mesh, const Findings& f, ReportDetail detail
 
 /// Relative difference between the mesh's and the CAD's area of a face; none without a geometry or an area.
 std::optional<double> area_error(const Findings& f, std::size_t face) {
-  if (face >= f.cad_area.size() || !(f.cad_area[face] > 0)) return std::nullopt;
-  return std::fabs(f.measure.face_area[face] - f.cad_area[face]) / f.cad_area[face];
+  if (!f.cad || face >= f.cad->face_area.size() || !(f.cad->face_area[face] > 0)) return std::nullopt;
+  return std::fabs(f.measure.face_area[face] - f.cad->face_area[face]) / f.cad->face_area[face];
 }
 
 json face_json(const SurfaceMesh& mesh, const Findings& f, std::size_t i, ReportDetail detail) {
@@ -149,10 +149,10 @@ json face_json(const SurfaceMesh& mesh, const Findings& f, std::size_t i, Report
          {"area", f.measure.face_area[i]},
          {"mean", q.mean},
          {"min", q.min}};
-  if (const auto error = area_error(f, i)) j["cad_area"] = f.cad_area[i], j["area_error"] = *error;
-  if (f.chords && i < f.chords->distance.size()) j["chord_distance"] = f.chords->distance[i];
+  if (const auto error = area_error(f, i)) j["cad_area"] = f.cad->face_area[i], j["area_error"] = *error;
+  if (f.cad && i < f.cad->chords.distance.size()) j["chord_distance"] = f.cad->chords.distance[i];
   if (f.conformity && i < f.conformity->faces.size()) j["size_share"] = f.conformity->faces[i].share();
-  if (f.deviation && i < f.deviation->faces.size()) j["deviation"] = deviation_json(f.deviation->faces[i], detail);
+  if (f.cad && i < f.cad->deviation.faces.size()) j["deviation"] = deviation_json(f.cad->deviation.faces[i], detail);
   if (detail == ReportDetail::kSummary) return j;
   j["quality"] = quality_json(q, detail);
   j["jumps"] = jump_json(f.quality.face_jumps[i], detail);
@@ -205,8 +205,8 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
          {"crossings", f.crossings.crossings.count},
          {"area", f.measure.area},
          {"volume", f.measure.volume},
-         {"area_difference", f.area_difference ? json(*f.area_difference) : json()},
-         {"volume_difference", f.volume_difference ? json(*f.volume_difference) : json()},
+         {"area_difference", f.cad && f.cad->area_difference ? json(*f.cad->area_difference) : json()},
+         {"volume_difference", f.cad && f.cad->volume_difference ? json(*f.cad->volume_difference) : json()},
          {"checks", checks},
          {"quality", quality_json(f.quality.model, ReportDetail::kFull)},
          {"jump_p999", f.quality.jump_p999},
@@ -218,9 +218,9 @@ std::string check_report_json(const std::string& path, const SurfaceMesh& mesh, 
   j["jumps"] = jump_json(f.quality.jumps, ReportDetail::kFull);
   if (f.is_stretched) j["rows"] = rows_json(f.quality.rows);
   if (f.conformity) j["sizes"] = sizes_json(*f.conformity, detail);
-  if (f.deviation) j["deviation"] = deviation_json(f.deviation->model, ReportDetail::kFull);
+  if (f.cad) j["deviation"] = deviation_json(f.cad->deviation.model, ReportDetail::kFull);
   if (!f.wings.empty()) j["lifting_surfaces"] = wing_measures_json(f.wings);
-  if (f.causes) j["causes"] = causes_json(mesh, *f.causes, f.conformity.has_value());
+  if (f.cad) j["causes"] = causes_json(mesh, f.cad->causes, f.conformity.has_value());
   if (detail == ReportDetail::kFull) j["bins"] = bins_json();
   return json_text(j, detail == ReportDetail::kFull ? 1 : -1);
 }

@@ -88,8 +88,9 @@ void report_parts(const CheckBasis& basis, CheckParts& parts, const FaceLabels& 
   f.quality = report_quality(std::move(parts.quality), basis.counts);
   if (basis.field)
     f.conformity = report_conformity(std::move(parts.conformity), labels.group_name.size(), labels.face_name.size());
-  if (basis.cad) f.causes = std::move(parts.causes);
-  if (basis.cad) f.deviation = report_deviation(parts.deviation, basis.cad->model.tables().n_faces());
+  if (!basis.cad) return;
+  f.cad->causes = std::move(parts.causes);
+  f.cad->deviation = report_deviation(parts.deviation, basis.cad->model.tables().n_faces());
 }
 
 CheckParts measure_share(const CheckBasis& basis, const SurfaceMesh& mesh, const TriangleCorners& corners,

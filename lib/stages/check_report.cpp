@@ -31,9 +31,9 @@ std::optional<std::int64_t> Findings::genus() const {
 
 std::vector<DeviationStats> Findings::deviation_by_group() const {
   std::vector<DeviationStats> groups(quality.groups.size());
-  if (!deviation) return groups;
-  for (std::size_t i = 0; i < deviation->faces.size(); ++i)
-    if (static_cast<std::size_t>(face_group[i]) < groups.size()) groups[face_group[i]].add(deviation->faces[i]);
+  for (std::size_t i = 0; cad && i < cad->deviation.faces.size(); ++i)
+    if (static_cast<std::size_t>(cad->face_group[i]) < groups.size())
+      groups[cad->face_group[i]].add(cad->deviation.faces[i]);
   return groups;
 }
 
@@ -68,7 +68,7 @@ std::string group_table(const SurfaceMesh& mesh, const Findings& f) {
   const std::vector<DeviationStats> deviation = f.deviation_by_group();
   std::vector<TableRow> rows{{"group", "triangles", "mean quality", "least", "below 0.3", "angles, deg"}};
   if (f.conformity) rows[0].emplace_back("of the size asked");
-  if (f.deviation) rows[0].push_back("off the surface" + (f.unit.empty() ? "" : ", " + f.unit));
+  if (f.cad) rows[0].push_back("off the surface" + (f.unit.empty() ? "" : ", " + f.unit));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const QualityStats& q = groups[g];
     if (q.n_triangles == 0) continue;
@@ -81,7 +81,7 @@ std::string group_table(const SurfaceMesh& mesh, const Findings& f) {
     if (f.conformity)
       row.push_back(g < f.conformity->groups.size() ? fmt::format("{:.1f} %", 100 * f.conformity->groups[g].share())
                                                     : "");
-    if (f.deviation) row.push_back(fmt::format("{:.3g}", deviation[g].max_distance));
+    if (f.cad) row.push_back(fmt::format("{:.3g}", deviation[g].max_distance));
     rows.push_back(std::move(row));
   }
   const std::size_t n_more = rows.size() > kMostGroups + 1 ? rows.size() - kMostGroups - 1 : 0;
@@ -190,8 +190,7 @@ std::string said_of_sizes(const Findings& f) {
       text += fmt::format(", {} {:.1f} % {} the CAD's", what, 100 * std::fabs(*difference),
                           *difference < 0 ? "below" : "above");
   };
-  add("area", f.area_difference);
-  add("volume", f.volume_difference);
+  if (f.cad) add("area", f.cad->area_difference), add("volume", f.cad->volume_difference);
   return text;
 }
 
@@ -207,11 +206,11 @@ std::string passed_as(const Findings& f) {
 
 /// What is no fault of the mesh, for who reads the last line alone; empty: nothing.
 std::string fault_of_model(const Findings& f) {
-  if (f.n_model_crossings == 0) return "";
-  return fmt::format("{} of {} pairs of triangles cross where {}; ", f.n_model_crossings,
+  if (!f.cad || f.cad->n_model_crossings == 0) return "";
+  return fmt::format("{} of {} pairs of triangles cross where {}; ", f.cad->n_model_crossings,
                      f.crossings.crossings.count + f.crossings.overlapping_neighbours.count,
-                     f.is_of_facets ? "facets of the file do, so repair the file"
-                                    : "the CAD crosses itself, so repair it in the CAD system");
+                     f.cad->is_of_facets ? "facets of the file do, so repair the file"
+                                         : "the CAD crosses itself, so repair it in the CAD system");
 }
 
 std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds) {
@@ -224,9 +223,9 @@ std::string verdict_line(const std::string& path, const SurfaceMesh& mesh, const
 }  // namespace
 
 std::string crossing_note(const Findings& f) {
-  return f.n_model_crossings == 0 ? ""
-                                  : fmt::format("{} crossing or overlapping where {}", f.n_model_crossings,
-                                                f.is_of_facets ? "facets of the file cross" : "the CAD crosses itself");
+  if (!f.cad || f.cad->n_model_crossings == 0) return "";
+  return fmt::format("{} crossing or overlapping where {}", f.cad->n_model_crossings,
+                     f.cad->is_of_facets ? "facets of the file cross" : "the CAD crosses itself");
 }
 
 std::string verdict(const SurfaceMesh& mesh, const Findings& f) {
@@ -253,23 +252,23 @@ std::string check_report_text(const std::string& path, const SurfaceMesh& mesh, 
   text += wing_table(f.wings, f.is_stretched);
   text += quality_lines(mesh, f.quality, f.is_stretched);
   if (f.conformity) text += conformity_lines(*f.conformity);
-  if (f.deviation) text += deviation_line(mesh, *f.deviation, f.unit);
-  if (f.causes) text += cause_lines(mesh, *f.causes, f.conformity.has_value());
+  if (f.cad) text += deviation_line(mesh, f.cad->deviation, f.unit);
+  if (f.cad) text += cause_lines(mesh, f.cad->causes, f.conformity.has_value());
   return text + verdict_line(path, mesh, f, seconds);
 }
 
 /// The face of the body that the mesh leaves most; a far field has no shape to keep, and counts where nothing else is.
 FaceId farthest_face(const SurfaceMesh& mesh, const Findings& f) {
-  const std::vector<DeviationStats>& faces = f.deviation->faces;
+  const std::vector<DeviationStats>& faces = f.cad->deviation.faces;
   const auto is_outside = [&](std::size_t i) {
-    const auto g = static_cast<std::size_t>(f.face_group[i]);
+    const auto g = static_cast<std::size_t>(f.cad->face_group[i]);
     return g < mesh.labels.group_name.size() && is_outer_role(role_of(mesh.labels, g));
   };
   FaceId farthest = kNone;
   double most = 0;
   for (std::size_t i = 0; i < faces.size(); ++i)
     if (faces[i].max_distance > most && !is_outside(i)) most = faces[i].max_distance, farthest = static_cast<FaceId>(i);
-  return farthest == kNone ? f.deviation->worst_distance : farthest;
+  return farthest == kNone ? f.cad->deviation.worst_distance : farthest;
 }
 
 std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, const Findings& f, double seconds,
@@ -290,9 +289,9 @@ std::string check_brief_text(const std::string& path, const SurfaceMesh& mesh, c
   if (f.conformity)
     text += fmt::format("  {:<20} {:.1f} % of edges within {} to {} of the requested length\n", "sizes",
                         100 * f.conformity->free.share(), kConformityMin, kConformityMax);
-  if (f.deviation) {
+  if (f.cad) {
     const FaceId farthest = farthest_face(mesh, f);
-    const double most = farthest == kNone ? 0 : f.deviation->faces[farthest].max_distance;
+    const double most = farthest == kNone ? 0 : f.cad->deviation.faces[farthest].max_distance;
     text += fmt::format("  {:<20} {} off the CAD at most{}\n", "deviation", length_text(most, f.unit),
                         in_face(mesh, farthest));
   }

@@ -30,26 +30,31 @@ struct Check {
   bool fails() const { return decides && defects.count > allowed; }
 };
 
+/// What a geometry tells of its mesh.
+struct CadFindings {
+  bool is_of_facets = false;           ///< the model is a file of facets, no CAD
+  std::int64_t n_model_crossings = 0;  ///< crossings and overlapping neighbours where the model crosses itself
+  ChordError chords;
+  SurfaceDeviation deviation;
+  ShapeCauses causes;
+  std::vector<double> face_area;                             ///< [n_faces] model unit squared
+  std::vector<std::int32_t> face_group;                      ///< [n_faces]
+  std::optional<double> area_difference, volume_difference;  ///< of the whole mesh from the CAD, relative; volume where
+                                                             ///< both have one
+};
+
 /// Everything that was measured.
 struct Findings {
   std::int64_t n_triangles = 0;
   TopologyReport topology;
   ShapeReport shape;
   CrossingReport crossings;
-  std::int64_t n_model_crossings = 0;  ///< crossings and overlapping neighbours where the model crosses itself
-  bool is_of_facets = false;           ///< the model is a file of facets, no CAD
   MeshMeasure measure;
   QualityReport quality;
   bool is_stretched = false;  ///< quality, growth and smallest angles are those that stretched sizes see
-  std::optional<ConformityReport> conformity;                ///< with a sizing
-  std::optional<ChordError> chords;                          ///< with a geometry
-  std::optional<SurfaceDeviation> deviation;                 ///< with a geometry
-  std::optional<ShapeCauses> causes;                         ///< with a geometry
-  std::vector<double> cad_area;                              ///< [n_faces] with a geometry, model unit squared
-  std::vector<std::int32_t> face_group;                      ///< [n_faces] with a geometry
-  std::optional<double> area_difference, volume_difference;  ///< of the whole mesh from the CAD, relative; with a
-                                                             ///< geometry, volume where both have one
-  std::vector<WingMeasure> wings;                            ///< with a sizing
+  std::optional<ConformityReport> conformity;  ///< with a sizing
+  std::vector<WingMeasure> wings;              ///< likewise
+  std::optional<CadFindings> cad;              ///< with a geometry
   std::vector<Check> checks;
   std::string unit = {};  ///< of lengths; empty: unknown
 

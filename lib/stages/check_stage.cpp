@@ -83,18 +83,18 @@ void report_crossings_and_contacts(const SurfaceMesh& mesh, const FoundPairs& fo
     f.crossings = check_crossings(mesh, found.pairs, found.component, found.was_ended, {});
     return;
   }
+  f.cad.emplace().is_of_facets = !cad->model.facets().empty();
   CadContacts contacts(cad->model, mesh);
   WallsApart walls(cad->model, mesh);
   const auto touches_itself = [&](const TrianglePair& pair) {
     if (contacts.touches(pair)) return true;
-    f.n_model_crossings += contacts.crosses(pair);
+    f.cad->n_model_crossings += contacts.crosses(pair);
     return false;
   };
   CadOfPairs pairs{touches_itself, [&](const TrianglePair& pair) { return walls.are_apart(pair); }};
   pairs.is_of_sheet = [&](const TrianglePair& pair) { return walls.are_of_body_and_sheet(pair); };
   if (!has_flow_domain(mesh)) pairs.is_one_body = [&](const TrianglePair& pair) { return walls.are_of_one_body(pair); };
   f.crossings = check_crossings(mesh, found.pairs, found.component, found.was_ended, pairs);
-  f.is_of_facets = !cad->model.facets().empty();
 }
 
 std::vector<Check> list_mesh_checks(const MeshArtifact& artifact, const CheckThresholds& allow, bool is_filled_outside,
@@ -240,12 +240,12 @@ CheckedMesh read_checked_mesh(const CheckStageOptions& o) {
 
 /// How far lifting surfaces are from the CAD, in shares of the chord, where that was measured.
 void add_deviations(std::span<const WingRecord> records, Findings& f) {
-  for (std::size_t w = 0; f.deviation && w < f.wings.size(); ++w) {
+  for (std::size_t w = 0; f.cad && w < f.wings.size(); ++w) {
     double chord = 0, most = 0;
     for (const WingRecord::Station& s : records[w].stations) chord = std::max(chord, s.chord);
     for (const FaceId face : records[w].faces)
-      if (static_cast<std::size_t>(face) < f.deviation->faces.size())
-        most = std::max(most, f.deviation->faces[face].max_distance);
+      if (static_cast<std::size_t>(face) < f.cad->deviation.faces.size())
+        most = std::max(most, f.cad->deviation.faces[face].max_distance);
     if (chord > 0 && !records[w].faces.empty()) f.wings[w].deviation = most / chord;
   }
 }
@@ -273,7 +273,7 @@ void judge(const CheckStageOptions& o, const CheckBasis& basis, const MeshArtifa
   if (!mesh.merged.pairs.empty()) f.checks.push_back(check_pairs(mesh));
   if (const CadSide* cad = basis.cad) {
     std::vector<std::function<void()>> jobs{[&] {
-      f.chords = report_chords(cad->model, mesh, parts.chords);
+      f.cad->chords = report_chords(cad->model, mesh, parts.chords);
       check_against_cad({mesh, basis.counts.faces, basis.face_place, parts.faces}, cad->model.tables(), cad->sewing,
                         o.area_tolerance, f);
     }};
@@ -313,8 +313,8 @@ MeshArtifact check_whole(const CheckStageOptions& o, Progress& progress, Finding
   judge(
       o, basis, artifact, parts,
       [&] {
-        f.causes = find_shape_causes(cad->model, mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
-                                     o.list_below_deg);
+        f.cad->causes = find_shape_causes(cad->model, mesh, corners, f.quality, f.conformity ? &*f.conformity : nullptr,
+                                          o.list_below_deg);
       },
       f);
   return std::move(checked.artifact);

@@ -38,15 +38,15 @@ void check_quality(const BadTriangles& bad, const CheckThresholds& asked, Findin
 }
 
 void check_causes(const CheckThresholds& asked, Findings& f) {
-  if (!asked.max_free_sharp || !f.causes) return;
+  if (!asked.max_free_sharp || !f.cad) return;
   Check c{"max-free-sharp",
-          fmt::format("triangles with an angle below {:g} deg that the CAD does not force", f.causes->angle_deg),
+          fmt::format("triangles with an angle below {:g} deg that the CAD does not force", f.cad->causes.angle_deg),
           {},
           true,
           ""};
-  for (const CausePlace& p : f.causes->sharp.worst[static_cast<std::size_t>(ShapeCause::kFree)])
+  for (const CausePlace& p : f.cad->causes.sharp.worst[static_cast<std::size_t>(ShapeCause::kFree)])
     c.defects.add({p.xyz, p.face, kNone});
-  c.defects.count = f.causes->sharp.free();
+  c.defects.count = f.cad->causes.sharp.free();
   c.allowed = *asked.max_free_sharp;
   f.checks.push_back(c);
 }
@@ -60,7 +60,7 @@ void check_sizes(const CheckThresholds& asked, Findings& f) {
 }
 
 void check_deviation(const CheckThresholds& asked, const ModelTables& tables, Findings& f) {
-  const std::vector<DeviationStats>& faces = f.deviation->faces;
+  const std::vector<DeviationStats>& faces = f.cad->deviation.faces;
   if (!asked.max_deviation.empty()) {
     const double bound = resolve_length(parse_length(asked.max_deviation, "--max-deviation"),
                                         {tables.reference_diagonal(), tables.unit_in_m}, "--max-deviation");
