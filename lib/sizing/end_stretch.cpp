@@ -84,7 +84,8 @@ void bound_stretch_at_ends(std::span<const SpaceSide> sides, const std::function
       box.stretch.along = static_cast<float>(most);
   }
   for (GapPatch& p : patches)
-    if (p.max_aspect > kEndAspect) p.end = of_face.near(p.x, std::hypot(p.s_hi - p.s_lo, p.t_hi - p.t_lo), p.way);
+    if (p.stretch.max_aspect > kEndAspect)
+      p.end = of_face.near(p.shape.x, std::hypot(p.shape.s_hi - p.shape.s_lo, p.shape.t_hi - p.shape.t_lo), p.way);
 }
 
 }  // namespace st

@@ -17,11 +17,11 @@ Vec3 across(Vec3 d, Vec3 n) { return normalized(d - dot(d, n) * n); }
 
 }  // namespace
 
-Vec3 GapPatch::normal_at(double s, double t) const {
+Vec3 Paraboloid::normal_at(double s, double t) const {
   return normalized(normal - (k_ss * s + k_st * t) * axis_s - (k_st * s + k_tt * t) * axis_t);
 }
 
-bool GapPatch::is_inside(double s0, double s1, double t0, double t1) const {
+bool Paraboloid::is_inside(double s0, double s1, double t0, double t1) const {
   if (inside == ~std::uint64_t{0}) return true;
   const auto cells = [](double x0, double x1, double lo, double hi) {  // first and last one
     if (!(hi > lo)) return std::pair(0, 7);
@@ -37,12 +37,12 @@ bool GapPatch::is_inside(double s0, double s1, double t0, double t1) const {
   return false;
 }
 
-double GapPatch::sagging() const {
+double Paraboloid::sagging() const {
   const auto of_circle = [](double k, double half) { return std::abs(k * k * k) * half * half * half * half / 8; };
   return of_circle(k_ss, std::max(-s_lo, s_hi)) + of_circle(k_tt, std::max(-t_lo, t_hi));
 }
 
-Box3 GapPatch::box() const {
+Box3 Paraboloid::box() const {
   Box3 box;
   const double h = 0.5 * (std::abs(k_ss) * std::max(s_lo * s_lo, s_hi * s_hi) +
                           std::abs(k_tt) * std::max(t_lo * t_lo, t_hi * t_hi)) +
@@ -55,7 +55,7 @@ Box3 GapPatch::box() const {
   return box;
 }
 
-std::optional<double> GapPatch::facing_distance(Vec3 from, Vec3 direction) const {
+std::optional<double> Paraboloid::facing_distance(Vec3 from, Vec3 direction) const {
   const Vec3 o = from - x;
   const double os = dot(o, axis_s), ot = dot(o, axis_t), on = dot(o, normal);
   const double ds = dot(direction, axis_s), dt = dot(direction, axis_t), dn = dot(direction, normal);
@@ -71,8 +71,8 @@ std::optional<double> GapPatch::facing_distance(Vec3 from, Vec3 direction) const
   return distance;
 }
 
-GapPatch fit_patch(const std::array<Vec3, 9>& points, Vec3 normal) {
-  GapPatch patch;
+Paraboloid fit_patch(const std::array<Vec3, 9>& points, Vec3 normal) {
+  Paraboloid patch;
   patch.x = points[4];
   patch.normal = normal;
   const Vec3 along_u = across(points[5] - points[3], normal), along_v = across(points[7] - points[1], normal);

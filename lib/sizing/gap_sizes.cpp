@@ -49,6 +49,7 @@ class GapTiler {
   GapTiler(const GapPatch& patch, const std::vector<Facing>& facing, const GapFinder::MeetingPlace& meeting_place,
            double cell_per_length, std::vector<RasterBox>& boxes)
       : patch_(patch),
+        shape_(patch.shape),
         facing_(facing),
         meeting_place_(meeting_place),
         cell_per_length_(cell_per_length),
@@ -57,7 +58,7 @@ class GapTiler {
   }
 
   void run() {
-    const Tile whole{patch_.s_lo, patch_.s_hi, patch_.t_lo, patch_.t_hi};
+    const Tile whole{shape_.s_lo, shape_.s_hi, shape_.t_lo, shape_.t_hi};
     cut(whole, kFirstParts, kFirstParts, 0);
   }
 
@@ -76,7 +77,7 @@ class GapTiler {
   };
 
   Sight look(double s, double t) const {
-    const Vec3 x = patch_.point(s, t), n = patch_.normal_at(s, t);
+    const Vec3 x = shape_.point(s, t), n = shape_.normal_at(s, t);
     Sight sight{patch_.length, 0, nullptr, {}, x, n};
     for (const Facing& f : facing_) {
       const Vec3 to = f.center - x;
@@ -84,7 +85,7 @@ class GapTiler {
       if (std::abs(along) - f.radius > most_cells(patch_) * sight.length ||
           norm2(to) - along * along > f.radius * f.radius)
         continue;
-      const std::optional<double> d = f.patch->facing_distance(x, n);
+      const std::optional<double> d = f.patch->shape.facing_distance(x, n);
       if (d && !is_contact(*f.patch, *d) && std::abs(*d) < cells_to(patch_, *d) * sight.length &&
           !(*d > 0 && (is_past_crossing(*f.patch, s, t, *d) || closes_at_edge(*f.patch, x, n, *d))))
         sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n, x, n};
@@ -97,18 +98,18 @@ class GapTiler {
   bool is_contact(const GapPatch& other, double d) const {
     if (std::abs(d) <= kTouching * patch_.min_length) return true;
     if (patch_.solid < 0 || other.solid < 0 || other.solid == patch_.solid) return false;
-    return d < kSagging * (patch_.sagging() + other.sagging());
+    return d < kSagging * (shape_.sagging() + other.shape.sagging());
   }
 
   /// Beyond a sharp edge the patches of its sides cross, and seem to face each other: where the gap closes, this patch
   /// goes on with the other face behind it. In a gap that ends in an edge there is none of this patch beyond.
   bool is_past_crossing(const GapPatch& other, double s, double t, double d) const {
-    const Vec3 n = patch_.normal_at(s, t), opposite = other.normal_beside(patch_.point(s, t) + d * n);
-    const double along_s = -dot(opposite, patch_.axis_s), along_t = -dot(opposite, patch_.axis_t);
+    const Vec3 n = shape_.normal_at(s, t), opposite = other.shape.normal_beside(shape_.point(s, t) + d * n);
+    const double along_s = -dot(opposite, shape_.axis_s), along_t = -dot(opposite, shape_.axis_t);
     const double slope = std::hypot(along_s, along_t);
     if (!(slope > 0)) return false;
     const double width =
-        (std::abs(along_s) * (patch_.s_hi - patch_.s_lo) + std::abs(along_t) * (patch_.t_hi - patch_.t_lo)) / slope;
+        (std::abs(along_s) * (shape_.s_hi - shape_.s_lo) + std::abs(along_t) * (shape_.t_hi - shape_.t_lo)) / slope;
     const double step = (d * std::abs(dot(opposite, n)) / slope + kBeyond * width) / slope;
     // Near the end of a side its cells may miss the place: those beside it tell as well.
     const std::array asides = {0.0, kSidestep * width / slope, -kSidestep * width / slope};
@@ -125,7 +126,7 @@ class GapTiler {
   bool closes_at_edge(const GapPatch& other, Vec3 x, Vec3 n, double d) const {
     const std::optional<Vec3> edge = meeting_place_(patch_.cause, other.cause, x);
     if (!edge) return false;
-    const Vec3 opposite = other.normal_beside(x + d * n);
+    const Vec3 opposite = other.shape.normal_beside(x + d * n);
     const Vec3 closing = (dot(opposite, n) * n - opposite) / std::abs(dot(opposite, n));  // the slope, as a vector
     const double at_edge = norm(closing) * distance(*edge, x);  // by how much the gap has closed up there, about
     return dot(*edge - x, closing) > 0 && at_edge > kLeastClosing * d && at_edge < kMostClosing * d;
@@ -133,11 +134,11 @@ class GapTiler {
 
   /// Is the place inside the loops, with the other patch's face behind it?
   bool lies_before(const GapPatch& other, double s, double t) const {
-    if (!(s >= patch_.s_lo && s <= patch_.s_hi && t >= patch_.t_lo && t <= patch_.t_hi)) return false;
-    if (!patch_.is_inside(s, s, t, t)) return false;
-    const Vec3 x = patch_.point(s, t), n = patch_.normal_at(s, t);
+    if (!(s >= shape_.s_lo && s <= shape_.s_hi && t >= shape_.t_lo && t <= shape_.t_hi)) return false;
+    if (!shape_.is_inside(s, s, t, t)) return false;
+    const Vec3 x = shape_.point(s, t), n = shape_.normal_at(s, t);
     return std::any_of(facing_.begin(), facing_.end(), [&](const Facing& f) {
-      return f.patch->cause == other.cause && f.patch->facing_distance(x, n).value_or(0) < 0;
+      return f.patch->cause == other.cause && f.patch->shape.facing_distance(x, n).value_or(0) < 0;
     });
   }
 
@@ -145,10 +146,10 @@ class GapTiler {
   /// nearly parallel to the direction makes it.
   void slide_inside(double along_s, double along_t, double& s, double& t) const {
     if (std::abs(along_s) >= std::abs(along_t)) {
-      const double inside = std::clamp(t, patch_.t_lo, patch_.t_hi);
+      const double inside = std::clamp(t, shape_.t_lo, shape_.t_hi);
       s -= (inside - t) * along_t / along_s, t = inside;
     } else {
-      const double inside = std::clamp(s, patch_.s_lo, patch_.s_hi);
+      const double inside = std::clamp(s, shape_.s_lo, shape_.s_hi);
       t -= (inside - s) * along_s / along_t, s = inside;
     }
   }
@@ -180,7 +181,7 @@ class GapTiler {
   /// `closest`: of the tile's corners.
   void visit(const Tile& tile, const Sight& closest, int depth) {
     const double length = closest.length;
-    if (!(length < patch_.length) || !patch_.is_inside(tile.s_lo, tile.s_hi, tile.t_lo, tile.t_hi)) return;
+    if (!(length < patch_.length) || !shape_.is_inside(tile.s_lo, tile.s_hi, tile.t_lo, tile.t_hi)) return;
     const double room = kFill * cell_per_length_ * length;
     const auto parts = [&](double width) {
       return std::clamp(static_cast<int>(std::ceil(width / room)), 1, kMaxParts);
@@ -188,9 +189,9 @@ class GapTiler {
     const int n_s = parts(tile.s_hi - tile.s_lo), n_t = parts(tile.t_hi - tile.t_lo);
     if (n_s * n_t > 1 && depth < kMaxDepth) return cut(tile, n_s, n_t, depth + 1);
     const double s = 0.5 * (tile.s_lo + tile.s_hi), t = 0.5 * (tile.t_lo + tile.t_hi);
-    add_box(patch_.point(s, t), length, patch_.cause, stretch_of(closest),
-            reach_of(0.5 * (patch_.point(tile.s_hi, t) - patch_.point(tile.s_lo, t)),
-                     0.5 * (patch_.point(s, tile.t_hi) - patch_.point(s, tile.t_lo))));
+    add_box(shape_.point(s, t), length, patch_.cause, stretch_of(closest),
+            reach_of(0.5 * (shape_.point(tile.s_hi, t) - shape_.point(tile.s_lo, t)),
+                     0.5 * (shape_.point(s, tile.t_hi) - shape_.point(s, tile.t_lo))));
     if (has_large_) add_far_box(s, t);
   }
 
@@ -219,9 +220,10 @@ class GapTiler {
   }
 
   bool is_large(const GapPatch& other) const { return extent(other) > kLarge * extent(patch_); }
-  static double extent(const GapPatch& p) { return std::max(p.s_hi - p.s_lo, p.t_hi - p.t_lo); }
+  static double extent(const GapPatch& p) { return std::max(p.shape.s_hi - p.shape.s_lo, p.shape.t_hi - p.shape.t_lo); }
 
   const GapPatch& patch_;
+  const Paraboloid& shape_;
   const std::vector<Facing>& facing_;
   const GapFinder::MeetingPlace& meeting_place_;
   const double cell_per_length_;
@@ -242,7 +244,7 @@ void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
   if (ids.empty()) return;
   std::vector<Facing> facing;
   for (const std::int32_t id : ids) {
-    const Box3 box = patches_[id].box();
+    const Box3 box = patches_[id].shape.box();
     facing.push_back({box.center(), 0.5 * box.diagonal(), &patches_[id]});
   }
   GapTiler(patch, facing, meeting_place_, cell_per_length_, boxes).run();

@@ -19,7 +19,7 @@ constexpr double kMuchLonger = 1.5;  // than along the patch's own direction: th
 Vec3 across(Vec3 d, Vec3 n) { return normalized(d - dot(d, n) * n); }
 
 /// Largest curvature in a tangential direction.
-double curvature_in(const GapPatch& patch, Vec3 u) {
+double curvature_in(const Paraboloid& patch, Vec3 u) {
   const double s = dot(u, patch.axis_s), t = dot(u, patch.axis_t);
   return std::abs(patch.k_ss * s * s + 2 * patch.k_st * s * t + patch.k_tt * t * t);
 }
@@ -27,7 +27,7 @@ double curvature_in(const GapPatch& patch, Vec3 u) {
 class GapStretch {
  public:
   GapStretch(const GapPatch& patch, const GapPlace& place) : patch_(patch), place_(place) {
-    opposite_ = place.other->normal_beside(place.met);
+    opposite_ = place.other->shape.normal_beside(place.met);
     width_ = distance(place.x, place.met);
   }
 
@@ -52,13 +52,13 @@ class GapStretch {
 
  private:
   double along_in(Vec3 u) const {
-    const double aspect = std::min(patch_.max_aspect, most_aspect_at(patch_.end, u));
-    double along = std::min(patch_.max_along, aspect * place_.length);
+    const double aspect = std::min(patch_.stretch.max_aspect, most_aspect_at(patch_.end, u));
+    double along = std::min(patch_.stretch.max_length, aspect * place_.length);
     for (const GapPatch* side : {&patch_, place_.other}) {
-      const double curvature = curvature_in(*side, u);
-      if (along * curvature > patch_.alpha) along = patch_.alpha / curvature;
-      if (along * along * curvature > patch_.alpha * place_.length)
-        along = std::sqrt(patch_.alpha * place_.length / curvature);
+      const double curvature = curvature_in(side->shape, u);
+      if (along * curvature > patch_.stretch.alpha) along = patch_.stretch.alpha / curvature;
+      if (along * along * curvature > patch_.stretch.alpha * place_.length)
+        along = std::sqrt(patch_.stretch.alpha * place_.length / curvature);
     }
     const double slope = std::abs(dot(opposite_, u) / dot(opposite_, place_.normal));
     return along * slope > kChange * width_ ? kChange * width_ / slope : along;
@@ -73,7 +73,7 @@ class GapStretch {
 }  // namespace
 
 SampleStretch gap_stretch(const GapPatch& patch, const GapPlace& place) {
-  return patch.max_aspect > 1 ? GapStretch(patch, place).run() : SampleStretch();
+  return patch.stretch.max_aspect > 1 ? GapStretch(patch, place).run() : SampleStretch();
 }
 
 }  // namespace st

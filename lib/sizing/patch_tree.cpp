@@ -18,7 +18,7 @@ struct Prism {
   double lo[3], hi[3];
   Box3 box;
 
-  Prism(const GapPatch& p, const Box3& own, double reach)
+  Prism(const Paraboloid& p, const Box3& own, double reach)
       : x(p.x), axes{p.axis_s, p.axis_t, p.normal}, lo{p.s_lo, p.t_lo, 0}, hi{p.s_hi, p.t_hi, 0} {
     box.add(own);
     // Normals of a curved patch lean outward: what it sees at `reach` is as much wider.
@@ -53,8 +53,8 @@ struct Prism {
 PatchTree::PatchTree(std::span<const GapPatch> patches) : patches_(patches), order_(patches.size()) {
   std::iota(order_.begin(), order_.end(), 0);
   for (const GapPatch& p : patches) {
-    boxes_.push_back(p.box());
-    cones_.push_back(cone_of(p));
+    boxes_.push_back(p.shape.box());
+    cones_.push_back(cone_of(p.shape));
   }
   if (!patches.empty()) build(0, patches.size());
 }
@@ -63,7 +63,7 @@ PatchTree::Cone PatchTree::make_cone(Vec3 axis, double angle) {
   return {axis, angle, std::cos(angle), std::sin(angle)};
 }
 
-PatchTree::Cone PatchTree::cone_of(const GapPatch& p) {
+PatchTree::Cone PatchTree::cone_of(const Paraboloid& p) {
   double cosine = 1;
   for (const double s : {p.s_lo, p.s_hi})
     for (const double t : {p.t_lo, p.t_hi}) cosine = std::min(cosine, dot(p.normal, p.normal_at(s, t)));
@@ -87,7 +87,7 @@ std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
   Box3 box, centers;
   for (std::size_t i = begin; i < end; ++i) {
     box.add(boxes_[order_[i]]);
-    centers.add(patches_[order_[i]].x);
+    centers.add(patches_[order_[i]].shape.x);
   }
   nodes_[index].box = box;
   if (end - begin <= kLeafPatches) {
@@ -101,7 +101,7 @@ std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
   const std::size_t middle = (begin + end) / 2;
   const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
   std::nth_element(at(begin), at(middle), at(end), [&](std::int32_t a, std::int32_t b) {
-    const double xa = patches_[a].x.*axis, xb = patches_[b].x.*axis;
+    const double xa = patches_[a].shape.x.*axis, xb = patches_[b].shape.x.*axis;
     return xa != xb ? xa < xb : a < b;
   });
   build(begin, middle);
@@ -114,7 +114,7 @@ std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
 void PatchTree::find_facing(std::size_t patch, double reach, std::vector<std::int32_t>& found) const {
   ST_ASSERT(patch < patches_.size() && reach >= 0);
   found.clear();
-  const Prism prism(patches_[patch], boxes_[patch], reach);
+  const Prism prism(patches_[patch].shape, boxes_[patch], reach);
   const Cone& own = cones_[patch];
   const double opposed = std::acos(kFacing) - own.angle;  // the axes may be this far apart, less the other cone's angle
   const double cosine = std::cos(opposed), sine = std::sin(opposed);

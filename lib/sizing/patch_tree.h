@@ -36,7 +36,7 @@ class PatchTree {
   };
 
   static Cone make_cone(Vec3 axis, double angle);
-  static Cone cone_of(const GapPatch& patch);
+  static Cone cone_of(const Paraboloid& patch);
   static Cone united(const Cone& a, const Cone& b);
   std::size_t build(std::size_t begin, std::size_t end);
 

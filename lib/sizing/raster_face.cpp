@@ -261,18 +261,17 @@ class FaceRaster {
   GapPatch gap_patch(const CurvaturePatch& patch, double length, Vec3 way) const {
     std::array<Vec3, 9> points;
     for (std::size_t k = 0; k < 9; ++k) points[k] = patch.probe[k].x;
-    GapPatch result = fit_patch(points, patch.probe[4].normal);
+    GapPatch result;
+    result.shape = fit_patch(points, patch.probe[4].normal);
+    result.shape.inside = cells_inside(patch, loops_);
     result.length = length;
     if (limits_.gap_floor > 0) result.slot_floor = std::min(limits_.gap_floor, limits_.min_length);
     result.min_length = limits_.gap_floor > 0 ? result.slot_floor : limits_.min_length;
     result.gap_cells = limits_.gap_cells;
     result.wall_cells = limits_.wall_cells;
-    result.max_aspect = limits_.max_aspect;
-    result.max_along = max_along();
-    result.alpha = limits_.alpha;
+    result.stretch = {limits_.max_aspect, max_along(), limits_.alpha};
     result.way = way;
     result.cause = cause_;
-    result.inside = cells_inside(patch, loops_);
     return result;
   }
 

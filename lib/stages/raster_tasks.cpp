@@ -134,7 +134,7 @@ class RasterTasks {
     for (GapPatch& patch : patches) {
       patch.solid = model_.tables().face_solid[f];
       patch.keeps_floor = limits->has_own_min;
-      if (is_reversed != limits_.is_material_ahead) patch.flip();
+      if (is_reversed != limits_.is_material_ahead) patch.shape.flip();
     }
     const std::vector<SpaceSide> sides = sides_in_space(*surface, *loops_[f]);
     raster_narrow_parts(f, sides, strip, boxes);

@@ -31,10 +31,10 @@ RasterBox long_box(Vec3 x) {
 
 GapPatch patch_at(Vec3 x, Vec3 way) {
   GapPatch patch;
-  patch.x = x;
-  patch.s_lo = patch.t_lo = -0.2;
-  patch.s_hi = patch.t_hi = 0.2;
-  patch.max_aspect = 20;
+  patch.shape.x = x;
+  patch.shape.s_lo = patch.shape.t_lo = -0.2;
+  patch.shape.s_hi = patch.shape.t_hi = 0.2;
+  patch.stretch.max_aspect = 20;
   patch.way = way;
   return patch;
 }
@@ -70,7 +70,7 @@ TEST(EndStretch, is_told_to_patches_that_reach_an_end) {
   std::vector<GapPatch> patches{patch_at({0.3, 5, 0}, {1, 0, 0}), patch_at({0.3, 5, 0}, {}),
                                 patch_at({0.3, 5, 0}, {0, 1, 0}), patch_at({5, 5, 0}, {1, 0, 0}),
                                 patch_at({9.8, 5, 0}, {1, 0, 0}), patch_at({0.3, 5, 0}, {1, 0, 0})};
-  patches.back().max_aspect = 2;
+  patches.back().stretch.max_aspect = 2;
   std::vector<RasterBox> boxes;
   bound_stretch_at_ends(sides_of_square(), ends_at, 0, boxes, patches);
   EXPECT_EQ(patches[0].end, (Vec3{0, -1, 0}));

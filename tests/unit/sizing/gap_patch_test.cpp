@@ -21,7 +21,7 @@ std::array<Vec3, 9> grid(const Height& height) {
 }
 
 TEST(GapPatch, fits_a_paraboloid_by_itself) {
-  const GapPatch p =
+  const Paraboloid p =
       fit_patch(grid([](double x, double y) { return 0.5 * (2 * x * x - 3 * y * y) + 0.7 * x * y; }), {0, 0, 1});
   EXPECT_NEAR(p.k_ss, 2, 1e-4);
   EXPECT_NEAR(p.k_tt, -3, 1e-4);
@@ -32,7 +32,7 @@ TEST(GapPatch, fits_a_paraboloid_by_itself) {
 }
 
 TEST(GapPatch, sags_as_a_circle_does) {
-  GapPatch p;
+  Paraboloid p;
   p.s_lo = -0.1, p.s_hi = 0.2, p.k_ss = -1;
   EXPECT_NEAR(p.sagging(), (1 - std::sqrt(1 - 0.04)) - 0.02, 1e-5);
   p.flip();
@@ -40,12 +40,12 @@ TEST(GapPatch, sags_as_a_circle_does) {
 }
 
 TEST(GapPatch, fits_a_plane_and_a_point_without_curvature) {
-  const GapPatch plane = fit_patch(grid([](double, double) { return 0.0; }), {0, 0, 1});
+  const Paraboloid plane = fit_patch(grid([](double, double) { return 0.0; }), {0, 0, 1});
   EXPECT_EQ(plane.k_ss, 0);
   EXPECT_EQ(plane.k_tt, 0);
   std::array<Vec3, 9> same;
   same.fill({1, 2, 3});
-  const GapPatch point = fit_patch(same, {0, 0, 1});
+  const Paraboloid point = fit_patch(same, {0, 0, 1});
   EXPECT_EQ(point.s_lo, point.s_hi);
   EXPECT_NEAR(norm(point.axis_s), 1, 1e-12);
   EXPECT_NEAR(norm(point.axis_t), 1, 1e-12);
@@ -53,7 +53,7 @@ TEST(GapPatch, fits_a_plane_and_a_point_without_curvature) {
 }
 
 TEST(GapPatch, has_the_normal_of_its_paraboloid) {
-  const GapPatch p = fit_patch(grid([](double x, double y) { return x * x + 0.5 * y * y; }), {0, 0, 1});
+  const Paraboloid p = fit_patch(grid([](double x, double y) { return x * x + 0.5 * y * y; }), {0, 0, 1});
   const double s = 0.07, t = -0.04, d = 1e-6;
   const Vec3 numeric = normalized(cross(p.point(s + d, t) - p.point(s - d, t), p.point(s, t + d) - p.point(s, t - d)));
   EXPECT_LE(distance(p.normal_at(s, t), numeric), 1e-6);
@@ -61,7 +61,7 @@ TEST(GapPatch, has_the_normal_of_its_paraboloid) {
 
 TEST(GapPatch, lies_in_its_box) {
   for (const double k : {-4.0, 0.0, 4.0}) {
-    const GapPatch p =
+    const Paraboloid p =
         fit_patch(grid([&](double x, double y) { return 0.5 * k * (x * x + y * y) + 0.3 * k * x * y; }), {0, 0, 1});
     const Box3 box = p.box();
     for (int i = 0; i <= 10; ++i)
@@ -77,7 +77,7 @@ TEST(GapPatch, lies_in_its_box) {
 
 TEST(GapPatch, is_met_by_a_ray_from_the_side_its_normal_looks_to) {
   const auto bowl = [](double x, double y) { return 0.5 * (x * x + y * y); };
-  const GapPatch p = fit_patch(grid(bowl), {0, 0, 1});
+  const Paraboloid p = fit_patch(grid(bowl), {0, 0, 1});
   const auto down = p.facing_distance({0.05, 0.02, 1}, {0, 0, -1});
   ASSERT_TRUE(down);
   EXPECT_NEAR(*down, 1 - bowl(0.05, 0.02), 1e-6);
@@ -89,7 +89,7 @@ TEST(GapPatch, is_met_by_a_ray_from_the_side_its_normal_looks_to) {
 }
 
 TEST(GapPatch, is_met_from_the_other_side_once_flipped) {
-  GapPatch p = fit_patch(grid([](double x, double y) { return x * x + y * y; }), {0, 0, 1});
+  Paraboloid p = fit_patch(grid([](double x, double y) { return x * x + y * y; }), {0, 0, 1});
   const Vec3 before = p.point(0.05, 0.05);
   p.flip();
   EXPECT_LE(distance(p.point(0.05, 0.05), before), 1e-12) << "the same surface";
@@ -98,7 +98,7 @@ TEST(GapPatch, is_met_from_the_other_side_once_flipped) {
 }
 
 TEST(GapPatch, is_not_met_where_its_cells_lie_outside_the_loops) {
-  GapPatch p = fit_patch(grid([](double, double) { return 0.0; }), {0, 0, 1});
+  Paraboloid p = fit_patch(grid([](double, double) { return 0.0; }), {0, 0, 1});
   p.inside = ~(std::uint64_t{0xc0c0} << (8 * 3));  // rows 3 and 4, columns 6 and 7: beside the middle of s = s_hi
   const auto is_inside = [&](double s, double t) { return p.is_inside(s, s, t, t); };
   EXPECT_FALSE(is_inside(0.09, 0.01) || is_inside(0.09, -0.01));

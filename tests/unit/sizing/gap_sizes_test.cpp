@@ -28,7 +28,7 @@ void add_patches(const Surface& surface, Normals normals, const SamplingLimits& 
   std::vector<GapPatch> found;
   raster_face(surface, loops, own, cause, boxes, &found);
   if (normals == Normals::kAgainst)
-    for (GapPatch& p : found) p.flip();
+    for (GapPatch& p : found) p.shape.flip();
   patches.insert(patches.end(), found.begin(), found.end());
 }
 

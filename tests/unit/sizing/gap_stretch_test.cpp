@@ -26,21 +26,21 @@ SamplingLimits stretched_limits(double max_length) {
 /// A flat patch of 2 x 2 that may be stretched along `way`.
 GapPatch flat_patch(Vec3 x, Vec3 normal, Vec3 way) {
   GapPatch patch;
-  patch.x = x;
-  patch.normal = normal;
-  patch.axis_s = {1, 0, 0};
-  patch.axis_t = cross(normal, patch.axis_s);
-  patch.s_lo = patch.t_lo = -1;
-  patch.s_hi = patch.t_hi = 1;
-  patch.max_aspect = 20;
-  patch.max_along = 10;
-  patch.alpha = radians(10);
+  patch.shape.x = x;
+  patch.shape.normal = normal;
+  patch.shape.axis_s = {1, 0, 0};
+  patch.shape.axis_t = cross(normal, patch.shape.axis_s);
+  patch.shape.s_lo = patch.shape.t_lo = -1;
+  patch.shape.s_hi = patch.shape.t_hi = 1;
+  patch.stretch.max_aspect = 20;
+  patch.stretch.max_length = 10;
+  patch.stretch.alpha = radians(10);
   patch.way = way;
   return patch;
 }
 
 SampleStretch stretch_below(const GapPatch& patch, const GapPatch& above, double length = 0.01) {
-  return gap_stretch(patch, {patch.x, patch.normal, &above, above.x, length});
+  return gap_stretch(patch, {patch.shape.x, patch.shape.normal, &above, above.shape.x, length});
 }
 
 TEST(GapStretch, follows_the_patch_where_the_gap_is_even) {
@@ -80,8 +80,8 @@ TEST(GapStretch, follows_the_edge_of_a_wedge) {
 /// Where the gap asks for less than the least length.
 TEST(GapStretch, of_a_patch_so_large_that_it_does_not_see_the_gap_is_that_of_its_length) {
   GapPatch wall = flat_patch({0, 0, 0}, {0, 0, 1}, {0, 1, 0}), small = flat_patch({0, 0, 0.04}, {0, 0, -1}, {0, 1, 0});
-  small.s_lo = small.t_lo = -0.1;
-  small.s_hi = small.t_hi = 0.1;
+  small.shape.s_lo = small.shape.t_lo = -0.1;
+  small.shape.s_hi = small.shape.t_hi = 0.1;
   wall.cause = 1;
   for (GapPatch* patch : {&wall, &small}) {
     patch->length = 1;
@@ -98,9 +98,9 @@ TEST(GapStretch, of_a_patch_so_large_that_it_does_not_see_the_gap_is_that_of_its
 TEST(GapStretch, ends_where_one_of_both_sides_bends_along_it) {
   const GapPatch below = flat_patch({0, 0, 0}, {0, 0, 1}, {0, 1, 0});
   GapPatch above = flat_patch({0, 0, 0.04}, {0, 0, -1}, {});
-  above.k_tt = 1;
+  above.shape.k_tt = 1;
   EXPECT_NEAR(stretch_below(below, above).along, std::sqrt(radians(10) * 0.01), 1e-6);
-  above.k_tt = 100;
+  above.shape.k_tt = 100;
   EXPECT_EQ(stretch_below(below, above).along, 0);
 }
 
@@ -118,7 +118,7 @@ TEST(GapStretch, is_none_of_patches_without_a_direction_or_an_aspect) {
   GapPatch below = flat_patch({0, 0, 0}, {0, 0, 1}, {});
   EXPECT_EQ(stretch_below(below, above).along, 0);
   below.way = {0, 1, 0};
-  below.max_aspect = 1;
+  below.stretch.max_aspect = 1;
   EXPECT_EQ(stretch_below(below, above).along, 0);
 }
 
@@ -132,7 +132,7 @@ TEST(GapStretch, of_a_rod_in_its_bore_is_along_both_on_both_sides) {
     const AxialSurface surface(SurfaceType::kCylinder, frame, radius, 0, 0, 2 * kPi, 0, 10);
     raster_face(surface, {}, stretched_limits(1), radius > 1 ? 1 : 0, boxes, &own);
     if (radius > 1)
-      for (GapPatch& patch : own) patch.flip();
+      for (GapPatch& patch : own) patch.shape.flip();
     patches.insert(patches.end(), own.begin(), own.end());
   }
   std::vector<RasterBox> boxes;
