@@ -13,21 +13,10 @@ constexpr double kLargestTurning = 2;  // angles on small bodies over those of w
 
 using Limits = std::optional<SamplingLimits>;
 
-/// The finest of each limit; nothing asks for nothing.
+/// Nothing asks for nothing.
 Limits finest(const Limits& a, const Limits& b) {
   if (!a || !b) return a ? a : b;
-  SamplingLimits both = *a;
-  both.min_length = std::min(a->min_length, b->min_length);
-  both.max_length = std::min(a->max_length, b->max_length);
-  both.alpha = std::min(a->alpha, b->alpha);
-  both.chord = std::min(a->chord, b->chord);
-  both.gap_cells = std::max(a->gap_cells, b->gap_cells);
-  both.wall_cells = std::max(a->wall_cells, b->wall_cells);
-  both.edge_cells = std::max(a->edge_cells, b->edge_cells);
-  both.min_length = std::min(both.min_length, both.max_length);
-  both.max_aspect = std::min(a->max_aspect, b->max_aspect);
-  both.stretches_curve = a->stretches_curve && b->stretches_curve;
-  return both;
+  return finest(*a, *b);
 }
 
 /// Limits of the faces' insides and of their edges, before the edges' own.

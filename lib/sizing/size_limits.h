@@ -1,6 +1,7 @@
 // The numbers that drive the sampling of curves and surfaces.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -32,5 +33,21 @@ struct SamplingLimits {
   bool has_own_min = false;                        ///< a rule gave min_length: nothing else moves it
   std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
+
+/// The finest of each limit.
+inline SamplingLimits finest(const SamplingLimits& a, const SamplingLimits& b) {
+  SamplingLimits both = a;
+  both.min_length = std::min(a.min_length, b.min_length);
+  both.max_length = std::min(a.max_length, b.max_length);
+  both.alpha = std::min(a.alpha, b.alpha);
+  both.chord = std::min(a.chord, b.chord);
+  both.gap_cells = std::max(a.gap_cells, b.gap_cells);
+  both.wall_cells = std::max(a.wall_cells, b.wall_cells);
+  both.edge_cells = std::max(a.edge_cells, b.edge_cells);
+  both.min_length = std::min(both.min_length, both.max_length);
+  both.max_aspect = std::min(a.max_aspect, b.max_aspect);
+  both.stretches_curve = a.stretches_curve && b.stretches_curve;
+  return both;
+}
 
 }  // namespace st

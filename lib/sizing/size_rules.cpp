@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/nearest_name.h"
 #include "base/text.h"
+#include "sizing/size_options.h"
 
 namespace st {
 namespace {
@@ -146,6 +147,25 @@ Mask edges_of_all_keys(const SizeRule& rule, const ModelTables& t, std::span<con
 }
 
 }  // namespace
+
+std::span<const SizeKey> size_keys() {
+  static constexpr SizeKey keys[] = {{"lmin", &SizeRule::lmin},
+                                     {"lmax", &SizeRule::lmax},
+                                     {"alpha", &SizeRule::alpha_deg, &SizeOptions::kAlpha},
+                                     {"chord", &SizeRule::chord},
+                                     {"gap_cells", &SizeRule::gap_cells, &SizeOptions::kGapCells},
+                                     {"wall_cells", &SizeRule::wall_cells, &SizeOptions::kWallCells},
+                                     {"edge_cells", &SizeRule::edge_cells, &SizeOptions::kEdgeCells},
+                                     {"max_aspect", &SizeRule::max_aspect, &SizeOptions::kMaxAspect}};
+  return keys;
+}
+
+bool SizeRule::asks_sizes() const {
+  const auto is_set = [&](const SizeKey& key) {
+    return std::visit([&](const auto value) { return (this->*value).has_value(); }, key.value);
+  };
+  return is_sampled || std::ranges::any_of(size_keys(), is_set);
+}
 
 bool add_detected(const std::string& word, SizeSelection& selection) {
   if (word != "trailing" && word != "leading") return false;

@@ -4,9 +4,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/length.h"
+#include "base/number_option.h"
 #include "features/strip.h"
 #include "features/wing_edges.h"
 #include "geometry/model/model.h"
@@ -43,10 +45,19 @@ struct SizeRule {
   std::optional<int> gap_cells, wall_cells, edge_cells;
   std::optional<double> max_aspect;  ///< edges that are named are stretched along themselves
 
-  bool asks_sizes() const {
-    return is_sampled || lmin || lmax || chord || alpha_deg || gap_cells || wall_cells || edge_cells || max_aspect;
-  }
+  bool asks_sizes() const;
 };
+
+/// A key of a rule that takes a size: a length, a number, or a count, of which 0 means off.
+struct SizeKey {
+  const char* name;
+  std::variant<std::optional<LengthSpec> SizeRule::*, std::optional<double> SizeRule::*, std::optional<int> SizeRule::*>
+      value;
+  const NumberOption* option = nullptr;  ///< accepted values; null: of a length
+};
+
+/// In the order in which messages name them.
+std::span<const SizeKey> size_keys();
 
 /// Adds the kinds of edges that "trailing" or "leading" mean; false: another word.
 bool add_detected(const std::string& word, SizeSelection& selection);

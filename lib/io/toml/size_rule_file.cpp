@@ -1,22 +1,32 @@
 #include "io/toml/size_rule_file.h"
 
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iterator>
+
 #include "base/hash.h"
 #include "base/nearest_name.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
-#include "sizing/size_options.h"
 
 namespace st {
 namespace {
 
-const std::vector<std::string> kKeys = {
-    "groups", "faces", "edges", "between", "detected",  "trailing_edge", "leading_edge", "for",       "sample",
-    "lmin",   "lmax",  "alpha", "chord",   "gap_cells", "wall_cells",    "edge_cells",   "max_aspect"};
+/// Those that take a size come after them.
+const std::vector<std::string> kOtherKeys = {"groups",        "faces",        "edges", "between", "detected",
+                                             "trailing_edge", "leading_edge", "for",   "sample"};
 
-std::string all_keys() {
-  std::string text;
-  for (const std::string& key : kKeys) text += (text.empty() ? "" : ", ") + key;
-  return text;
+std::vector<std::string> names_of_sizes() {
+  std::vector<std::string> names;
+  for (const SizeKey& key : size_keys()) names.emplace_back(key.name);
+  return names;
+}
+
+std::vector<std::string> all_keys() {
+  std::vector<std::string> keys = kOtherKeys;
+  std::ranges::copy(names_of_sizes(), std::back_inserter(keys));
+  return keys;
 }
 
 /// One table [[size]].
@@ -27,9 +37,8 @@ class RuleReader : TomlEntry {
   SizeRule run() {
     for (const auto& [key, node] : table()) read(std::string(key.str()), node);
     if (!rule_.asks_sizes() && !rule_.meaning)
-      fail(table(),
-           "the rule sets nothing; give lmin, lmax, alpha, chord, gap_cells, wall_cells, edge_cells, max_aspect, "
-           "sample, trailing_edge or leading_edge");
+      fail(table(), fmt::format("the rule sets nothing; give {}, sample, trailing_edge or leading_edge",
+                                fmt::join(names_of_sizes(), ", ")));
     if (rule_.meaning && rule_.selection.empty())
       fail(table(), "trailing_edge and leading_edge need a selection: give edges, between, detected or groups");
     return std::move(rule_);
@@ -55,24 +64,35 @@ class RuleReader : TomlEntry {
       read_for(node);
     else if (key == "sample")
       read_sample(node);
-    else if (key == "lmin")
-      rule_.lmin = length(key, node);
-    else if (key == "lmax")
-      rule_.lmax = length(key, node);
-    else if (key == "chord")
-      rule_.chord = length(key, node);
-    else if (key == "alpha")
-      rule_.alpha_deg = number(key, node, SizeOptions::kAlpha);
-    else if (key == "gap_cells")
-      rule_.gap_cells = count(key, node, SizeOptions::kGapCells);
-    else if (key == "wall_cells")
-      rule_.wall_cells = count(key, node, SizeOptions::kWallCells);
-    else if (key == "edge_cells")
-      rule_.edge_cells = count(key, node, SizeOptions::kEdgeCells);
-    else if (key == "max_aspect")
-      rule_.max_aspect = number(key, node, SizeOptions::kMaxAspect);
     else
-      fail(node, "unknown key '" + key + "' of a [[size]]" + did_you_mean(key, kKeys) + "; allowed are " + all_keys());
+      read_size(node, key);
+  }
+
+  void read_size(const toml::node& node, const std::string& key) {
+    const auto known = std::ranges::find_if(size_keys(), [&](const SizeKey& k) { return k.name == key; });
+    if (known == size_keys().end())
+      fail(node, fmt::format("unknown key '{}' of a [[size]]{}; allowed are {}", key, did_you_mean(key, all_keys()),
+                             fmt::join(all_keys(), ", ")));
+    std::visit([&](const auto value) { set(rule_.*value, *known, node); }, known->value);
+  }
+
+  void set(std::optional<LengthSpec>& value, const SizeKey& key, const toml::node& node) {
+    value = length(key.name, node);
+  }
+
+  void set(std::optional<double>& value, const SizeKey& key, const toml::node& node) {
+    const auto given = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!given) fail(node, fmt::format("{}: takes a number in {}", key.name, key.option->interval));
+    if (const std::string refusal = key.option->refusal(*given); !refusal.empty())
+      fail(node, fmt::format("{}: {}", key.name, refusal));
+    value = *given;
+  }
+
+  void set(std::optional<int>& value, const SizeKey& key, const toml::node& node) {
+    const auto given = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
+    if (!given || (*given != 0 && !key.option->refusal(static_cast<double>(*given)).empty()))
+      fail(node, fmt::format("{}: takes a whole number in {}, or 0 for off", key.name, key.option->interval));
+    value = static_cast<int>(*given);
   }
 
   void read_between(const toml::node& node) {
@@ -107,21 +127,6 @@ class RuleReader : TomlEntry {
   void read_sample(const toml::node& node) {
     if (!node.is_boolean()) fail(node, "sample: takes true or false");
     rule_.is_sampled = node.as_boolean()->get();
-  }
-
-  double number(const std::string& key, const toml::node& node, const NumberOption& option) const {
-    const auto value = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!value) fail(node, key + ": takes a number in " + option.interval);
-    if (const std::string refusal = option.refusal(*value); !refusal.empty()) fail(node, key + ": " + refusal);
-    return *value;
-  }
-
-  /// 0 is accepted, too.
-  int count(const std::string& key, const toml::node& node, const NumberOption& option) const {
-    const auto value = node.is_integer() ? node.value<std::int64_t>() : std::nullopt;
-    if (!value || (*value != 0 && !option.refusal(static_cast<double>(*value)).empty()))
-      fail(node, key + ": takes a whole number in " + option.interval + ", or 0 for off");
-    return static_cast<int>(*value);
   }
 
   SizeRule rule_;
