@@ -331,33 +331,12 @@ const char* link_defect(const OctreeView& octree) {
   return nullptr;
 }
 
-const char* balance_defect(const OctreeView& octree) {
-  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
-    const int level = octree.leaf_levels[leaf];
-    const GridPoint p = morton::decode(octree.leaf_keys[leaf]);
-    const std::uint32_t extent = morton::cell_extent(level);
-    for (int d = 0; d < 27; ++d) {
-      const GridPoint q{p.x + (d % 3 - 1u) * extent, p.y + (d / 3 % 3 - 1u) * extent, p.z + (d / 9 - 1u) * extent};
-      if (q.x >= kCoordinateEnd || q.y >= kCoordinateEnd || q.z >= kCoordinateEnd) continue;
-      if (octree.leaf_levels[octree.find_leaf(morton::encode(q))] + 1 < level) return "not balanced 2:1";
-    }
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 const char* octree_tree_defect(const OctreeView& octree) {
   if (const char* defect = shape_defect(octree)) return defect;
   if (const char* defect = link_defect(octree)) return defect;
   return "";
-}
-
-const char* octree_defect(const OctreeView& octree) {
-  const char* const defect = octree_tree_defect(octree);
-  if (*defect != '\0') return defect;
-  const char* const imbalance = balance_defect(octree);
-  return imbalance ? imbalance : "";
 }
 
 }  // namespace st

@@ -126,7 +126,4 @@ RasterOctree build_octree(const Box3& root, std::span<const RasterBox> boxes);
 /// First defect of an octree's arrays (lengths, order, gaps, links), or "". O(n): for every artifact that is read.
 const char* octree_tree_defect(const OctreeView& octree);
 
-/// Likewise, and its balance, which takes longer: for tests.
-const char* octree_defect(const OctreeView& octree);
-
 }  // namespace st

@@ -14,6 +14,7 @@
 #include "base/threads.h"
 #include "sizing/octree_nodes.h"
 #include "unit/sizing/cases.h"
+#include "unit/sizing/octree_balance.h"
 
 namespace st {
 namespace {
@@ -34,7 +35,7 @@ bool meets(const RasterOctree& octree, std::int32_t leaf, const RasterBox& box, 
 
 TEST(Octree, is_one_empty_cell_without_boxes) {
   const RasterOctree octree = build_octree(kUnitBox, {});
-  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+  EXPECT_STREQ(test::octree_defect(octree.shape.view()), "");
   ASSERT_EQ(octree.shape.leaf_keys.size(), 1u);
   EXPECT_TRUE(std::isinf(octree.stored_length[0]));
   EXPECT_EQ(octree.stored_cause[0], kNone);
@@ -42,7 +43,7 @@ TEST(Octree, is_one_empty_cell_without_boxes) {
 
 TEST(Octree, is_balanced_across_corners) {
   const RasterOctree octree = build_octree(kUnitBox, sphere_boxes(3000));
-  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+  EXPECT_STREQ(test::octree_defect(octree.shape.view()), "");
   const auto [lo, hi] = std::minmax_element(octree.shape.leaf_levels.begin(), octree.shape.leaf_levels.end());
   EXPECT_GE(*hi - *lo, 4) << "the case must have unlike levels to mean anything";
 }
@@ -50,7 +51,7 @@ TEST(Octree, is_balanced_across_corners) {
 TEST(Octree, is_balanced_around_one_tiny_box_beside_the_middle) {
   // next to the root's centre: the coarsest neighbours are across a face, an edge and a corner of the root's children
   const RasterOctree octree = build_octree(kUnitBox, std::vector<RasterBox>{box_at({0.5001, 0.5001, 0.5001}, 1e-5F)});
-  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+  EXPECT_STREQ(test::octree_defect(octree.shape.view()), "");
 }
 
 TEST(Octree, has_no_cell_larger_than_a_box_it_meets) {
@@ -170,7 +171,7 @@ TEST(Octree, of_more_boxes_than_a_thread_takes_at_once_is_that_of_a_few_at_a_tim
   for (std::size_t first = 0; first < boxes.size(); first += 1'000)
     unite_nodes(nodes, split_cells(kUnitBox, std::span(boxes).subspan(first, 1'000)));
   const OctreeShape shape = make_shape(kUnitBox, nodes);
-  EXPECT_STREQ(octree_defect(shape.view()), "");
+  EXPECT_STREQ(test::octree_defect(shape.view()), "");
   PackedLengths stored(shape.leaf_keys.size(), ~std::uint64_t{0});
   for (std::size_t first = 0; first < boxes.size(); first += 1'000) {
     const PackedLengths own = store_boxes(shape, std::span(boxes).subspan(first, 1'000));
@@ -190,13 +191,13 @@ TEST(Octree, ignores_boxes_outside_and_clips_boxes_that_stick_out) {
       build_octree(kUnitBox, std::vector<RasterBox>{box_at({9, 0.5, 0.5}, 0.01F), box_at({-5, -5, -5}, 0.01F)});
   EXPECT_EQ(octree.shape.leaf_keys.size(), 1u);
   const RasterOctree clipped = build_octree(kUnitBox, std::vector<RasterBox>{box_at({1.05, 0.5, 0.5}, 0.1F)});
-  EXPECT_STREQ(octree_defect(clipped.shape.view()), "");
+  EXPECT_STREQ(test::octree_defect(clipped.shape.view()), "");
   EXPECT_GT(clipped.shape.leaf_keys.size(), 1u);
 }
 
 TEST(Octree, stops_at_the_deepest_level) {
   const RasterOctree octree = build_octree(kUnitBox, std::vector<RasterBox>{box_at({0.3, 0.3, 0.3}, 1e-12F)});
-  EXPECT_STREQ(octree_defect(octree.shape.view()), "");
+  EXPECT_STREQ(test::octree_defect(octree.shape.view()), "");
   EXPECT_EQ(*std::max_element(octree.shape.leaf_levels.begin(), octree.shape.leaf_levels.end()), kMaxLevel);
 }
 
@@ -204,13 +205,13 @@ TEST(Octree, defect_finds_a_broken_link_and_a_gap) {
   RasterOctree octree = build_octree(kUnitBox, sphere_boxes(50));
   OctreeShape broken = octree.shape;
   std::swap(broken.node_children[1], broken.node_children[2]);
-  EXPECT_STRNE(octree_defect(broken.view()), "");
+  EXPECT_STRNE(test::octree_defect(broken.view()), "");
   broken = octree.shape;
   broken.leaf_keys[5] += 1;
-  EXPECT_STRNE(octree_defect(broken.view()), "");
+  EXPECT_STRNE(test::octree_defect(broken.view()), "");
   broken = octree.shape;
   broken.leaf_levels.pop_back();
-  EXPECT_STRNE(octree_defect(broken.view()), "");
+  EXPECT_STRNE(test::octree_defect(broken.view()), "");
 }
 
 TEST(Octree, finds_the_leaf_whose_box_holds_the_point) {

@@ -12,6 +12,7 @@
 #include "sizing/octree_field.h"
 #include "sizing/prolong.h"
 #include "unit/sizing/cases.h"
+#include "unit/sizing/octree_balance.h"
 
 namespace st {
 namespace {
@@ -69,7 +70,7 @@ TEST(RefineOctree, without_sources_changes_nothing) {
 TEST(RefineOctree, keeps_octrees_sound) {
   const Refined r({line_source(), sphere_source({0.3, 0.7, 0.7}, 0.1, 0.001)}, test::sphere_boxes(500));
   const OctreeShape fine = refine_octree(r.field());
-  EXPECT_STREQ(octree_defect(fine.view()), "");
+  EXPECT_STREQ(test::octree_defect(fine.view()), "");
   EXPECT_GT(fine.leaf_keys.size(), r.raster().shape.leaf_keys.size());
 }
 
