@@ -37,9 +37,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Names in artifacts are any bytes; JSON wants UTF-8.
-std::string dump(const Json& json) { return json_text(json); }
-
 /// `outputs`: at least one.
 StageSummary export_summary(const std::string& artifact, const std::vector<std::string>& outputs, const Timer& timer) {
   StageSummary summary;
@@ -48,7 +45,7 @@ StageSummary export_summary(const std::string& artifact, const std::vector<std::
   Json json{{"tool", "st-export"}, {"artifact", artifact}, {"output", outputs[0]}};
   if (outputs.size() > 1) json["outputs"] = outputs;
   json["seconds"] = timer.seconds();
-  summary.json = dump(json);
+  summary.json = json_text(json);
   return summary;
 }
 
@@ -287,17 +284,17 @@ StageSummary export_flite(const ExportStageOptions& o, const Timer& timer) {
   if (flite.deviation > tolerance)
     log_warning(fmt::format("{}: the tolerance {:.3g} is not reached, the largest distance is {:.3g}{}", o.output,
                             tolerance, flite.deviation, where));
-  summary.json = dump({{"tool", "st-export"},
-                       {"artifact", o.artifact},
-                       {"output", o.output},
-                       {"faces", flite.n_faces},
-                       {"regions", flite.file.regions.size()},
-                       {"faces_divided", flite.n_divided},
-                       {"segments", flite.file.segments.size()},
-                       {"tolerance", tolerance},
-                       {"deviation", flite.deviation},
-                       {"worst", flite.worst},
-                       {"seconds", timer.seconds()}});
+  summary.json = json_text(Json{{"tool", "st-export"},
+                                {"artifact", o.artifact},
+                                {"output", o.output},
+                                {"faces", flite.n_faces},
+                                {"regions", flite.file.regions.size()},
+                                {"faces_divided", flite.n_divided},
+                                {"segments", flite.file.segments.size()},
+                                {"tolerance", tolerance},
+                                {"deviation", flite.deviation},
+                                {"worst", flite.worst},
+                                {"seconds", timer.seconds()}});
   return summary;
 }
 

@@ -19,9 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Names in artifacts are any bytes; JSON wants UTF-8.
-std::string dump(const Json& json) { return json_text(json); }
-
 /// What there is how many of, by schema: name for people and programs, dataset whose rows are counted, rows that do not
 /// count.
 struct Count {
@@ -157,7 +154,7 @@ Json info_json(const std::string& path, const ArtifactDescription& artifact, con
 /// Lengths with their unit.
 std::string property_text(const AttributeSummary& property, const std::string& unit) {
   const double* value = std::get_if<double>(&property.value);
-  if (!value) return dump(to_json(property));
+  if (!value) return json_text(to_json(property));
   const bool is_length = property.name == "diagonal" || property.name.ends_with("_length");
   return fmt::format("{:.6g}{}", *value, is_length ? in_unit(unit) : "");
 }
@@ -191,12 +188,12 @@ std::string info_lines(const std::string& path, const ArtifactDescription& artif
 StageSummary run_info(const std::string& artifact) {
   const ArtifactDescription description = describe_artifact(artifact);
   const FaceOrigins origins = face_origins(artifact, description);
-  return {info_lines(artifact, description, origins), dump(info_json(artifact, description, origins))};
+  return {info_lines(artifact, description, origins), json_text(info_json(artifact, description, origins))};
 }
 
 StageSummary run_hash(const std::string& artifact) {
   const std::string hash = describe_artifact(artifact).header.content_hash;
-  return {hash, dump({{"tool", "st-info"}, {"artifact", artifact}, {"hash", hash}})};
+  return {hash, json_text(Json{{"tool", "st-info"}, {"artifact", artifact}, {"hash", hash}})};
 }
 
 StageSummary run_diff(const DiffStageOptions& o) {
@@ -207,12 +204,12 @@ StageSummary run_diff(const DiffStageOptions& o) {
                                      : fmt::format("{} and {} differ in {} places", o.a, o.b, differences.size());
   if (differences.empty() && o.tolerance > 0) summary.line += fmt::format(" within {:g}", o.tolerance);
   for (const std::string& difference : differences) summary.line += "\n  " + difference;
-  summary.json = dump({{"tool", "st-diff"},
-                       {"a", o.a},
-                       {"b", o.b},
-                       {"tolerance", o.tolerance},
-                       {"equal", differences.empty()},
-                       {"differences", differences}});
+  summary.json = json_text(Json{{"tool", "st-diff"},
+                                {"a", o.a},
+                                {"b", o.b},
+                                {"tolerance", o.tolerance},
+                                {"equal", differences.empty()},
+                                {"differences", differences}});
   return summary;
 }
 

@@ -14,40 +14,6 @@
 namespace st::occt {
 namespace {
 
-using Points = std::map<double, Vec2>;  // by parameter
-
-Handle(Geom2d_Curve) interpolated(const Points& points) {
-  const int n = static_cast<int>(points.size());
-  Handle(TColgp_HArray1OfPnt2d) poles = new TColgp_HArray1OfPnt2d(1, n);
-  Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, n);
-  int i = 1;
-  for (const auto& [t, uv] : points) {
-    poles->SetValue(i, {uv.x, uv.y});
-    parameters->SetValue(i++, t);
-  }
-  try {
-    Geom2dAPI_Interpolate maker(poles, parameters, false, 1e-12);
-    maker.Perform();
-    Handle(Geom2d_Curve) curve;
-    if (maker.IsDone()) curve = maker.Curve();
-    return curve;
-  } catch (const Standard_Failure&) {
-    return {};
-  }
-}
-
-Handle(Geom2d_Curve) straight(const Points& points) {
-  const auto& [t0, a] = *points.begin();
-  const auto& [t1, b] = *points.rbegin();
-  TColgp_Array1OfPnt2d poles(1, 2);
-  TColStd_Array1OfReal knots(1, 2);
-  TColStd_Array1OfInteger multiplicities(1, 2);
-  poles(1) = {a.x, a.y}, poles(2) = {b.x, b.y};
-  knots(1) = t0, knots(2) = t1;
-  multiplicities(1) = multiplicities(2) = 2;
-  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
-}
-
 double distance_at(const CurveRange& range, const Surface& surface, const Handle(Geom2d_Curve) & curve, double t) {
   const gp_Pnt2d uv = curve->Value(t);
   const gp_Pnt p = range.curve->Value(t);
@@ -56,7 +22,7 @@ double distance_at(const CurveRange& range, const Surface& surface, const Handle
 
 /// Parameters in the middle between two points where the curve is too far off.
 std::vector<double> too_far(const CurveRange& range, const Surface& surface, const Handle(Geom2d_Curve) & curve,
-                            const Points& points, double target) {
+                            const UvPoints& points, double target) {
   std::vector<double> found;
   for (auto p = points.begin(); std::next(p) != points.end(); ++p) {
     const double t = 0.5 * (p->first + std::next(p)->first);
@@ -67,10 +33,44 @@ std::vector<double> too_far(const CurveRange& range, const Surface& surface, con
 
 }  // namespace
 
+Handle(Geom2d_BSplineCurve) spline_through(const UvPoints& points, double tolerance) {
+  const int n = static_cast<int>(points.size());
+  Handle(TColgp_HArray1OfPnt2d) poles = new TColgp_HArray1OfPnt2d(1, n);
+  Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, n);
+  int i = 1;
+  for (const auto& [t, uv] : points) {
+    poles->SetValue(i, {uv.x, uv.y});
+    parameters->SetValue(i++, t);
+  }
+  try {
+    Geom2dAPI_Interpolate maker(poles, parameters, false, tolerance);
+    maker.Perform();
+    if (maker.IsDone()) return maker.Curve();
+  } catch (const Standard_Failure&) {  // points that coincide
+  }
+  return {};
+}
+
+Handle(Geom2d_BSplineCurve) polygon_through(const UvPoints& points) {
+  const int n = static_cast<int>(points.size());
+  TColgp_Array1OfPnt2d poles(1, n);
+  TColStd_Array1OfReal knots(1, n);
+  TColStd_Array1OfInteger multiplicities(1, n);
+  int i = 1;
+  for (const auto& [t, uv] : points) {
+    poles(i) = {uv.x, uv.y};
+    knots(i) = t;
+    multiplicities(i) = i == 1 || i == n ? 2 : 1;
+    ++i;
+  }
+  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
+}
+
 Handle(Geom2d_Curve) fit_pcurve(const CurveRange& range, const Surface& surface,
                                 const std::function<Vec2(double)>& guess, double target) {
   constexpr int kFirstPoints = 33, kMaxPoints = 1000, kRounds = 8;
-  Points points;
+  constexpr double kSamePoint = 1e-12;
+  UvPoints points;
   const auto add = [&](double t) {
     const gp_Pnt p = range.curve->Value(t);
     const Vec3 x{p.X(), p.Y(), p.Z()};
@@ -82,12 +82,12 @@ Handle(Geom2d_Curve) fit_pcurve(const CurveRange& range, const Surface& surface,
   };
   for (int k = 0; k < kFirstPoints; ++k)
     if (!add(range.t0 + (range.t1 - range.t0) * k / (kFirstPoints - 1))) return {};
-  Handle(Geom2d_Curve) curve = straight(points);
+  Handle(Geom2d_Curve) curve = polygon_through({*points.begin(), *points.rbegin()});
   bool is_straight = too_far(range, surface, curve, points, target).empty();
   for (const auto& [t, uv] : points) is_straight &= distance_at(range, surface, curve, t) <= target;
   if (is_straight) return curve;
   for (int round = 0; round < kRounds; ++round) {
-    curve = interpolated(points);
+    curve = spline_through(points, kSamePoint);
     if (curve.IsNull() || points.size() > kMaxPoints) return curve;
     const std::vector<double> finer = too_far(range, surface, curve, points, target);
     if (finer.empty()) break;

@@ -23,6 +23,19 @@ struct FacetInput {
   std::vector<Corners> corners;        ///< nodes
   std::vector<std::int32_t> part;      ///< [n_triangles] row of part_name
   std::vector<std::string> part_name;  ///< UTF-8, of a solid in the file; or empty
+
+  /// Drops triangles but those t for which stays(t).
+  template <class Stays>
+  void keep(const Stays& stays) {
+    std::size_t n = 0;
+    for (std::size_t t = 0; t < corners.size(); ++t) {
+      if (!stays(t)) continue;
+      corners[n] = corners[t];
+      part[n++] = part[t];
+    }
+    corners.resize(n);
+    part.resize(n);
+  }
 };
 
 /// Facets with smooth regions or charts as faces. Triangles may be divided; the surface stays.

@@ -124,14 +124,7 @@ class FacetRepair {
       ++n_duplicates;
     }
     if (n_duplicates > 0) add(FindingKind::kDuplicateFacets, place, 0, n_duplicates);
-    std::size_t n = 0;
-    for (std::size_t t = 0; t < is_kept.size(); ++t) {
-      if (!is_kept[t]) continue;
-      in_.corners[n] = in_.corners[t];
-      in_.part[n++] = in_.part[t];
-    }
-    in_.corners.resize(n);
-    in_.part.resize(n);
+    in_.keep([&](std::size_t t) { return is_kept[t] != 0; });
   }
 
   /// Nodes of sides that one facet has; whether any was joined.

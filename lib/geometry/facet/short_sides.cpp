@@ -87,15 +87,10 @@ class ShortSides {
   }
 
   void drop_facets_without_three_nodes() {
-    std::size_t n = 0;
-    for (std::size_t t = 0; t < in_.corners.size(); ++t) {
+    in_.keep([&](std::size_t t) {
       const Corners& c = in_.corners[t];
-      if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-      in_.corners[n] = in_.corners[t];
-      in_.part[n++] = in_.part[t];
-    }
-    in_.corners.resize(n);
-    in_.part.resize(n);
+      return c[0] != c[1] && c[1] != c[2] && c[2] != c[0];
+    });
   }
 
   FacetInput& in_;

@@ -1,40 +1,16 @@
 #include "geometry/flite/flite_trim.h"
 
-#include <Geom2dAPI_Interpolate.hxx>
-#include <Standard_Failure.hxx>
-#include <TColStd_Array1OfInteger.hxx>
-#include <TColStd_Array1OfReal.hxx>
-#include <TColStd_HArray1OfReal.hxx>
-#include <TColgp_Array1OfPnt2d.hxx>
-#include <TColgp_HArray1OfPnt2d.hxx>
 #include <iterator>
-#include <map>
 
+#include "geometry/brep/pcurve_fit.h"
 #include "geometry/shape/projection.h"
 
 namespace st::occt {
 namespace {
 
 constexpr int kFewestIntervals = 8, kMaxPoints = 2000, kRounds = 7;
+constexpr double kSamePoint = 1e-14;
 constexpr double kOverhang = 0.25;  // of a unit of parameter, one span: so far polynomials go on beyond the sides
-
-using Points = std::map<double, Vec2>;  // by parameter of the space curve
-
-/// Straight from each point to the next.
-Handle(Geom2d_BSplineCurve) degree_1(const Points& points) {
-  const int n = static_cast<int>(points.size());
-  TColgp_Array1OfPnt2d poles(1, n);
-  TColStd_Array1OfReal knots(1, n);
-  TColStd_Array1OfInteger multiplicities(1, n);
-  int i = 1;
-  for (const auto& [t, uv] : points) {
-    poles(i) = {uv.x, uv.y};
-    knots(i) = t;
-    multiplicities(i) = i == 1 || i == n ? 2 : 1;
-    ++i;
-  }
-  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
-}
 
 class CurveProjector {
  public:
@@ -161,21 +137,8 @@ class CurveProjector {
 
   Handle(Geom2d_BSplineCurve) through_points() const {
     if (const auto line = straight_line(); !line.IsNull()) return line;
-    const int n = static_cast<int>(points_.size());
-    Handle(TColgp_HArray1OfPnt2d) poles = new TColgp_HArray1OfPnt2d(1, n);
-    Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, n);
-    int i = 1;
-    for (const auto& [t, uv] : points_) {
-      poles->SetValue(i, {uv.x, uv.y});
-      parameters->SetValue(i++, t);
-    }
-    try {
-      Geom2dAPI_Interpolate maker(poles, parameters, false, 1e-14);
-      maker.Perform();
-      return maker.IsDone() ? maker.Curve() : polygon();
-    } catch (const Standard_Failure&) {  // points that coincide, at a pole
-      return polygon();
-    }
+    const Handle(Geom2d_BSplineCurve) spline = spline_through(points_, kSamePoint);
+    return spline.IsNull() ? polygon_through(points_) : spline;
   }
 
   /// Null where a point is off the line between the ends.
@@ -185,10 +148,8 @@ class CurveProjector {
     constexpr double kSame = 1e-9;
     for (const auto& [t, uv] : points_)
       if (norm(uv - a - ((t - t0) / (t1 - t0)) * (b - a)) > kSame) return {};
-    return degree_1({{t0, a}, {t1, b}});
+    return polygon_through({{t0, a}, {t1, b}});
   }
-
-  Handle(Geom2d_BSplineCurve) polygon() const { return degree_1(points_); }
 
   TrimmingCurve measured(const Handle(Geom2d_BSplineCurve) & pcurve) const {
     TrimmingCurve result{pcurve, 0, curve_.point(curve_.t_min())};
@@ -207,7 +168,7 @@ class CurveProjector {
   const Curve& curve_;
   double resolution_;
   std::vector<SingularSide> poles_;
-  Points points_;
+  UvPoints points_;
 };
 
 }  // namespace
@@ -216,6 +177,8 @@ TrimmingCurve project_curve(const Surface& surface, const Curve& curve, double r
   return CurveProjector(surface, curve, resolution).project();
 }
 
-Handle(Geom2d_BSplineCurve) straight_pcurve(Vec2 a, Vec2 b, double t_max) { return degree_1({{0.0, a}, {t_max, b}}); }
+Handle(Geom2d_BSplineCurve) straight_pcurve(Vec2 a, Vec2 b, double t_max) {
+  return polygon_through({{0.0, a}, {t_max, b}});
+}
 
 }  // namespace st::occt

@@ -78,12 +78,7 @@ class FaceMesher {
     node_of_.resize(boundary_.nodes.size());
     for (std::size_t i = 0; i < boundary_.nodes.size(); ++i) {
       const FaceNode& b = boundary_.nodes[i];
-      MeshNode n{b};
-      n.p = work_.plane.to_plane(b.uv);
-      work_.evaluate(n);
-      n.normal = work_.reliable_normal(n);
-      n.x = b.x;
-      n.request = b.h;
+      const MeshNode n = work_.plane_node(b);
       std::vector<std::int32_t>& twins = same[b.id];
       std::int32_t found = kNone;
       for (std::int32_t t : twins) {

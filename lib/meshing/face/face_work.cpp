@@ -32,6 +32,16 @@ void FaceWork::set_surface(const Surface& s) {
   plane = PlaneMap(s);
 }
 
+MeshNode FaceWork::plane_node(const FaceNode& node) const {
+  MeshNode n{node};
+  n.p = plane.to_plane(node.uv);
+  evaluate(n);
+  n.normal = reliable_normal(n);
+  n.x = node.x;
+  n.request = node.h;
+  return n;
+}
+
 Vec3 FaceWork::reliable_normal(const MeshNode& n) const {
   if (norm(n.du) > kSingular && norm(n.dv) > kSingular) return n.normal;
   const Vec2 middle{0.5 * (surface->u_min() + surface->u_max()), 0.5 * (surface->v_min() + surface->v_max())};

@@ -32,6 +32,8 @@ struct FaceWork {
   bool is_runaway();
   /// Sets the surface and the plane.
   void set_surface(const Surface& s);
+  /// The plane node of a node of the face, with that one's place and request.
+  MeshNode plane_node(const FaceNode& node) const;
   /// Of an evaluated node: the normal a little inside where the parametrisation is singular at the boundary.
   Vec3 reliable_normal(const MeshNode& n) const;
   /// Sets request, h and squeeze of a node from the field. Returns what that told.

@@ -25,16 +25,11 @@ class LeastArea {
       for (std::size_t i = 0; i + gap < n_; ++i) choose_apex(i, i + gap);
     std::vector<std::array<std::size_t, 3>> result;
     if (n_ < 3 || least_[n_ - 1] >= kImpossible) return result;
-    std::vector<std::pair<std::size_t, std::size_t>> open = {{0, n_ - 1}};
-    while (!open.empty()) {
-      const auto [i, k] = open.back();
-      open.pop_back();
-      if (k - i < 2) continue;
-      const std::size_t j = apex_[i * n_ + k];
-      result.push_back({i, j, k});
-      open.push_back({i, j});
-      open.push_back({j, k});
-    }
+    for_each_split(
+        n_, [&](std::size_t i, std::size_t k) { return static_cast<std::size_t>(apex_[i * n_ + k]); },
+        [&](std::size_t i, std::size_t j, std::size_t k) {
+          result.push_back({i, j, k});
+        });
     return result;
   }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "base/vec.h"
@@ -16,5 +17,21 @@ namespace st {
 /// triangulation has a triangle with one id twice. The cost is cubic.
 std::vector<std::array<std::size_t, 3>> triangulate_least_area(std::vector<Vec3> x, std::vector<std::int32_t> id,
                                                                std::vector<Vec3> middle, std::vector<double> side_cost);
+
+/// Calls take(i, j, k) for the triangles of a polygon of n places: that at the side from 0 to n - 1, whose third corner
+/// is apex(i, k), then those at its other two sides, and so on.
+template <class Apex, class Take>
+void for_each_split(std::size_t n, const Apex& apex, const Take& take) {
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, n - 1}};
+  while (!open.empty()) {
+    const auto [i, k] = open.back();
+    open.pop_back();
+    if (k - i < 2) continue;
+    const std::size_t j = apex(i, k);
+    take(i, j, k);
+    open.push_back({i, j});
+    open.push_back({j, k});
+  }
+}
 
 }  // namespace st

@@ -10,6 +10,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/corner_uv.h"
 #include "meshing/face/face_mesher.h"
+#include "meshing/face/least_area.h"
 #include "meshing/face/triangle_places.h"
 
 namespace st {
@@ -44,16 +45,11 @@ class LoopFill {
       for (std::size_t i = 0; i + gap < n_; ++i) choose(i, i + gap);
     std::vector<Triangle> result;
     if (n_ < 3 || !(best_[n_ - 1].cosine > kFoldedCosine)) return result;
-    std::vector<std::pair<std::size_t, std::size_t>> open = {{0, n_ - 1}};
-    while (!open.empty()) {
-      const auto [i, k] = open.back();
-      open.pop_back();
-      if (k - i < 2) continue;
-      const std::size_t j = best_[i * n_ + k].apex;
-      result.push_back({{loop_[i], loop_[j], loop_[k]}});
-      open.push_back({i, j});
-      open.push_back({j, k});
-    }
+    for_each_split(
+        n_, [&](std::size_t i, std::size_t k) { return best_[i * n_ + k].apex; },
+        [&](std::size_t i, std::size_t j, std::size_t k) {
+          result.push_back({{loop_[i], loop_[j], loop_[k]}});
+        });
     return result;
   }
 

@@ -93,14 +93,7 @@ class SeamPiece {
   }
 
   MeshNode node(std::int32_t corner) const {
-    const FaceNode& own = corner < n_boundary_ ? boundary_.nodes[corner] : mesh_.inner[corner - n_boundary_];
-    MeshNode n{own};
-    n.p = work_.plane.to_plane(own.uv);
-    work_.evaluate(n);
-    n.normal = work_.reliable_normal(n);
-    n.x = own.x;
-    n.request = own.h;
-    return n;
+    return work_.plane_node(corner < n_boundary_ ? boundary_.nodes[corner] : mesh_.inner[corner - n_boundary_]);
   }
 
   void take_over() {
