@@ -19,8 +19,6 @@ namespace st {
 namespace {
 
 constexpr double kLargestMerge = 0.5;  // of the requested length: what the mesh can show stays, whatever the tolerance
-constexpr double kBeside = 0.1;  // of its length: an edge nearer than this to another between the same vertices is no
-                                 // ring with it
 
 /// Limits of merging for each face, by its group's tolerance.
 std::vector<MergeLimit> face_limits(const ModelTables& t, double below) {
@@ -33,14 +31,8 @@ std::vector<MergeLimit> face_limits(const ModelTables& t, double below) {
 /// Draws short edges together, the shortest first.
 class EdgeMerger {
  public:
-  EdgeMerger(const Model& model, const SizeField& field, const std::vector<MergeLimit>& face_limit, double below)
-      : model_(model),
-        t_(model.tables()),
-        field_(field),
-        face_limit_(face_limit),
-        below_(below),
-        faces_at_(t_),
-        sets_(t_.n_vertices()) {
+  EdgeMerger(const ModelTables& t, const SizeField& field, const std::vector<MergeLimit>& face_limit, double below)
+      : t_(t), field_(field), face_limit_(face_limit), below_(below), faces_at_(t_), sets_(t_.n_vertices()) {
     is_merged_.assign(t_.n_edges(), 0);
     cluster_.resize(t_.n_vertices());
     for (VertexId v = 0; v < t_.n_vertices(); ++v) cluster_[v].add(t_.vertex_xyz[v]);
@@ -104,8 +96,7 @@ class EdgeMerger {
     both.add(cluster_[b]);
     const double limit = limit_of(e, field_.size(both.center(), hint_));
     const std::vector<EdgeId> edges = short_edges_between(a, b, e, 3 * limit);
-    const bool are_one =
-        std::all_of(edges.begin() + 1, edges.end(), [&](EdgeId k) { return are_points(e, k) || coincide(e, k); });
+    const bool are_one = std::all_of(edges.begin() + 1, edges.end(), [&](EdgeId k) { return are_points(e, k); });
     if (both.diagonal() > limit || !are_one || !leave_out(edges)) return;
     sets_.join(a, b);
     cluster_[std::min(a, b)] = both;
@@ -120,14 +111,6 @@ class EdgeMerger {
   }
 
   bool are_points(EdgeId a, EdgeId b) const { return is_point(a) && is_point(b); }
-
-  /// Two edges between the same vertices that run beside each other.
-  bool coincide(EdgeId a, EdgeId b) const {
-    const auto middle = [&](EdgeId e) {
-      return model_.curve(e)->point(0.5 * (t_.edge_range[2 * e] + t_.edge_range[2 * e + 1]));
-    };
-    return distance(middle(a), middle(b)) < kBeside * std::min(t_.edge_length[a], t_.edge_length[b]);
-  }
 
   /// Merges the edges if none is a seam and each of their loops keeps two others.
   bool leave_out(const std::vector<EdgeId>& edges) {
@@ -155,7 +138,6 @@ class EdgeMerger {
     return edges;
   }
 
-  const Model& model_;
   const ModelTables& t_;
   const SizeField& field_;
   const std::vector<MergeLimit>& face_limit_;
@@ -317,7 +299,7 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
   if (!(below > 0)) return merged;
   const ModelTables& t = model.tables();
   const std::vector<MergeLimit> face_limit = face_limits(t, below);
-  merged.edge = EdgeMerger(model, field, face_limit, below).run();
+  merged.edge = EdgeMerger(t, field, face_limit, below).run();
   StripMerger merger(t, merged.edge);
   std::vector<Strip> strips = narrow_strips(known_strips ? *known_strips : find_strips(model), field, face_limit);
   const std::vector<Ring> rings = narrow_rings(model, field);

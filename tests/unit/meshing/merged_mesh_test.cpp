@@ -119,28 +119,6 @@ TEST(SmallFeatures, short_edges_that_form_a_ring_are_kept) {
   EXPECT_TRUE(merged_edges_of_box(1e-3, false).edge.empty()) << "a tube as narrow as that would be cut in two";
 }
 
-TEST(SmallFeatures, short_edges_beside_each_other_are_merged_together) {
-  const Model plate = test::make_model("thin_plate");
-  ModelTables t = plate.tables();
-  const auto middle = [&](EdgeId e) {
-    return plate.curve(e)->point(0.5 * (t.edge_range[2 * e] + t.edge_range[2 * e + 1]));
-  };
-  EdgeId first = 0, beside = 1;
-  while (beside == first || distance(middle(first), middle(beside)) > 0.05 || t.edge_length[first] < 1) {
-    if (++beside < t.n_edges()) continue;
-    ++first;
-    beside = 0;
-  }
-  for (int k = 0; k < 2; ++k) t.edge_vertices[2 * beside + k] = t.edge_vertices[2 * first + k];
-  t.vertex_xyz[t.edge_vertices[2 * first + 1]] = t.vertex_xyz[t.edge_vertices[2 * first]];
-  for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (e != first && e != beside) t.edge_length[e] = 1e9;
-  const MergedFeatures merged =
-      find_merged_features(Model(t, plate.brep()), UniformField(100 * t.edge_length[first]), 0.05);
-  EXPECT_EQ(merged.edge, (std::vector<EdgeId>{std::min(first, beside), std::max(first, beside)}))
-      << "a hole that just reaches the rim";
-}
-
 TEST(SmallFeatures, merged_features_that_do_not_fit_the_geometry_are_refused) {
   const Model model = test::make_model("box");
   MergedFeatures merged;
