@@ -200,22 +200,15 @@ class StripMerger {
   std::vector<Contact> contacts_;  // sorted
 };
 
-/// Strips narrower than their face's limit somewhere, and than the size on the mean; by face.
+/// Strips narrower than their face's limit somewhere; by face.
 std::vector<Strip> narrow_strips(std::vector<Strip> strips, const SizeField& field,
                                  const std::vector<MergeLimit>& face_limit) {
   int hint = 0;
   std::erase_if(strips, [&](const Strip& strip) {
-    bool is_narrow = false;
-    double width = 0, length = 0;  // sums over the stations
     MergeLimit limit = face_limit[strip.face];
     limit.exact = strip.exact;
-    for (const Strip::Station& s : strip.stations) {
-      const double h = field.size(s.x, hint);
-      is_narrow |= s.width() < limit.at(h);
-      width += s.width();
-      length += h;
-    }
-    return !is_narrow || width > length;
+    return std::ranges::none_of(strip.stations,
+                                [&](const Strip::Station& s) { return s.width() < limit.at(field.size(s.x, hint)); });
   });
   return strips;
 }
