@@ -9,25 +9,20 @@
 #include <Precision.hxx>
 #include <ShapeBuild_ReShape.hxx>
 #include <ShapeFix_Edge.hxx>
-#include <ShapeFix_Face.hxx>
 #include <ShapeFix_Shape.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
-#include <cmath>
-#include <functional>
 #include <numeric>
 #include <vector>
 
 #include "base/threads.h"
-#include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/brep/wire_walk.h"
 #include "geometry/import/import.h"
-#include "geometry/model/sameness.h"
 
 namespace st::occt {
 namespace {
@@ -44,8 +39,6 @@ int count_bad_wires(const TopoDS_Shape& face) {
   return n_wires == 0 ? 1 : n;
 }
 
-using FaceImage = std::function<TopoDS_Shape(const TopoDS_Shape&)>;
-
 /// Of all faces, on all threads.
 int count_all_bad_wires(const ImportedShape& model) {
   constexpr std::size_t kAtOnce = 8;
@@ -56,45 +49,12 @@ int count_all_bad_wires(const ImportedShape& model) {
   return std::accumulate(n_bad.begin(), n_bad.end(), 0);
 }
 
-/// A repair of the faces that need one is worse than none if it opens edges, or changes the area of the others. The
-/// four sides of a face that had no loops are not opened.
-bool is_worse(const ImportedShape& model, const TopoDS_Shape& repaired, const FaceImage& image) {
-  int n_free = count_free_edges(model.shape);
-  for (int i = 1; i <= model.faces.Extent(); ++i) n_free += TopoDS_Iterator(model.faces(i)).More() ? 0 : 4;
-  if (count_free_edges(repaired) > n_free) return true;
-  for (int i = 1; i <= model.faces.Extent(); ++i) {
-    const TopoDS_Shape changed = image(model.faces(i));
-    if (count_bad_wires(model.faces(i)) > 0 || changed.IsSame(model.faces(i))) continue;
-    const double area = area_of_faces(changed), before = area_of_faces(model.faces(i));
-    if (std::abs(area - before) > kAboutSameArea * before) return true;
-  }
-  return false;
-}
-
-/// Takes over the repair that OpenCASCADE makes of the whole; else, where that is worse, of the bad faces alone.
+/// Takes over the repair that OpenCASCADE makes of the whole.
 void rebuild_bad_loops(ImportedShape& model, int n_bad, std::vector<ImportFinding>& findings) {
   ShapeFix_Shape fix(model.shape);
   fix.Perform();
-  const FaceImage of_whole = [&](const TopoDS_Shape& face) { return fix.Context()->Apply(face); };
-  const Handle(BRepTools_ReShape) alone = new BRepTools_ReShape;
-  const FaceImage of_face = [&](const TopoDS_Shape& face) { return alone->Apply(face); };
-  const auto take = [&](const TopoDS_Shape& shape, const FaceImage& image) {
-    if (is_worse(model, shape, image) || !model.replace(shape, image)) return false;
+  if (model.replace(fix.Shape(), [&](const TopoDS_Shape& face) { return fix.Context()->Apply(face); }))
     findings.push_back({FindingKind::kRebuiltLoops, "", {}, 0, true, std::to_string(n_bad)});
-    return true;
-  };
-  if (take(fix.Shape(), of_whole)) return;
-  for (int i = 1; i <= model.faces.Extent(); ++i) {
-    if (count_bad_wires(model.faces(i)) == 0) continue;
-    ShapeFix_Face face(TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD)));
-    face.Perform();
-    alone->Replace(model.faces(i).Oriented(TopAbs_FORWARD), face.Result());
-  }
-  if (take(alone->Apply(model.shape), of_face)) return;
-  const Box3 box = rough_box(model.shape);
-  findings.push_back({FindingKind::kUndoneRepair, "", box.center(), box.diagonal(), false,
-                      std::to_string(n_bad) + " loops could not be walked; rebuilt they would open edges or change "
-                                              "other faces"});
 }
 
 /// A surface closed in both directions whose loops enclose nothing: they run along a seam and back, the other seam is
