@@ -15,7 +15,7 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/share.h"
-#include "geometry/model/cad_tolerance.h"
+#include "meshing/engine/closed_faces.h"
 #include "meshing/engine/dirty_parts.h"
 #include "meshing/engine/last_resorts.h"
 #include "meshing/engine/refinement_trials.h"
@@ -24,14 +24,8 @@
 #include "meshing/face/face_patch.h"
 #include "meshing/face/failed_face.h"
 #include "meshing/face/fold_repair.h"
-#include "meshing/face/loop_closing.h"
 
 namespace st {
-namespace {
-
-constexpr double kNearEnough = 10;  // tolerances of the CAD: distance of a closed face's triangles from its surface
-}  // namespace
-
 FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const SizeField& field, MeshPlan plan,
                        const MeshOptions& options, const Executor& executor, MeshResult& result)
     : MeshRounds(field, kFacePolicy, executor, result),
@@ -76,13 +70,23 @@ void FaceRounds::report(PatchesGo patches) {
   RefinementTrials trials(tables(), executor_, hopeless_, faces_, refinements_, mesh_again);
   trials.take_back();
   if (!is_restored_) {
-    trials.loosen();
+    if (is_worth_loosening()) trials.loosen();
     StretchEasing(tables(), field_, executor_, faces_, refinements_, options_.find_unheld, mesh_again).run();
   }
   refill_bad(faces_, executor_);
   part_touching(faces_, executor_);
   paired_.renew_images();
   faces_.hand_over(patches, result_);
+}
+
+/// Collective. Lengths that are longer mesh the faces of the last round once more.
+bool FaceRounds::is_worth_loosening() const {
+  std::int64_t n_again = 0;
+  if (executor_.is_root())
+    for (const FaceId f : dirty_faces_) n_again += n_triangles_of(faces_.place(f));
+  char is_worth_it = RefinementPolicy::is_worth_loosening(result_.n_rounds, n_again);
+  share(executor_, is_worth_it);
+  return is_worth_it != 0;
 }
 
 /// Collective.
@@ -114,11 +118,20 @@ void FaceRounds::mesh_dirty_faces() {
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   mesh_dirty_faces();
   give_up(false);
+  const bool folds_stay = gives_up_folds();
   std::vector<RefinementPoint> all;
   for (FaceId f = 0; f < tables().n_faces(); ++f)
-    if (!hopeless_.contains(f) || faces_.outcome(f).cause != FailureCause::kNone)
+    if (!(folds_stay || hopeless_.contains(f)) || faces_.outcome(f).cause != FailureCause::kNone)
       all.insert(all.end(), wanted_[f].begin(), wanted_[f].end());
   return paired_.with_images(std::move(all));
+}
+
+/// Local, on rank 0. Whether smaller triangles fold no less, all faces taken together.
+bool FaceRounds::gives_up_folds() {
+  std::int64_t n_folds = 0;
+  for (FaceId f = 0; f < tables().n_faces(); ++f)
+    if (!hopeless_.contains(f)) n_folds += faces_.outcome(f).n_folds;
+  return hopeless_.gives_up_folds(n_folds);
 }
 
 /// Local, on rank 0. Faces that refining did not help, by their folds or also by their crossings of the last search:
@@ -325,32 +338,9 @@ void FaceRounds::join() {
   faces_.set_edges(std::move(edges));
 }
 
-/// Local, on rank 0. What cannot be closed either stays a hole.
 void FaceRounds::close_holes() {
-  for (FaceId f = 0; f < tables().n_faces(); ++f) try {
-      if (faces_.outcome(f).is_hole() && !options_.left_out.contains(f)) close_hole(f);
-    } catch (const Error& e) {
-      log_info(fmt::format("{} is not closed either: {}", tables().face_label(f), e.what()));
-    }
-}
-
-void FaceRounds::close_hole(FaceId f) {
-  const CurrentWork at_face("face", f + 1, time_limit(expected_.empty() ? 0 : expected_[f]));
-  const FaceField field(field_, refinements_, tables().face_box[f]);
-  std::unique_ptr<Surface> surface;
-  FaceBoundary boundary;
-  try {
-    surface = model_.surface(f);
-    boundary = make_face_boundary(model_, *surface, f, faces_.numbering());
-  } catch (const Error&) {
-    surface.reset();
-    boundary = make_boundary_in_space(f, faces_.numbering());
-  }
-  const ClosedFace closed = close_loops(surface.get(), boundary, field.get(), kNearEnough * cad_tolerance(tables(), f));
-  if (closed.mesh.cause != FailureCause::kNone) return;
-  FacePatch patch = make_patch(tables(), f, boundary, closed.mesh, faces_.numbering());
-  if (!has_numbers_only(patch)) return;
-  faces_.close(f, std::move(patch), closed.is_near, closed.deviation);
+  const auto limit = [this](FaceId f) { return time_limit(expected_.empty() ? 0 : expected_[f]); };
+  close_failed({model_, field_, refinements_, options_.left_out, limit}, faces_);
 }
 
 /// None where the mesh before was restored: refining does not help.
@@ -362,6 +352,15 @@ std::vector<RefinementPoint> FaceRounds::find_crossings() {
   if (is_restored_) return {};
   give_up(true);
   return paired_.with_images(faces_.crossings_to_refine());
+}
+
+/// Not where sizes are stretched: easing meshes faces again, and they would cross again.
+bool FaceRounds::mend_crossings() {
+  char is_worth_it =
+      !field_.is_stretched() && RefinementPolicy::mends_first(faces_.n_bad(), n_unmeasured_pairs_, n_meshed_);
+  share(executor_, is_worth_it);
+  if (!is_worth_it) return false;
+  return refill_all_bad(faces_, executor_);
 }
 
 void FaceRounds::choose_again(std::size_t first_refinement) {

@@ -42,6 +42,7 @@ class FaceRounds : public MeshRounds {
   std::vector<RefinementPoint> mesh_regions() override;
   void join() override;
   std::vector<RefinementPoint> find_crossings() override;
+  bool mend_crossings() override;
   void choose_again(std::size_t first_refinement) override;
 
   struct FaceReport {
@@ -69,7 +70,9 @@ class FaceRounds : public MeshRounds {
   WorkLimit time_limit(double n_triangles) const;
   std::string made_from() const;
   void mesh_dirty_faces();
+  bool is_worth_loosening() const;
   void give_up(bool by_crossings);
+  bool gives_up_folds();
   FaceReport keep(FaceResult&& result);
   Bytes record_whole(const Bytes& report) const;
   Bytes restore_whole(Bytes&& whole);
@@ -80,7 +83,6 @@ class FaceRounds : public MeshRounds {
   Regions faces_as_regions() const;
   void take_face(FaceId f, FaceReport&& report, FacePlace&& place);
   void close_holes();
-  void close_hole(FaceId f);
   void remember_whole();
   void drop_replaced();
   void find_dirty(std::span<const Refinement> refinements);

@@ -11,6 +11,15 @@ void HopelessFaces::add_meshed(FaceId f, std::int64_t n_triangles) {
   if (effort.n_meshed == 0) effort.n_first = n_triangles;
   effort.n_meshed += n_triangles;
   effort.n_last = n_triangles;
+  n_meshed_ += n_triangles;
+}
+
+bool HopelessFaces::gives_up_folds(std::int64_t n_folds) {
+  if (folds_.fewest == 0 || RefinementPolicy::is_clearly_fewer(n_folds, folds_.fewest)) {
+    folds_ = {n_folds, 0, n_meshed_, n_meshed_};
+    return false;
+  }
+  return RefinementPolicy::gives_up_folds(++folds_.n_without, n_meshed_ - folds_.n_before);
 }
 
 bool HopelessFaces::gives_up(Effort& effort, Count& count, std::int64_t n_bad) {

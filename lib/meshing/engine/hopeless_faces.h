@@ -23,6 +23,10 @@ class HopelessFaces {
   bool gives_up_folded(FaceId f, std::int64_t n_folds) { return gives_up(efforts_[f], efforts_[f].folds, n_folds); }
   bool gives_up_crossing(FaceId f, std::int64_t n_bad) { return gives_up(efforts_[f], efforts_[f].crossings, n_bad); }
 
+  /// Folds of all faces that were not given up. True: they are given up now, as by a second round in a row that leaves
+  /// not clearly fewer, where much was meshed since; faces that fail are not meant.
+  bool gives_up_folds(std::int64_t n_folds);
+
   bool contains(FaceId f) const { return efforts_[f].is_hopeless; }
   /// Those that were given up, ascending.
   std::vector<FaceId> all() const;
@@ -44,6 +48,8 @@ class HopelessFaces {
   static bool gives_up(Effort& effort, Count& count, std::int64_t n_bad);
 
   std::vector<Effort> efforts_;
+  Count folds_;                // of all faces
+  std::int64_t n_meshed_ = 0;  // triangles of all faces
 };
 
 }  // namespace st

@@ -16,8 +16,8 @@ std::size_t count(const MeshedFaces::BadTriangles& bad) {
   return n;
 }
 
-/// Collective. Whether it stays and may be worth another time.
-bool refill_once(MeshedFaces& faces, const Executor& executor) {
+/// Collective. Whether it stays and may be worth another time. Adds the faces that have changed, on rank 0.
+bool refill_once(MeshedFaces& faces, const Executor& executor, std::vector<FaceId>& all_changed) {
   MeshedFaces::Patches patches = faces.bring(faces.suspects());
   const MeshedFaces::BadTriangles bad = faces.bad_triangles(patches);
   char is_sound = bad.empty();
@@ -35,15 +35,32 @@ bool refill_once(MeshedFaces& faces, const Executor& executor) {
   const MeshedFaces::BadTriangles left = faces.bad_triangles(faces.bring(faces.suspects()));
   char is_worse = faces.crossings().n_pairs() > n_pairs || !RefinementPolicy::refill_stays(count(left), count(bad));
   share(executor, is_worse);
-  if (is_worse) faces.go_back(before, changed);
+  if (is_worse)
+    faces.go_back(before, changed);
+  else
+    all_changed.insert(all_changed.end(), changed.begin(), changed.end());
   return !is_worse;
+}
+
+/// Collective. The faces that have changed, on rank 0.
+std::vector<FaceId> refill(MeshedFaces& faces, const Executor& executor) {
+  std::vector<FaceId> changed;
+  while (refill_once(faces, executor, changed)) {  // each leaves a tenth less at least
+  }
+  return changed;
 }
 
 }  // namespace
 
-void refill_bad(MeshedFaces& faces, const Executor& executor) {
-  while (refill_once(faces, executor)) {  // each leaves a tenth less at least
-  }
+void refill_bad(MeshedFaces& faces, const Executor& executor) { refill(faces, executor); }
+
+bool refill_all_bad(MeshedFaces& faces, const Executor& executor) {
+  const std::vector<FacePlace> before = faces.places();
+  const std::vector<FaceId> changed = refill(faces, executor);
+  char is_sound = faces.n_bad() == 0;
+  share(executor, is_sound);
+  if (!is_sound) faces.go_back(before, changed);
+  return is_sound != 0;
 }
 
 void part_touching(MeshedFaces& faces, const Executor& executor) {

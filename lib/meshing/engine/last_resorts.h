@@ -10,6 +10,9 @@ namespace st {
 /// themselves. Stays only where clearly fewer are left.
 void refill_bad(MeshedFaces& faces, const Executor& executor);
 
+/// Collective. Likewise, where nothing bad is left; otherwise all is as before. Whether it is so.
+bool refill_all_bad(MeshedFaces& faces, const Executor& executor);
+
 /// Collective. Triangles that touch because the CAD touches itself: a hair apart. Stays only where fewer are left.
 void part_touching(MeshedFaces& faces, const Executor& executor);
 

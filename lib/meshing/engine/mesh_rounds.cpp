@@ -51,6 +51,7 @@ void MeshRounds::run() {
     share(executor_, n);
     const bool is_promising = RefinementPolicy::is_promising(n, is_measured(crossings));
     if (is_last || n == 0 || !policy_.refines_crossings(n_crossing_rounds++, is_promising) || is_stuck()) return;
+    if (result_.n_refinements == 0 && mend_crossings()) return;
     if (!refine(crossings, policy_.crossing_floor)) return;
   }
 }

@@ -45,6 +45,8 @@ class MeshRounds {
   virtual void join() = 0;
   /// Places where triangles cross; none ends the rounds.
   virtual Places find_crossings() = 0;
+  /// Whether nothing crosses any more, by other means than smaller sizes, as little does in a heavy mesh.
+  virtual bool mend_crossings() { return false; }
   /// What is meshed in the next round, since refinements from this one on were added.
   virtual void choose_again(std::size_t first_refinement) = 0;
 

@@ -50,6 +50,8 @@ struct RefinementPolicy {
   static constexpr std::int64_t kPerFailure = 1000;  ///< as bad as a face that fails
   static constexpr int kFewPairs = 50;               ///< with more pairs, faces that cross each other stay as they are
 
+  static constexpr std::uint64_t kPerMended = 5000;  ///< triangles for each pair that is refilled before any is refined
+
   // times
   static constexpr int kMostWithout = 2;  ///< meshings of a face in a row that leave not clearly fewer
   static constexpr int kMostStuck = 3;    ///< rounds in a row that leave not clearly fewer pairs, where there are many
@@ -91,6 +93,11 @@ struct RefinementPolicy {
     return static_cast<double>(n_meshed) >
            kMostRepeated * static_cast<double>(n_first) + kFewTriangles + kPerWall * n_for_walls;
   }
+  /// Whether lengths are doubled after so many rounds, the first one included, where that meshes `n_again` triangles:
+  /// twice the lengths of one round of refining are about those that were bad.
+  static bool is_worth_loosening(int n_rounds, std::int64_t n_again) {
+    return n_rounds > 2 || static_cast<double>(n_again) < kFewTriangles;
+  }
   static bool affords_walls(double n_triangles) { return n_triangles < kMostForWalls; }
   static bool is_clearly_fewer(std::int64_t n, std::int64_t n_before) {
     return static_cast<double>(n) < kClearlyFewer * static_cast<double>(n_before);
@@ -99,6 +106,11 @@ struct RefinementPolicy {
   /// not clearly fewer. No face may fail for that.
   static std::int64_t n_more_allowed(std::int64_t n) {
     return std::min(kPerFailure - 1, static_cast<std::int64_t>((1 / kClearlyFewer - 1) * static_cast<double>(n)));
+  }
+  /// Whether crossing triangles are refilled before any are refined: nothing else is bad among `n` triangles, they are
+  /// few, and it is not known what parts them.
+  static bool mends_first(std::int64_t n_bad, std::int64_t n_unmeasured_pairs, std::uint64_t n) {
+    return n_bad == n_unmeasured_pairs && n_bad <= kFewPairs && static_cast<std::uint64_t>(n_bad) * kPerMended <= n;
   }
   /// Triangles that bad ones were refilled by: they stay where so many are bad.
   static bool refill_stays(std::size_t n_left, std::size_t n_bad) {
@@ -113,6 +125,10 @@ struct RefinementPolicy {
   static bool gives_up(const FaceEffort& e) {
     const bool is_much = e.n_bad >= kManyBad || e.n_since >= kMuchRepeated;
     return (e.n_without >= kMostWithout && is_much) || e.n_last > std::max(kMostTimes * e.n_first, kFewOfFace);
+  }
+  /// Likewise the folds of all faces: rounds in a row that left not clearly fewer, and triangles meshed in these.
+  static bool gives_up_folds(int n_without, std::int64_t n_since) {
+    return n_without >= kMostWithout && static_cast<double>(n_since) >= kFewTriangles;
   }
 };
 

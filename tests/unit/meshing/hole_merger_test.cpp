@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/error.h"
 #include "unit/mesh/shapes.h"
 #include "unit/meshing/hole_case.h"
 

@@ -56,6 +56,21 @@ TEST(HopelessFaces, begin_anew_where_they_were_sound) {
   EXPECT_EQ(given_up_by(1000, {120, 0, 120, 120, 120}), 5);
 }
 
+TEST(HopelessFaces, give_all_folds_up_by_the_second_round_that_leaves_as_many) {
+  const auto given_up_by = [](std::int64_t n_triangles, const std::vector<std::int64_t>& folds) {
+    HopelessFaces faces(2);
+    for (std::size_t i = 0; i < folds.size(); ++i) {
+      for (FaceId f = 0; f < 2; ++f) faces.add_meshed(f, n_triangles / 2);
+      if (faces.gives_up_folds(folds[i])) return static_cast<int>(i) + 1;
+    }
+    return 0;
+  };
+  EXPECT_EQ(given_up_by(100'000, {13, 17, 17, 26}), 3);
+  EXPECT_EQ(given_up_by(99'000, {13, 17, 17, 26}), 4) << "by 200,000 triangles since";
+  EXPECT_EQ(given_up_by(100'000, {13, 17, 11, 12, 11}), 5) << "fewer in the third";
+  EXPECT_EQ(given_up_by(100'000, {0, 0, 0, 0}), 0);
+}
+
 TEST(HopelessFaces, count_once_for_each_meshing) {
   HopelessFaces faces(1);
   faces.add_meshed(0, 10);

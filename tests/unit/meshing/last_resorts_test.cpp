@@ -15,22 +15,23 @@ namespace {
 struct Box : test::PutFaces {
   static constexpr FaceId kFace = 2;
 
-  explicit Box(bool has_fold) : PutFaces("box", 4) {
-    if (has_fold) fold();
+  /// `n_counted`: folds that the outcome of the face tells.
+  explicit Box(bool has_fold, int n_counted = 1) : PutFaces("box", 4) {
+    if (has_fold) fold(n_counted);
     faces.search_crossings();
   }
   std::size_t n_bad() { return faces.bad_triangles(faces.bring(faces.suspects())).size(); }
 
  private:
   /// Moves a node inside the face over its neighbours.
-  void fold() {
+  void fold(int n_counted) {
     FacePatch patch = meshed.result.patches[kFace];
     const auto is_inside = [&](const auto& t) { return std::ranges::min(t.n) >= patch.n_boundary; };
     const auto it = std::ranges::find_if(patch.triangles, is_inside);
     Vec3& node = patch.inner_xyz[it->n[0] - patch.n_boundary];
     node += 1.5 * (patch.inner_xyz[it->n[1] - patch.n_boundary] - node);
     FaceOutcome outcome;
-    outcome.n_folds = 1;
+    outcome.n_folds = n_counted;
     outcome.fold_places = {RefinementPoint{}};
     faces.set(kFace, FacePlace(), outcome);
     faces.put(kFace, std::move(patch));
@@ -42,6 +43,20 @@ TEST(LastResorts, refill_what_a_node_beside_its_place_folds) {
   ASSERT_EQ(box.n_bad(), 1u);
   refill_bad(box.faces, test::one_rank);
   EXPECT_EQ(box.n_bad(), 0u);
+}
+
+TEST(LastResorts, say_that_nothing_bad_is_left) {
+  Box box(true, 0);
+  EXPECT_TRUE(refill_all_bad(box.faces, test::one_rank));
+  EXPECT_EQ(box.n_bad(), 0u);
+}
+
+TEST(LastResorts, go_back_where_something_counts_as_bad) {
+  Box box(true, 1);
+  const Bytes before = packed(box.faces.places());
+  EXPECT_FALSE(refill_all_bad(box.faces, test::one_rank));
+  EXPECT_EQ(packed(box.faces.places()), before);
+  EXPECT_EQ(box.n_bad(), 1u);
 }
 
 TEST(LastResorts, change_nothing_where_nothing_is_bad) {

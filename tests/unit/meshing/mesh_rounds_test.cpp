@@ -12,7 +12,7 @@ namespace {
 const SerialExecutor one_rank;
 const UniformField one(1);
 
-/// Steps that write their letters: edges, regions, join, crossings, again.
+/// Steps that write their letters: edges, regions, join, crossings, mend, again.
 class Scripted : public MeshRounds {
  public:
   using Places = std::vector<RefinementPoint>;
@@ -25,6 +25,7 @@ class Scripted : public MeshRounds {
   std::vector<std::size_t> first_refinements;
   std::uint64_t n_first = 0, n_later = 0;  // triangles of the first round, and of each later one
   std::function<int(int call)> n_unmeasured_pairs = [](int) { return 0; };
+  bool mends = false;
   double shortest() const {
     double length = 1;
     for (const Refinement& r : refinements_.all()) length = std::min(length, r.length);
@@ -43,6 +44,10 @@ class Scripted : public MeshRounds {
     steps += 'c';
     n_unmeasured_pairs_ = n_unmeasured_pairs(n_crossings_);
     return crossings_(n_crossings_++);
+  }
+  bool mend_crossings() override {
+    if (mends) steps += 'm';
+    return mends;
   }
   void choose_again(std::size_t first_refinement) override {
     steps += 'a';
@@ -75,6 +80,25 @@ TEST(MeshRounds, end_after_one_round_where_nothing_is_wrong) {
   EXPECT_EQ(rounds.steps, "erjc");
   EXPECT_EQ(result.n_rounds, 1);
   EXPECT_EQ(result.n_refinements, 0);
+}
+
+TEST(MeshRounds, end_without_smaller_sizes_where_crossings_can_be_mended) {
+  MeshResult result;
+  const auto one_at_first = [](int call) { return places(call, call == 0 ? 1 : 0); };
+  Scripted rounds(kLimits, result, kNothing, one_at_first);
+  rounds.mends = true;
+  rounds.run();
+  EXPECT_EQ(rounds.steps, "erjcm");
+  EXPECT_EQ(result.n_refinements, 0);
+}
+
+TEST(MeshRounds, do_not_mend_what_was_refined) {
+  MeshResult result;
+  const auto one_at_first = [](int call) { return places(call, call == 0 ? 1 : 0); };
+  Scripted rounds(kLimits, result, one_at_first, [](int call) { return places(7, call == 0 ? 1 : 0); });
+  rounds.mends = true;
+  rounds.run();
+  EXPECT_EQ(rounds.steps, "eraerjcaerjc");
 }
 
 TEST(MeshRounds, refine_regions_so_many_times_and_look_for_crossings_then) {

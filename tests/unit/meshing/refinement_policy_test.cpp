@@ -97,5 +97,26 @@ TEST(RefinementPolicy, gives_up_faces_that_smaller_triangles_do_not_help) {
           {"never by 1,000 triangles", gives_up(1, 1, 0, 1000, 1), false}});
 }
 
+TEST(RefinementPolicy, gives_up_folds_of_all_faces_after_two_rounds_that_meshed_much) {
+  expect({{"two rounds, 200,000", [] { return Policy::gives_up_folds(2, 200'000); }, true},
+          {"less", [] { return Policy::gives_up_folds(2, 199'999); }, false},
+          {"one round", [] { return Policy::gives_up_folds(1, 900'000); }, false}});
+}
+
+TEST(RefinementPolicy, doubles_lengths_of_one_round_where_that_meshes_little) {
+  expect({{"one round, 199,999", [] { return Policy::is_worth_loosening(2, 199'999); }, true},
+          {"one more", [] { return Policy::is_worth_loosening(2, 200'000); }, false},
+          {"two rounds", [] { return Policy::is_worth_loosening(3, 900'000); }, true}});
+}
+
+TEST(RefinementPolicy, mends_the_few_crossings_of_a_heavy_mesh_first) {
+  expect({{"12 pairs of 60,000", [] { return Policy::mends_first(12, 12, 60'000); }, true},
+          {"fewer triangles", [] { return Policy::mends_first(12, 12, 59'999); }, false},
+          {"folds, too", [] { return Policy::mends_first(13, 12, 900'000); }, false},
+          {"walls of a known distance", [] { return Policy::mends_first(12, 11, 900'000); }, false},
+          {"50 pairs", [] { return Policy::mends_first(50, 50, 900'000); }, true},
+          {"51 pairs", [] { return Policy::mends_first(51, 51, 900'000); }, false}});
+}
+
 }  // namespace
 }  // namespace st
