@@ -204,13 +204,14 @@ std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const
   return pairs;
 }
 
-FacePatch part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& section,
-                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, std::int32_t number) {
-  FacePatch part;
+SectionPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& section,
+                    const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, std::int32_t number) {
+  SectionPart result;
+  FacePatch& part = result.patch;
   part.face = section.face;
-  part.triangle_previous = near_triangles(edges, vertex_xyz, section, blocks, near);
+  result.triangle_number = near_triangles(edges, vertex_xyz, section, blocks, near);
   std::vector<NodeId> nodes, place(section.n_boundary + section.inner_xyz.size(), kNone);
-  for (const TriangleId t : part.triangle_previous)
+  for (const TriangleId t : result.triangle_number)
     for (const NodeId n : section.triangles[t].n)
       if (std::exchange(place[n], 0) == kNone) nodes.push_back(n);
   const auto inner = std::partition(nodes.begin(), nodes.end(), [&](NodeId n) { return n < section.n_boundary; });
@@ -226,12 +227,12 @@ FacePatch part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const
     if (number != kNone) part.owner.push_back(i < n_own ? InnerNode{number, i} : section.owner[i - n_own]);
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) place[nodes[i]] = static_cast<NodeId>(i);
-  part.triangles.reserve(part.triangle_previous.size());
-  for (const TriangleId t : part.triangle_previous) {
+  part.triangles.reserve(result.triangle_number.size());
+  for (const TriangleId t : result.triangle_number) {
     const NodeId* n = section.triangles[t].n;
     part.triangles.push_back({{place[n[0]], place[n[1]], place[n[2]]}});
   }
-  return part;
+  return result;
 }
 
 SurfaceMesh weld_parts(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& a,

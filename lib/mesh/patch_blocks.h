@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -60,11 +61,18 @@ class PatchBlocks {
 /// Every two boxes that meet, once, the lower number first; empty ones meet none. A sweep along the longest axis.
 std::vector<std::pair<std::int32_t, std::int32_t>> meeting_pairs(std::span<const Box3> boxes);
 
-/// The triangles of a section in its blocks `near` that meet the boxes there, with their places and boundary alone;
-/// triangle_previous: their numbers in the section. Linear in these and in its nodes. `number`: of the section, where
-/// they are compared with another one of the face: `owner` has all nodes inside then.
-FacePatch part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& section,
-                  const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, std::int32_t number = kNone);
+/// Some triangles of a section, with their places and boundary alone.
+struct SectionPart {
+  FacePatch patch;                          ///< `owner` has none, or all nodes inside
+  std::vector<TriangleId> triangle_number;  ///< [n_triangles] in the section
+
+  static auto fields(auto& p) { return std::tie(p.patch, p.triangle_number); }
+};
+
+/// Those in the section's blocks `near` that meet the boxes there. Linear in these and in its nodes. `number`: of the
+/// section, where they are compared with another one of the face: the part has owners then.
+SectionPart part_of(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& section,
+                    const PatchBlocks& blocks, std::span<const PatchBlocks::Meeting> near, std::int32_t number = kNone);
 
 /// Two such parts, of different faces or sections, as places and triangles of one mesh: those of `a`, then of `b`.
 SurfaceMesh weld_parts(const EdgeMesh& edges, std::span<const Vec3> vertex_xyz, const FacePatch& a, const FacePatch& b);

@@ -83,7 +83,7 @@ void CrossingSearch::run(const BoundaryNumbering& numbering, const std::vector<F
         FoundCrossings all;
         std::vector<SectionJob> own;
         for (const std::size_t i : batches[task].jobs) own.push_back(jobs[i]);
-        const std::vector<FacePatch> others = search.near_others(own);
+        const std::vector<SectionPart> others = search.near_others(own);
         for (std::size_t i = 0; i < own.size(); ++i) {
           FoundCrossings found = search.find(own[i], others[i]);
           measure_whole_faces(own[i], search, found);

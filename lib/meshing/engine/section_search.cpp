@@ -72,7 +72,7 @@ FoundCrossings SectionSearch::within(std::int32_t s) const {
 }
 
 /// Of `s`, at its rank: what is near `others`.
-FacePatch SectionSearch::near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const {
+SectionPart SectionSearch::near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const {
   const PatchPlace& place = sections_[s];
   const auto blocks = store_.blocks(place);
   return part_of(numbering_.edges, numbering_.tables.vertex_xyz, *store_.get(place), *blocks, blocks->meeting(others),
@@ -104,8 +104,8 @@ std::array<std::int32_t, 2> SectionSearch::here_and_there(const SectionJob& job)
   return store_.is_own(sections_[job.a]) ? std::array{job.a, job.b} : std::array{job.b, job.a};
 }
 
-std::vector<FacePatch> SectionSearch::near_others(const std::vector<SectionJob>& jobs) const {
-  std::vector<FacePatch> parts(jobs.size());
+std::vector<SectionPart> SectionSearch::near_others(const std::vector<SectionJob>& jobs) const {
+  std::vector<SectionPart> parts(jobs.size());
   std::vector<Request> requests;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -129,24 +129,24 @@ std::vector<FacePatch> SectionSearch::near_others(const std::vector<SectionJob>&
   return parts;
 }
 
-FoundCrossings SectionSearch::between(const SectionJob& job, const FacePatch& other) const {
+FoundCrossings SectionSearch::between(const SectionJob& job, const SectionPart& other) const {
   const auto [here, there] = here_and_there(job);
   const bool has_a = here == job.a;
   FoundCrossings found;
-  if (other.triangles.empty()) return found;
-  const FacePatch near_here = near(here, blocks_of(other), is_of_one_face(job));
-  const FacePatch &a = has_a ? near_here : other, &b = has_a ? other : near_here;
-  const SurfaceMesh both = weld_parts(numbering_.edges, numbering_.tables.vertex_xyz, a, b);
-  const auto n_first = static_cast<std::int32_t>(a.triangles.size());
+  if (other.patch.triangles.empty()) return found;
+  const SectionPart near_here = near(here, blocks_of(other.patch), is_of_one_face(job));
+  const SectionPart &a = has_a ? near_here : other, &b = has_a ? other : near_here;
+  const SurfaceMesh both = weld_parts(numbering_.edges, numbering_.tables.vertex_xyz, a.patch, b.patch);
+  const auto n_first = static_cast<std::int32_t>(a.patch.triangles.size());
   bool was_ended = false;
   for (const TrianglePair& pair : find_crossings_between(both.node_xyz, both.triangles, n_first, was_ended))
-    add(facet(job.a, a.triangle_previous[pair.a]), facet(job.b, b.triangle_previous[pair.b - n_first]), pair.n_shared,
+    add(facet(job.a, a.triangle_number[pair.a]), facet(job.b, b.triangle_number[pair.b - n_first]), pair.n_shared,
         found.pairs);
   if (was_ended) found.ended.push_back({sections_[job.a].face, sections_[job.b].face});
   return found;
 }
 
-FoundCrossings SectionSearch::find(const SectionJob& job, const FacePatch& other) const {
+FoundCrossings SectionSearch::find(const SectionJob& job, const SectionPart& other) const {
   FoundCrossings found = job.a == job.b ? within(job.a) : between(job, other);
   if (!found.ended.empty())
     for (FacetPair& p : found.pairs) p.factor = FacetPair::kHopeless;

@@ -69,9 +69,9 @@ class SectionSearch {
 
   /// For each job what of the other section is near that of this rank, whoever has it. All others are asked at once:
   /// where faces are small, most of the time would go into waiting for one answer after the other.
-  std::vector<FacePatch> near_others(const std::vector<SectionJob>& jobs) const;
+  std::vector<SectionPart> near_others(const std::vector<SectionJob>& jobs) const;
   /// `other`: of near_others(). Factors are not known yet, but of flat folds and where the search was ended.
-  FoundCrossings find(const SectionJob& job, const FacePatch& other) const;
+  FoundCrossings find(const SectionJob& job, const SectionPart& other) const;
   /// The corners of a triangle of this rank.
   FacetCorners corners(const Facet& facet) const;
   /// The corners of triangles of one face, whoever has them.
@@ -84,10 +84,10 @@ class SectionSearch {
   Facet facet(std::int32_t s, std::int32_t triangle) const;
   std::array<std::int32_t, 2> here_and_there(const SectionJob& job) const;
   bool is_of_one_face(const SectionJob& job) const { return face(job.a) == face(job.b); }
-  FacePatch near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const;
+  SectionPart near(std::int32_t s, const PatchBlocks& others, bool is_of_one_face) const;
   PatchBlocks blocks_of(const FacePatch& part) const;
   FoundCrossings within(std::int32_t s) const;
-  FoundCrossings between(const SectionJob& job, const FacePatch& other) const;
+  FoundCrossings between(const SectionJob& job, const SectionPart& other) const;
 
   const PatchStore& store_;
   const Executor& executor_;

@@ -102,14 +102,14 @@ TEST_F(TwoSquares, meet_in_the_blocks_whose_boxes_meet) {
 
 TEST_F(TwoSquares, cross_in_the_triangles_that_the_whole_mesh_has) {
   const PatchBlocks a(edges, {}, flat), b(edges, {}, wave);
-  const FacePatch of_b = part_of(edges, {}, wave, b, b.meeting(a)), of_a = part_of(edges, {}, flat, a, a.meeting(b));
-  EXPECT_LT(of_a.triangles.size() + of_b.triangles.size(), flat.triangles.size());
-  const SurfaceMesh both = weld_parts(edges, {}, of_a, of_b);
-  const auto n_first = static_cast<std::int32_t>(of_a.triangles.size());
+  const SectionPart of_b = part_of(edges, {}, wave, b, b.meeting(a)), of_a = part_of(edges, {}, flat, a, a.meeting(b));
+  EXPECT_LT(of_a.patch.triangles.size() + of_b.patch.triangles.size(), flat.triangles.size());
+  const SurfaceMesh both = weld_parts(edges, {}, of_a.patch, of_b.patch);
+  const auto n_first = static_cast<std::int32_t>(of_a.patch.triangles.size());
   std::set<std::pair<std::int32_t, std::int32_t>> found, expected;
   bool was_ended = false;
   for (const TrianglePair& pair : find_crossings_between(both.node_xyz, both.triangles, n_first, was_ended))
-    if (pair.n_shared != 1) found.insert({of_a.triangle_previous[pair.a], of_b.triangle_previous[pair.b - n_first]});
+    if (pair.n_shared != 1) found.insert({of_a.triangle_number[pair.a], of_b.triangle_number[pair.b - n_first]});
   std::vector<Vec3> points = node_places(edges, {}, flat);
   std::vector<Triangle> triangles = flat.triangles;
   const auto n_flat = static_cast<NodeId>(points.size());

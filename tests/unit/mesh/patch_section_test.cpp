@@ -121,9 +121,9 @@ TEST(PatchSection, parts_of_one_face_have_common_nodes_where_they_share_them_and
   const PatchBlocks of_one(edges, vertices, one), of_other(edges, vertices, other);
   for (const bool is_of_one_face : {true, false}) {
     const auto number = [&](std::int32_t n) { return is_of_one_face ? n : kNone; };
-    const FacePatch of_a = part_of(edges, vertices, one, of_one, of_one.meeting(of_other), number(0)),
-                    of_b = part_of(edges, vertices, other, of_other, of_other.meeting(of_one), number(2));
-    const SurfaceMesh both = weld_parts(edges, vertices, of_a, of_b);
+    const SectionPart of_a = part_of(edges, vertices, one, of_one, of_one.meeting(of_other), number(0)),
+                      of_b = part_of(edges, vertices, other, of_other, of_other.meeting(of_one), number(2));
+    const SurfaceMesh both = weld_parts(edges, vertices, of_a.patch, of_b.patch);
     ASSERT_EQ(both.triangles.size(), 6u);
     std::map<std::array<double, 2>, std::set<NodeId>> at;
     for (const Triangle& t : both.triangles)
