@@ -26,7 +26,11 @@ double width_of(const Strip& strip) { return strip.stations[strip.stations.size(
 class BaseStripFinder {
  public:
   BaseStripFinder(const Model& model, std::span<const Strip> strips)
-      : model_(model), t_(model.tables()), strips_(strips), faces_at_(t_) {
+      : model_(model),
+        t_(model.tables()),
+        strips_(strips),
+        faces_at_(t_),
+        is_smooth_(static_cast<std::size_t>(t_.n_edges())) {
     for (std::size_t i = 0; i < strips.size(); ++i) index_[strips[i].face] = i;
   }
 
@@ -52,7 +56,12 @@ class BaseStripFinder {
     return nullptr;
   }
 
-  bool is_smooth(EdgeId e) const { return is_smooth_half_way(model_, e, faces_at_[e], kSmooth); }
+  /// Asked several times of most edges.
+  bool is_smooth(EdgeId e) const {
+    std::optional<bool>& known = is_smooth_[e];
+    if (!known) known = is_smooth_half_way(model_, e, faces_at_[e], kSmooth);
+    return *known;
+  }
 
   void add_cut_bases(std::vector<Strip>& all) const {
     std::vector<std::uint8_t> is_strip(static_cast<std::size_t>(t_.n_faces()), 0);
@@ -191,6 +200,7 @@ class BaseStripFinder {
   std::span<const Strip> strips_;
   std::map<FaceId, std::size_t> index_;
   EdgeFaces faces_at_;
+  mutable std::vector<std::optional<bool>> is_smooth_;  // [n_edges] once asked
 };
 
 }  // namespace

@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/eigen.h"
 #include "base/share.h"
+#include "base/threads.h"
 #include "geometry/model/facets.h"
 
 namespace st {
 namespace {
 
 constexpr int kSamples = 9;             // of an edge
+constexpr std::size_t kPerPiece = 8;    // edges: their curves are made, too
 constexpr double kFlat = 1e-3;          // thickness over width of a plane edge, width over length of a straight one
 constexpr double kParallel = 2e-3;      // sine of the angle between directions that count as one
 constexpr std::size_t kTried = 12;      // first axes: the directions of most edges
@@ -35,9 +38,15 @@ class EdgeDirections {
  public:
   explicit EdgeDirections(const Model& model) {
     const ModelTables& t = model.tables();
+    std::vector<EdgeShape> shapes(static_cast<std::size_t>(t.n_edges()));
+    const auto counts = [&](std::size_t e) { return !t.edge_is_degenerate[e] && t.edge_length[e] > 0; };
+    parallel_for(shapes.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e)
+        if (counts(e)) shapes[e] = shape_of(*model.curve(static_cast<EdgeId>(e)));
+    });
     std::vector<Direction> all;
-    for (EdgeId e = 0; e < t.n_edges(); ++e)
-      if (!t.edge_is_degenerate[e] && t.edge_length[e] > 0) sample(*model.curve(e), t.edge_length[e], all);
+    for (std::size_t e = 0; e < shapes.size(); ++e)
+      if (counts(e)) add(shapes[e], t.edge_length[e], all);
     measure_spread();
     unite(std::move(all));
   }
@@ -81,24 +90,35 @@ class EdgeDirections {
     return way;
   }
 
-  void sample(const Curve& curve, double length, std::vector<Direction>& all) {
-    std::array<Vec3, kSamples> x;
+  struct EdgeShape {
     Vec3 middle;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  // of its samples
+    std::optional<Vec3> direction;                     // of a straight or a plane one
+  };
+
+  static EdgeShape shape_of(const Curve& curve) {
+    std::array<Vec3, kSamples> x;
+    EdgeShape own;
+    Vec3& middle = own.middle;
     for (int k = 0; k < kSamples; ++k) {
       x[k] = curve.point(curve.t_min() + (curve.t_max() - curve.t_min()) * k / (kSamples - 1));
       middle += x[k] / kSamples;
     }
-    Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
-    for (const Vec3& p : x) own += outer(p - middle);
-    const PrincipalAxes shape = principal_axes(own);
+    for (const Vec3& p : x) own.spread += outer(p - middle);
+    const PrincipalAxes shape = principal_axes(own.spread);
     const double thick = std::sqrt(std::max(0.0, shape.value[0])), wide = std::sqrt(std::max(0.0, shape.value[1])),
                  long_ = std::sqrt(std::max(0.0, shape.value[2]));
-    middle_.push_back({middle, length});
-    own_spread_ += length / kSamples * own;
     if (wide <= kFlat * long_)
-      all.push_back({shape.axis[2], length});
+      own.direction = shape.axis[2];
     else if (thick <= kFlat * wide)
-      all.push_back({shape.axis[0], length});
+      own.direction = shape.axis[0];
+    return own;
+  }
+
+  void add(const EdgeShape& shape, double length, std::vector<Direction>& all) {
+    middle_.push_back({shape.middle, length});
+    own_spread_ += length / kSamples * shape.spread;
+    if (shape.direction) all.push_back({*shape.direction, length});
   }
 
   /// Of all edges, as if they were of one stuff.
