@@ -258,6 +258,16 @@ class SharedMeasure {
   bool may_have_equal_nodes_ = false;
 };
 
+/// As part_as_meshed() of a mesh that is read whole. Goes through the faces of all triangles where some are joined.
+void part_as_meshed(const MeshFile& file, GeometryArtifact& geometry) {
+  std::vector<std::uint8_t> is_apart(static_cast<std::size_t>(geometry.composites.size()), !file.has_cad_faces());
+  for (std::int64_t first = 0; first < file.n_triangles() && std::ranges::count(is_apart, 0) > 0;
+       first += kTrianglesPerShare)
+    mark_apart(geometry.composites, file.faces(first, std::min(kTrianglesPerShare, file.n_triangles() - first)),
+               is_apart);
+  part_joined_faces(geometry, is_apart);
+}
+
 }  // namespace
 
 bool is_worth_sharing(const CheckStageOptions& o, const Executor& ranks) {
@@ -273,7 +283,7 @@ SharedMesh::SharedMesh(const CheckStageOptions& o) : file(o.mesh) {
   if (!o.geometry.empty()) {
     GeometryArtifact geometry = read_geometry(o.geometry);
     require_same_geometry(o.mesh, own, o.geometry, geometry.header);
-    if (!file.has_cad_faces()) part_joined_faces(geometry);
+    part_as_meshed(file, geometry);
     cad = std::make_unique<CadSide>(std::move(geometry), o.geometry);
   }
   if (o.sizing.empty()) return;

@@ -29,6 +29,7 @@
 #include "stages/cell_budget.h"
 #include "stages/expected_triangles.h"
 #include "stages/fitting_files.h"
+#include "stages/id_ranges.h"
 #include "stages/joined_numbers.h"
 #include "stages/pair_input.h"
 #include "stages/patches_result.h"
@@ -42,6 +43,7 @@ namespace st {
 namespace {
 
 constexpr double kLeastTile = 1000;  // triangles
+constexpr int kMostPartings = 3;     // times that all is meshed again, each time with more joined faces apart
 
 FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {
   FaceId id = 0;
@@ -226,11 +228,14 @@ std::int64_t n_wrong(const MeshResult& r) {
   return static_cast<std::int64_t>(r.failures.size() + r.folds.size()) + r.n_crossing_pairs;
 }
 
-/// Local, on rank 0. Whether something is wrong with a face that was joined of several.
-bool is_joined_wrong(const Meshed& m) {
-  for (std::int32_t c = 0; c < m.composites.size(); ++c)
-    if (std::ranges::binary_search(m.result.bad_faces, m.composites.members(c).front())) return true;
-  return false;
+/// Local, on rank 0. Marks those of `all` that are faces of the mesh and something is wrong with.
+void mark_wrong(const Meshed& m, const Composites& all, std::vector<std::uint8_t>& is_marked) {
+  for (std::int32_t c = 0, own = 0; c < all.size() && own < m.composites.size(); ++c) {
+    const FaceId face = all.members(c).front();
+    if (m.composites.members(own).front() != face) continue;
+    is_marked[c] |= std::ranges::binary_search(m.result.bad_faces, face) ? 1 : 0;
+    ++own;
+  }
 }
 
 /// One run of the stage on all ranks.
@@ -244,7 +249,8 @@ class MeshRun {
  private:
   void read_sizes_and_model();
   Meshed mesh(const Model& model, Composites composites, Resumption& resumption);
-  void mesh_apart(Meshed& joined, Resumption& resumption);
+  Meshed mesh_apart(const std::vector<std::uint8_t>& is_apart, Resumption& resumption);
+  void part_wrong(Meshed& best, Resumption& resumption);
 
   const MeshStageOptions& o_;
   const Communicator& comm_;
@@ -312,21 +318,42 @@ Meshed MeshRun::mesh(const Model& model, Composites composites, Resumption& resu
   return {std::move(composites), std::move(topology), std::move(result)};
 }
 
-/// Collective. Where a joined face cannot be meshed: the faces of the CAD instead, unless more is wrong with them. A
-/// part has to fit other parts, so its faces stay joined.
-void MeshRun::mesh_apart(Meshed& joined, Resumption& resumption) {
-  char is_wrong = comm_.is_root() && faces_.empty() && o_.edges.empty() && is_joined_wrong(joined);
-  share(trace_, is_wrong);
-  if (!is_wrong) return;
-  log_info("joined faces fail, fold or cross: the faces of the CAD are meshed, apart");
+/// Collective. With the faces of composites that are marked apart.
+Meshed MeshRun::mesh_apart(const std::vector<std::uint8_t>& is_apart, Resumption& resumption) {
   GeometryArtifact geometry = read_geometry(o_.geometry);
-  const Model cad = stored_cad(geometry, o_.geometry);
-  Meshed apart = mesh(cad, {}, resumption);
-  char is_better = comm_.is_root() && n_wrong(apart.result) < n_wrong(joined.result);
-  share(trace_, is_better);
-  if (!is_better) return;
-  if (comm_.is_root()) log_report("  joined faces could not be meshed as one: the faces of the CAD were, all apart");
-  joined = std::move(apart);
+  part_joined_faces(geometry, is_apart);
+  Composites composites = geometry.composites;
+  const Model model = stored_model(geometry, o_.geometry);
+  return mesh(model, std::move(composites), resumption);
+}
+
+/// Collective. Where joined faces cannot be meshed: the faces of the CAD instead, unless more is wrong with them. What
+/// else is joined stays so. A part has to fit other parts, so its faces stay joined.
+void MeshRun::part_wrong(Meshed& best, Resumption& resumption) {
+  if (!faces_.empty() || !o_.edges.empty()) return;
+  const Composites& all = geometry_.composites;
+  std::vector<std::uint8_t> is_apart(static_cast<std::size_t>(all.size()), 0), marked = is_apart, of_best = is_apart;
+  if (comm_.is_root()) mark_wrong(best, all, marked);
+  for (int i = 0; i < kMostPartings; ++i) {
+    share(trace_, marked);
+    if (marked == is_apart) break;
+    is_apart = marked;
+    log_info(fmt::format("{} of {} joined faces fail, fold or cross: the faces of the CAD are meshed there",
+                         std::ranges::count(is_apart, 1), all.size()));
+    Meshed apart = mesh_apart(is_apart, resumption);
+    if (comm_.is_root()) mark_wrong(apart, all, marked);
+    char is_better = comm_.is_root() && n_wrong(apart.result) < n_wrong(best.result);
+    share(trace_, is_better);
+    if (!is_better) continue;
+    best = std::move(apart);
+    of_best = is_apart;
+  }
+  for (std::int32_t c = 0; comm_.is_root() && c < all.size(); ++c) {
+    std::vector<std::int32_t> numbers(all.members(c).begin(), all.members(c).end());
+    for (std::int32_t& n : numbers) ++n;
+    if (of_best[c])
+      log_report(fmt::format("  faces {} could not be meshed as one: they are apart", id_ranges(numbers)));
+  }
 }
 
 StageSummary MeshRun::run() {
@@ -334,7 +361,7 @@ StageSummary MeshRun::run() {
   Resumption resumption(trace_, o_.output, run_of(header, earlier_.edges, hash_of(pairs_.pairs())),
                         {o_.journal_after, o_.begins_new});
   Meshed meshed = mesh(*model_, geometry_.composites, resumption);
-  mesh_apart(meshed, resumption);
+  part_wrong(meshed, resumption);
   resumption.end();
   trace_.begin_phase("write");
   progress_.step("writing", 0.9);

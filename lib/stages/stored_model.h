@@ -1,11 +1,16 @@
 // The CAD model of a geometry artifact.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
+#include "geometry/model/joined_tables.h"
 #include "geometry/model/model.h"
+#include "geometry/model/parted_composites.h"
 #include "io/hdf5/artifact.h"
 
 namespace st {
@@ -32,9 +37,25 @@ inline bool part_joined_faces(GeometryArtifact& geometry) {
   return true;
 }
 
-/// Likewise where `mesh` was made of the faces of the CAD: such a mesh has no `cad_face` beside its faces.
+/// Likewise the faces of composites that are marked ([n_composites]) alone.
+inline void part_joined_faces(GeometryArtifact& geometry, const std::vector<std::uint8_t>& is_apart) {
+  if (std::ranges::count(is_apart, 1) == 0) return;
+  Composites kept = without(geometry.composites, is_apart, geometry.cad);
+  if (kept.empty()) {
+    part_joined_faces(geometry);
+    return;
+  }
+  geometry.tables = join_tables(geometry.cad, kept).tables;
+  geometry.composites = std::move(kept);
+}
+
+/// Likewise where `mesh` was made of the faces of the CAD: such a mesh has no `cad_face` beside its faces, or
+/// triangles on faces that are joined to others.
 inline void part_as_meshed(const MeshArtifact& mesh, GeometryArtifact& geometry) {
-  if (mesh.triangle_cad_face.empty()) part_joined_faces(geometry);
+  std::vector<std::uint8_t> is_apart(static_cast<std::size_t>(geometry.composites.size()),
+                                     mesh.triangle_cad_face.empty());
+  mark_apart(geometry.composites, mesh.mesh.triangle_face, is_apart);
+  part_joined_faces(geometry, is_apart);
 }
 
 /// As stored_model(), as the CAD has it. Error(kInput) for a model of facets.
