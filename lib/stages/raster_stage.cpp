@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/share.h"
@@ -19,6 +20,7 @@
 #include "features/round_tails.h"
 #include "features/smooth_edges.h"
 #include "features/unlisted_wings.h"
+#include "geometry/model/edge_faces.h"
 #include "io/file/json_text.h"
 #include "io/file/temporary_file.h"
 #include "io/hdf5/artifact.h"
@@ -192,6 +194,20 @@ struct RasterInput {
   Model model;
 };
 
+/// A far field is as large as all of its faces that go on into each other: it may be cut anywhere.
+void join_far_boxes(const ModelTables& t, const std::vector<std::uint8_t>& is_smooth, FaceRoles& roles) {
+  const EdgeFaces faces_at(t);
+  DisjointSets sets(t.n_faces());
+  for (EdgeId e = 0; e < t.n_edges(); ++e)
+    if (is_smooth[e] &&
+        std::ranges::all_of(faces_at[e], [&](FaceId f) { return roles.role[f] == FaceRole::kFarfield; }))
+      sets.join(faces_at[e].front(), faces_at[e].back());
+  std::vector<Box3> box(static_cast<std::size_t>(t.n_faces()));
+  for (FaceId f = 0; f < t.n_faces(); ++f) box[sets.find(f)].add(roles.own.face_box[f]);
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (roles.role[f] == FaceRole::kFarfield) roles.own.face_box[f] = box[sets.find(f)];
+}
+
 /// The stage, step by step.
 class RasterRun {
  public:
@@ -281,6 +297,7 @@ class RasterRun {
       find_wings();
     }
     std::vector<std::uint8_t> is_smooth = find_smooth_edges(in_.model, trace_);
+    if (comm_.is_root()) join_far_boxes(in_.model.tables(), is_smooth, roles_);
     if (comm_.is_root()) limits_ = find_limits(o_, in_.model, roles_, bases_, {wall_, in_.rules}, wings_);
     limits_.edge_is_smooth = std::move(is_smooth);
     share_limits(trace_, limits_);
