@@ -21,8 +21,12 @@ bool is_closed(const MergedFeatures& m, std::size_t strip, const EdgeMesh& edges
 std::vector<FaceId> closed_faces(const MergedFeatures& merged, const EdgeMesh& edges,
                                  const std::vector<VertexId>& edge_vertices) {
   std::vector<FaceId> faces;
-  for (std::size_t s = 0; s < merged.strip_face.size(); ++s)
-    if (is_closed(merged, s, edges, edge_vertices)) faces.push_back(merged.strip_face[s]);
+  for (std::size_t s = 0, end; s < merged.strip_face.size(); s = end) {
+    bool is_all = true;  // around a ledge there are several
+    for (end = s; end < merged.strip_face.size() && merged.strip_face[end] == merged.strip_face[s]; ++end)
+      is_all = is_all && is_closed(merged, end, edges, edge_vertices);
+    if (is_all) faces.push_back(merged.strip_face[s]);
+  }
   return faces;
 }
 

@@ -688,6 +688,13 @@ const std::map<std::string, Factory>& factories() {
       {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
       {"thin_cylinder", [] { return BRepPrimAPI_MakeCylinder(0.05, 30).Shape(); }},
       {"stepped_box", [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
+      {"ledge_in_hole",  // square, 0.02 wide, half way down
+       [] {
+         const TopoDS_Shape hole = BRepAlgoAPI_Cut(box(10, 10, 5), moved(box(4, 4, 7), 3, 3, -1)).Shape();
+         return BRepAlgoAPI_Cut(hole, moved(box(4.04, 4.04, 3), 2.98, 2.98, 2.5)).Shape();
+       }},
+      {"square_pipe",  // walls of 0.02
+       [] { return BRepAlgoAPI_Cut(box(10, 10, 20), moved(box(9.96, 9.96, 22), 0.02, 0.02, -1)).Shape(); }},
       {"thin_pipe",
        [] {
          return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(10, 20).Shape(),

@@ -165,14 +165,28 @@ EdgeMesh EdgeMesher::make_edge(EdgeId e, const Refinements& refinements) const {
   return nodes;
 }
 
+/// How far apart the edges of a strip may be and are one all the same, however small the sizes become.
+double EdgeMesher::exactness(const MeshTopology::Strip& strip) const {
+  if (tables_.edge_vertices[2 * strip.kept] == tables_.edge_vertices[2 * strip.kept + 1])
+    return cad_tolerance(tables_, strip.face);
+  if (std::ranges::equal_range(topology_.strips(), strip.face, {}, &MeshTopology::Strip::face).size() == 1)
+    return strip_exactness(model_, strip.kept, strip.closed, strip.is_opposed);
+  constexpr double kSpare = 1.01;  // a ledge, whose corners are one: all of it is closed
+  const ModelTables& t = model_.tables();
+  double most = 0;
+  for (const std::size_t k : {0, 1}) {
+    const VertexId a = t.edge_vertices[2 * static_cast<std::size_t>(strip.kept) + k],
+                   b = t.edge_vertices[2 * static_cast<std::size_t>(strip.closed) + (strip.is_opposed ? 1 - k : k)];
+    most = std::max(most, distance(t.vertex_xyz[a], t.vertex_xyz[b]));
+  }
+  return kSpare * most;
+}
+
 /// The nodes of a strip's other edge follow those of the kept one.
 EdgeMesh EdgeMesher::make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const {
   const double tolerance = face_tolerance_.empty() ? 0 : face_tolerance_[strip.face];
-  const bool is_ring = tables_.edge_vertices[2 * strip.kept] == tables_.edge_vertices[2 * strip.kept + 1];
-  const double exact = is_ring ? cad_tolerance(tables_, strip.face)
-                               : strip_exactness(model_, strip.kept, strip.closed, strip.is_opposed);
   EdgeMesh nodes = mirror_nodes(*model_.curve(strip.kept), kept, *model_.curve(strip.closed), strip.is_opposed,
-                                {merge_below_, tolerance, exact});
+                                {merge_below_, tolerance, exactness(strip)});
   end_at_vertices(strip.closed, nodes, nodes.n_nodes(0) - 1);
   return nodes;
 }

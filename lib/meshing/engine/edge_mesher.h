@@ -32,6 +32,7 @@ class EdgeMesher {
  private:
   struct Fresh;  // nodes that are being made
   EdgeMesh make_edge(EdgeId e, const Refinements& refinements) const;
+  double exactness(const MeshTopology::Strip& strip) const;
   EdgeMesh make_mirrored(const MeshTopology::Strip& strip, const EdgeMesh& kept) const;
   void follow_leaders(const Refinements& refinements, const EdgeMesh& present, Fresh& fresh) const;
   void mirror(const std::vector<const MeshTopology::Strip*>& strips, Fresh& fresh) const;

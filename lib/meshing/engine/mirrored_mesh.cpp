@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -156,13 +157,16 @@ MergedFeatures mirrored(const MergedFeatures& merged, const Mirror& mirror, cons
   }
   std::sort(all.edge.begin(), all.edge.end());
   std::vector<std::tuple<FaceId, EdgeId, EdgeId, std::uint8_t>> strips;
+  std::set<FaceId> stays;  // all strips of a ledge, or none
+  for (std::size_t s = 0; s < merged.strip_face.size(); ++s) {
+    const EdgeId kept = merged.strip_kept[s], closed = merged.strip_closed[s];
+    const bool is_ring = t.edge_vertices[2 * kept] == t.edge_vertices[2 * kept + 1];
+    if (!is_off_plane(kept, is_ring) || !is_off_plane(closed, is_ring)) stays.insert(merged.strip_face[s]);
+  }
   for (std::size_t s = 0; s < merged.strip_face.size(); ++s) {
     const FaceId f = merged.strip_face[s];
     const EdgeId kept = merged.strip_kept[s], closed = merged.strip_closed[s];
-    const bool is_ring = t.edge_vertices[2 * kept] == t.edge_vertices[2 * kept + 1];
-    if (mirror.face_is_image[f] || mirror.face[f] == f || !is_off_plane(kept, is_ring) ||
-        !is_off_plane(closed, is_ring))
-      continue;
+    if (mirror.face_is_image[f] || mirror.face[f] == f || stays.contains(f)) continue;
     strips.emplace_back(f, kept, closed, merged.strip_is_opposed[s]);
     strips.emplace_back(mirror.face[f], mirror.edge[kept], mirror.edge[closed], merged.strip_is_opposed[s]);
   }

@@ -1,5 +1,6 @@
 #include "meshing/topology/mesh_topology.h"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -34,9 +35,16 @@ MeshTopology::MeshTopology(const ModelTables& tables, MergedFeatures merged)
     tables_.edge_is_degenerate[e] = 1;
   }
   const auto is_ring = [&](EdgeId e) { return tables_.edge_vertices[2 * e] == tables_.edge_vertices[2 * e + 1]; };
-  for (std::size_t s = 0; s < merged_.strip_face.size(); ++s)
+  for (std::size_t s = 0; s < merged_.strip_face.size(); ++s) {
+    const auto kept = 2 * static_cast<std::size_t>(merged_.strip_kept[s]),
+               closed = 2 * static_cast<std::size_t>(merged_.strip_closed[s]);
     if (is_ring(merged_.strip_kept[s]) && is_ring(merged_.strip_closed[s]))
-      sets.join(tables_.edge_vertices[2 * merged_.strip_kept[s]], tables_.edge_vertices[2 * merged_.strip_closed[s]]);
+      sets.join(tables_.edge_vertices[kept], tables_.edge_vertices[closed]);
+    else if (std::ranges::equal_range(merged_.strip_face, merged_.strip_face[s]).size() > 1)  // around a ledge
+      for (const std::size_t k : {0, 1})
+        sets.join(tables_.edge_vertices[kept + k],
+                  tables_.edge_vertices[closed + (merged_.strip_is_opposed[s] ? 1 - k : k)]);
+  }
   for (VertexId& v : tables_.edge_vertices) v = sets.find(v);
   const std::size_t n_strips = merged_.strip_face.size();
   if (n_strips == 0) return;

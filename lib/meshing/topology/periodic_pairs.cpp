@@ -257,8 +257,11 @@ MergedFeatures without_paired(const MergedFeatures& merged, const PeriodicPairs&
   MergedFeatures left;
   left.pairs = pairs.pairs();
   std::copy_if(merged.edge.begin(), merged.edge.end(), std::back_inserter(left.edge), is_free);
+  std::set<FaceId> stays;  // all strips of a ledge, or none
+  for (std::size_t s = 0; s < merged.strip_face.size(); ++s)
+    if (!is_free(merged.strip_kept[s]) || !is_free(merged.strip_closed[s])) stays.insert(merged.strip_face[s]);
   for (std::size_t s = 0; s < merged.strip_face.size(); ++s) {
-    if (!is_free(merged.strip_kept[s]) || !is_free(merged.strip_closed[s])) continue;
+    if (stays.contains(merged.strip_face[s])) continue;
     left.strip_face.push_back(merged.strip_face[s]);
     left.strip_kept.push_back(merged.strip_kept[s]);
     left.strip_closed.push_back(merged.strip_closed[s]);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "features/strip.h"
 #include "geometry/model/cad_tolerance.h"
 #include "geometry/model/edge_faces.h"
+#include "meshing/topology/ledges.h"
 
 namespace st {
 namespace {
@@ -166,29 +168,48 @@ class StripMerger {
     std::sort(contacts_.begin(), contacts_.end());
   }
 
-  /// `narrow` [by face] all strips that might be closed.
-  bool may_close(const Strip& strip, const std::vector<Strip>& narrow) {
-    const auto is_narrow = [&](FaceId f) {
-      return std::any_of(narrow.begin(), narrow.end(), [&](const Strip& s) { return s.face == f; });
-    };
-    const FaceId a = faces_at_.beyond(strip.edges[0], strip.face), b = faces_at_.beyond(strip.edges[1], strip.face);
-    if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]] || is_narrow(a) || is_narrow(b)) return false;
-    for (const EdgeId e : strip.edges)
-      for (int k = 0; k < 2; ++k)
-        if (std::binary_search(contacts_.begin(), contacts_.end(), contact(e, k, {a, b}))) return false;
-    for (const EdgeId e : strip.edges) {
-      taken_[e] = 1;
-      for (int k = 0; k < 2; ++k) {
-        const Contact added = contact(e, k, {a, b});
-        contacts_.insert(std::upper_bound(contacts_.begin(), contacts_.end(), added), added);
-      }
+  /// Those of one face, all of them or none. `narrow` [by face] all strips that might be closed.
+  bool may_close(std::span<const Strip> strips, const std::vector<Strip>& narrow) {
+    FacePair last = {kNone, kNone};
+    for (const Strip& strip : strips) {
+      const FacePair own = sides(strip);
+      if (own == last || !is_free(strip, narrow)) return false;
+      last = own;
     }
+    for (const Strip& strip : strips) take(strip);
     return true;
   }
 
  private:
   using FacePair = std::pair<FaceId, FaceId>;
   using Contact = std::pair<VertexId, FacePair>;  // two faces that share an edge that ends here
+
+  FacePair sides(const Strip& strip) const {
+    return {faces_at_.beyond(strip.edges[0], strip.face), faces_at_.beyond(strip.edges[1], strip.face)};
+  }
+
+  bool is_free(const Strip& strip, const std::vector<Strip>& narrow) {
+    const auto is_narrow = [&](FaceId f) {
+      return std::any_of(narrow.begin(), narrow.end(), [&](const Strip& s) { return s.face == f; });
+    };
+    const auto [a, b] = sides(strip);
+    if (a == b || taken_[strip.edges[0]] || taken_[strip.edges[1]] || is_narrow(a) || is_narrow(b)) return false;
+    for (const EdgeId e : strip.edges)
+      for (int k = 0; k < 2; ++k)
+        if (std::binary_search(contacts_.begin(), contacts_.end(), contact(e, k, {a, b}))) return false;
+    return true;
+  }
+
+  void take(const Strip& strip) {
+    for (const EdgeId e : strip.edges) {
+      taken_[e] = 1;
+      for (int k = 0; k < 2; ++k) {
+        const Contact added = contact(e, k, sides(strip));
+        contacts_.insert(std::upper_bound(contacts_.begin(), contacts_.end(), added), added);
+      }
+    }
+  }
+
   Contact contact(EdgeId e, int k, FacePair f) {
     return {sets_.find(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
   }
@@ -279,6 +300,13 @@ std::vector<Ring> narrow_rings(const Model& model, const SizeField& field) {
   return rings;
 }
 
+void add(const Strip& strip, MergedFeatures& merged) {
+  merged.strip_face.push_back(strip.face);
+  merged.strip_kept.push_back(strip.edges[0]);
+  merged.strip_closed.push_back(strip.edges[1]);
+  merged.strip_is_opposed.push_back(strip.is_opposed);
+}
+
 }  // namespace
 
 double MergeLimit::at(double size) const {
@@ -297,15 +325,16 @@ MergedFeatures find_merged_features(const Model& model, const SizeField& field, 
   std::vector<Strip> strips = narrow_strips(known_strips ? *known_strips : find_strips(model), field, face_limit);
   const std::vector<Ring> rings = narrow_rings(model, field);
   for (const Ring& ring : rings) strips.push_back(ring.strip);
+  const auto is_merged = [&](EdgeId e) { return std::ranges::binary_search(merged.edge, e); };
+  for (Strip& ledge : find_ledges(model, field, face_limit))
+    if (std::ranges::none_of(t.edges_of(ledge.face), is_merged)) strips.push_back(std::move(ledge));
   std::stable_sort(strips.begin(), strips.end(), [](const Strip& a, const Strip& b) { return a.face < b.face; });
-  for (const Strip& strip : strips) {
-    if (!merger.may_close(strip, strips)) continue;
+  for (auto first = strips.begin(), end = first; first != strips.end(); first = end) {
+    end = std::find_if(first, strips.end(), [&](const Strip& s) { return s.face != first->face; });
+    if (!merger.may_close(std::span(first, end), strips)) continue;
     for (const Ring& ring : rings)
-      if (ring.strip.face == strip.face && ring.seam != kNone) merged.edge.push_back(ring.seam);
-    merged.strip_face.push_back(strip.face);
-    merged.strip_kept.push_back(strip.edges[0]);
-    merged.strip_closed.push_back(strip.edges[1]);
-    merged.strip_is_opposed.push_back(strip.is_opposed);
+      if (ring.strip.face == first->face && ring.seam != kNone) merged.edge.push_back(ring.seam);
+    for (auto strip = first; strip != end; ++strip) add(*strip, merged);
   }
   std::sort(merged.edge.begin(), merged.edge.end());
   return merged;

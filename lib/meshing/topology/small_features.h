@@ -26,7 +26,8 @@ struct MergeLimit {
 /// and on the mean narrower than the length. On faces whose groups have a tolerance (face_tolerances) that is the
 /// limit; an edge between faces of different limits has the smaller. `below` 0: nothing is merged. An edge is not drawn
 /// together when a loop would be left with fewer than two edges, or several would move a vertex further than that.
-/// Rings, faces between two closed edges, are closed where they are narrower all around than the CAD is exact.
+/// Rings, faces between two closed edges, are closed where they are narrower all around than the CAD is exact; ledges
+/// (ledges.h) where they are narrower all around than the limit, with a strip for each pair of edges.
 /// `strips`: those of the model, by find_strips(); null: they are found. Deterministic, local.
 MergedFeatures find_merged_features(const Model& model, const SizeField& field, double below,
                                     const std::vector<Strip>* strips = nullptr);

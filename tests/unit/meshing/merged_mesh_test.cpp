@@ -77,6 +77,16 @@ TEST(SmallFeatures, a_strip_is_closed_only_where_it_is_narrow) {
   EXPECT_NEAR(from, (0.1 - 0.02) / 0.98 * 20, 1.5) << "the strip is 0.1 wide there";
 }
 
+TEST(SmallFeatures, a_ledge_around_a_hole_is_closed) {
+  const MergedMesh m("ledge_in_hole", 1, 0.05);
+  expect_sound(m, 0);
+  EXPECT_EQ(m.topology.merged().strip_face.size(), 4u) << "one for each pair of edges";
+  EXPECT_EQ(m.n_closed(), 1u);
+  EXPECT_GT(m.shortest_side(), 0.3);
+  EXPECT_NEAR(measure_mesh(m.mesh).volume, 500 - 16 * 5 - (4.04 * 4.04 - 16) * 2.5, 0.5);
+  EXPECT_NEAR(MergedMesh("ledge_in_hole", 1, 0).shortest_side(), 0.02, 1e-9);
+}
+
 TEST(SmallFeatures, a_plate_thinner_than_the_bound_keeps_its_two_sides) {
   const MergedMesh m("thin_plate", 1, 0.05);
   expect_sound(m, 2);
