@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "sizing/crossing_parts.h"
 #include "sizing/gap_stretch.h"
 
 namespace st {
@@ -47,11 +48,12 @@ struct Facing {
 class GapTiler {
  public:
   GapTiler(const GapPatch& patch, const std::vector<Facing>& facing, const GapFinder::MeetingPlace& meeting_place,
-           double cell_per_length, std::vector<RasterBox>& boxes)
+           const CrossingParts& parts, double cell_per_length, std::vector<RasterBox>& boxes)
       : patch_(patch),
         shape_(patch.shape),
         facing_(facing),
         meeting_place_(meeting_place),
+        parts_(parts),
         cell_per_length_(cell_per_length),
         boxes_(boxes) {
     has_large_ = std::any_of(facing.begin(), facing.end(), [&](const Facing& f) { return is_large(*f.patch); });
@@ -87,7 +89,8 @@ class GapTiler {
         continue;
       const std::optional<double> d = f.patch->shape.facing_distance(x, n);
       if (d && !is_contact(*f.patch, *d) && std::abs(*d) < cells_to(patch_, *d) * sight.length &&
-          !(*d > 0 && (is_past_crossing(*f.patch, s, t, *d) || closes_at_edge(*f.patch, x, n, *d))))
+          !(*d > 0 && (is_past_crossing(*f.patch, s, t, *d) || closes_at_edge(*f.patch, x, n, *d) ||
+                       parts_.cross_where_closed(patch_, *f.patch, x, *d))))
         sight = {std::abs(*d) / cells_to(patch_, *d), *d, f.patch, x + *d * n, x, n};
     }
     return sight;
@@ -226,6 +229,7 @@ class GapTiler {
   const Paraboloid& shape_;
   const std::vector<Facing>& facing_;
   const GapFinder::MeetingPlace& meeting_place_;
+  const CrossingParts& parts_;
   const double cell_per_length_;
   std::vector<RasterBox>& boxes_;
   bool has_large_;
@@ -234,7 +238,11 @@ class GapTiler {
 }  // namespace
 
 GapFinder::GapFinder(std::span<const GapPatch> patches, double cell_per_length, MeetingPlace meeting_place)
-    : patches_(patches), cell_per_length_(cell_per_length), meeting_place_(std::move(meeting_place)), tree_(patches) {}
+    : patches_(patches),
+      cell_per_length_(cell_per_length),
+      meeting_place_(std::move(meeting_place)),
+      tree_(patches),
+      parts_(patches) {}
 
 void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
   const GapPatch& patch = patches_[i];
@@ -247,7 +255,7 @@ void GapFinder::add_boxes(std::size_t i, std::vector<RasterBox>& boxes) const {
     const Box3 box = patches_[id].shape.box();
     facing.push_back({box.center(), 0.5 * box.diagonal(), &patches_[id]});
   }
-  GapTiler(patch, facing, meeting_place_, cell_per_length_, boxes).run();
+  GapTiler(patch, facing, meeting_place_, parts_, cell_per_length_, boxes).run();
 }
 
 }  // namespace st

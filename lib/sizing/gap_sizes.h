@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sizing/crossing_parts.h"
 #include "sizing/octree.h"
 #include "sizing/patch_tree.h"
 
@@ -25,8 +26,8 @@ class GapFinder {
   /// next patch that faces it (normals opposed by more than 135 degrees), where that is less than the patch asks for;
   /// never below its min_length. Patches are paraboloids, so that distances between curved walls are those of the
   /// surfaces. The boxes cover the part of the patch that sees a gap. Surfaces that touch make no gap, nor do two
-  /// that close up towards an edge in which they meet; walls end with their solid. Nothing to a side whose cells are
-  /// not given.
+  /// that close up towards an edge in which they meet, or where two solids cross; walls end with their solid. Nothing
+  /// to a side whose cells are not given.
   void add_boxes(std::size_t patch, std::vector<RasterBox>& boxes) const;
 
  private:
@@ -34,6 +35,7 @@ class GapFinder {
   double cell_per_length_;
   MeetingPlace meeting_place_;
   PatchTree tree_;
+  CrossingParts parts_;
 };
 
 }  // namespace st

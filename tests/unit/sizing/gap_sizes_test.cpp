@@ -137,6 +137,22 @@ TEST(GapSizes, see_no_gap_that_closes_towards_a_common_edge) {
   EXPECT_NEAR(length_at(gaps_of_wedge(1, radians(3), true), {2, 5, 0}, 0), 0.27, 0.03);
 }
 
+TEST(GapSizes, see_no_gap_that_closes_where_two_solids_cross) {
+  const double angle = 0.3;
+  const PlaneSurface leaning(
+      {{0, 0, 1}, {std::cos(angle), 0, -std::sin(angle)}, {0, 1, 0}, {std::sin(angle), 0, std::cos(angle)}}, 0, 10, 0,
+      10);
+  std::vector<GapPatch> patches;
+  add_patches(plate(0), Normals::kAlong, limits(1, 0.001), patches, 0);
+  add_patches(leaning, Normals::kAgainst, limits(1, 0.001), patches, 1);
+  EXPECT_LT(length_at(gaps(patches), {3, 5, 0}, 0), 0.1);
+  for (GapPatch& p : patches) {
+    p.solid = p.cause;
+    p.max_aspect = 20;
+  }
+  for (const RasterBox& b : gaps(patches)) EXPECT_GT(b.length, 0.3) << b.center.x << " " << b.center.y;
+}
+
 TEST(GapSizes, see_no_wall_between_two_solids_and_no_gap_where_a_shaft_fills_its_bore) {
   const auto cylinder = [](double radius, double turned) {
     return AxialSurface(SurfaceType::kCylinder, kGapFrame, radius, 0, turned, turned + 2 * kPi, 0, 1);
