@@ -1,6 +1,7 @@
 #include "meshing/engine/stretch_easing.h"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 
 #include "base/share.h"
@@ -22,6 +23,7 @@ void StretchEasing::run() {
   best_ = {count_flaws(), has_obtuse, faces_.state(), refinements_.all()};
   run_rounds(&StretchFlaws::stretched, Shortens::kAlong);
   if (!is_best_) go_back();
+  mix_rounds();
   if (!best_.has_obtuse) return;
   flaws_ = find_flaws(0);
   run_rounds(&StretchFlaws::obtuse, Shortens::kAll);
@@ -37,6 +39,7 @@ bool StretchEasing::is_on_root(bool is_here) const {
 
 void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) {
   const std::size_t first = refinements_.all().size();
+  rounds_ = {{refinements_.all(), flaws_.all}};
   for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_obtuse(), n_worst(), n_first_, n_again_); ++i) {
     const std::vector<Refinement> shorter = shorten(flaws_.*places, shortens);
     if (shorter.empty()) break;
@@ -44,6 +47,7 @@ void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) 
         mesh_again_(shorter, "where stretched triangles are obtuse or too large", RefinementTrials::kAnyBad));
     take_back_spoiling(first);
     flaws_ = find_flaws(i + 1);
+    rounds_.push_back({refinements_.all(), flaws_.all});
     n_without = keep_if_better() ? 0 : n_without + 1;
   }
 }
@@ -82,6 +86,7 @@ void StretchEasing::add_unheld(const SurfaceMesh& mesh, const SizeField& present
   int hint = 0;
   for (const RefinementPoint& place : find_unheld_(mesh)) {
     ++flaws.n_unheld;
+    flaws.all.push_back({place.x, FlawKind::kUnheld});
     if (const LocalSize local = present.local(place.x, hint); local.along > local.length)
       flaws.stretched.push_back(eased_unheld(place, local, n_tries));
   }
@@ -135,6 +140,30 @@ void StretchEasing::take_back_spoiling(std::size_t first) {
   spoiling_.insert(spoiling_.end(), dropped.begin(), dropped.end());
   refinements_.assign(std::move(kept));
   n_again_ += n_triangles(mesh_again_(dropped, "spoils triangles", RefinementTrials::kAnyBad));
+}
+
+/// Some places may be better after one round, others after another one or as they were.
+void StretchEasing::mix_rounds() {
+  if (best_.n_flaws == Count{n_bad_, 0, 0, 0, 0}) return;
+  const std::size_t first = rounds_.front().refinements.size();
+  const std::vector<Refinement> before = refinements_.all();
+  std::vector<Refinement> mixed = executor_.is_root() ? best_of_places(rounds_) : std::vector<Refinement>();
+  share(executor_, mixed);
+  std::vector<Refinement> changed;
+  const auto add_missing = [&](const std::vector<Refinement>& from, const std::vector<Refinement>& in) {
+    std::ranges::copy_if(from, std::back_inserter(changed), [&](const Refinement& r) {
+      return std::ranges::none_of(in, [&](const Refinement& other) { return is_same(r, other); });
+    });
+  };
+  add_missing(before, mixed);
+  add_missing(mixed, before);
+  if (changed.empty()) return;
+  refinements_.assign(mixed);
+  n_again_ += n_triangles(mesh_again_(changed, "where another round of easing is better", RefinementTrials::kAnyBad));
+  take_back_spoiling(first);
+  flaws_ = find_flaws(0);
+  keep_if_better();
+  if (!is_best_) go_back();
 }
 
 void StretchEasing::go_back() {

@@ -10,6 +10,7 @@
 
 #include "base/executor.h"
 #include "mesh/merge.h"
+#include "meshing/engine/eased_places.h"
 #include "meshing/engine/meshed_faces.h"
 #include "meshing/engine/refinement_trials.h"
 #include "meshing/engine/stretch_flaws.h"
@@ -62,6 +63,7 @@ class StretchEasing {
   bool keep_if_better();
   std::vector<Refinement> shorten(const Places& places, Shortens shortens);
   void take_back_spoiling(std::size_t first);
+  void mix_rounds();
   void go_back();
 
   const ModelTables& tables_;
@@ -76,6 +78,7 @@ class StretchEasing {
   std::int64_t n_again_ = 0;          // that were meshed since then
   std::vector<Refinement> spoiling_;  // lengths are not shortened within their reach
   StretchFlaws flaws_;                // of the present mesh, on rank 0
+  std::vector<EasingRound> rounds_;   // of one run_rounds(), on rank 0
   Best best_;
   bool is_best_ = true;  // the present mesh
 };

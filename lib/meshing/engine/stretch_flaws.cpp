@@ -40,9 +40,11 @@ class FlawFinder {
     bool is_long = false;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (!is_obtuse_[t] && factor_[t] == 1) continue;
+      const bool is_far = is_obtuse_[t] && is_obtuse(triangles_[t], kFarCosine);
       ++(is_obtuse_[t] ? flaws.n_obtuse : flaws.n_large);
-      if (is_obtuse_[t] && is_obtuse(triangles_[t], kFarCosine)) ++flaws.n_far;
+      flaws.n_far += is_far;
       const RefinementPoint place = place_at(t, is_long);
+      flaws.all.push_back({place.x, is_far ? FlawKind::kFar : is_obtuse_[t] ? FlawKind::kObtuse : FlawKind::kLarge});
       if (is_long)
         flaws.stretched.push_back(place);
       else if (is_obtuse_[t])

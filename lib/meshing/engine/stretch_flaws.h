@@ -11,7 +11,16 @@
 
 namespace st {
 
+enum class FlawKind { kFar, kUnheld, kObtuse, kLarge };  ///< the worst first; see StretchFlaws
+inline constexpr std::size_t kFlawKinds = 4;
+
+struct StretchFlaw {
+  Vec3 x;
+  FlawKind kind;
+};
+
 struct StretchFlaws {
+  std::vector<StretchFlaw> all;  ///< each as its worst kind
   // in the order of the triangles
   std::vector<RefinementPoint> stretched;  ///< where lengths along should be shorter
   std::vector<RefinementPoint> obtuse;     ///< where triangles are, although lengths are alike in all directions

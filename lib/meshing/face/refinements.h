@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct Refinement {
   Shortens shortens = Shortens::kAll;
 };
 static_assert(sizeof(Refinement) == 7 * sizeof(double));
+
+inline bool is_same(const Refinement& a, const Refinement& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 inline double slope_of(Shortens shortens) { return shortens == Shortens::kAll ? kRefinementSlope : kAlongSlope; }
 
