@@ -26,9 +26,9 @@ void add_patches(const Surface& surface, bool is_down, std::int32_t solid, doubl
   std::vector<GapPatch> found;
   raster_face(surface, {}, SamplingLimits{0.01, 1, radians(10), 2}, solid, boxes, &found);
   for (GapPatch& p : found) {
-    if (is_down) p.flip();
+    if (is_down) p.shape.flip();
     p.solid = solid;
-    p.max_aspect = max_aspect;
+    p.stretch.max_aspect = max_aspect;
   }
   patches.insert(patches.end(), found.begin(), found.end());
 }
@@ -57,8 +57,9 @@ bool closes_at(double x, const Walls& walls) {
   bool is_seen = false, closes = false;
   for (const GapPatch& own : patches)
     for (const GapPatch& other : patches) {
-      if (own.normal.z < 0.99 || !(std::abs(from.x - own.x.x) <= own.s_hi) || &own == &other) continue;
-      const auto d = other.facing_distance(from, {0, 0, 1});
+      if (own.shape.normal.z < 0.99 || !(std::abs(from.x - own.shape.x.x) <= own.shape.s_hi) || &own == &other)
+        continue;
+      const auto d = other.shape.facing_distance(from, {0, 0, 1});
       if (!d || *d <= 0) continue;
       is_seen = true;
       closes |= CrossingParts(patches).cross_where_closed(own, other, from, *d);

@@ -148,7 +148,7 @@ TEST(GapSizes, see_no_gap_that_closes_where_two_solids_cross) {
   EXPECT_LT(length_at(gaps(patches), {3, 5, 0}, 0), 0.1);
   for (GapPatch& p : patches) {
     p.solid = p.cause;
-    p.max_aspect = 20;
+    p.stretch.max_aspect = 20;
   }
   for (const RasterBox& b : gaps(patches)) EXPECT_GT(b.length, 0.3) << b.center.x << " " << b.center.y;
 }
