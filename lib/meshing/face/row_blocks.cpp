@@ -119,7 +119,6 @@ class RowBlock {
     const std::int32_t a = line_.nodes[i], b = line_.nodes[i + 1];
     const std::int32_t c = next.columns[i].existing, d = next.columns[i + 1].existing;
     const auto length = [&](std::int32_t from, std::int32_t to) {
-      if (!w_.field->has_metrics()) return distance(x(from), x(to));
       return std::sqrt(length2(x(to) - x(from), m_.nodes[c], m_.nodes[d]));
     };
     if (a == c) return layer_.lay({{a, b, d}});
