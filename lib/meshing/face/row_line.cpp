@@ -14,7 +14,7 @@ namespace {
 // Where each number comes from: docs/design/heuristics.md.
 constexpr double kGrowth = 1.4;        // of heights from row to row, at most
 constexpr double kTooSquare = 1.0;     // length over height of a quadrilateral
-constexpr double kSquareAspect = 1.5;  // on the mean of a quadrilateral and its neighbours
+constexpr double kSquareAspect = 2.2;  // on the mean of a quadrilateral and its neighbours
 constexpr double kFreeBeyond = 0.7;    // of a row's height, which must be free behind it,
 constexpr double kFreeOfWidth = 0.3;   // and of the length of its quadrilaterals,
 constexpr double kMostFree = 4;        // but no more than of the height

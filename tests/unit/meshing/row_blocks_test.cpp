@@ -38,8 +38,8 @@ TEST(RowBlocks, grow_by_the_slope_until_they_are_nearly_square) {
     EXPECT_TRUE(face.work.mesh.nodes[a].is_laid || a < face.work.mesh.n_boundary);
     height = std::max(height, face.work.mesh.nodes[a].x.y);
   }
-  EXPECT_GT(height, 2.5);
-  EXPECT_LT(height, 4.5);
+  EXPECT_GT(height, 1.5);
+  EXPECT_LT(height, 2.5);
   EXPECT_NEAR(face.laid_area(), 10 * height, 0.05 * 10 * height);
 }
 

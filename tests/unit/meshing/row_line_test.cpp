@@ -65,7 +65,7 @@ TEST(NextLine, leaves_out_columns_in_front_of_something) {
 }
 
 TEST(NextLine, ends_where_quadrilaterals_are_nearly_square) {
-  const WallField coarse(0.85, 0, 1), fine(0.5, 0, 1);
+  const WallField coarse(0.5, 0, 1), fine(0.4, 0, 1);
   RowCase square({band(10, 10, {5}, {5})}, coarse), flat({band(10, 10, {5}, {5})}, fine);
   const auto n = [](const NextLine& l) { return std::count(l.joined.begin(), l.joined.end(), 1); };
   EXPECT_EQ(n(next_line(square.work, line_of(11), {})), 0);
