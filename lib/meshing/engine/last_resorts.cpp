@@ -5,6 +5,7 @@
 
 #include "base/share.h"
 #include "meshing/engine/refinement_policy.h"
+#include "meshing/face/blunt_swaps.h"
 #include "meshing/face/patch_refill.h"
 
 namespace st {
@@ -61,6 +62,25 @@ bool refill_all_bad(MeshedFaces& faces, const Executor& executor) {
   share(executor, is_sound);
   if (!is_sound) faces.go_back(before, changed);
   return is_sound != 0;
+}
+
+void swap_obtuse(MeshedFaces& faces, const Executor& executor) {
+  int n_pairs = faces.crossings().n_pairs();
+  share(executor, n_pairs);
+  MeshedFaces::Patches patches = faces.bring(faces.suspects());
+  const std::vector<FacePlace> before = faces.places();
+  std::vector<FaceId> changed;
+  for (auto& [f, patch] : patches) {
+    if (swap_blunt(faces.nodes_of(patch), patch) == 0) continue;
+    changed.push_back(f);
+    faces.put(f, std::move(patch));
+  }
+  share(executor, changed);
+  if (changed.empty()) return;
+  faces.search_crossings();
+  char is_worse = faces.crossings().n_pairs() > n_pairs;
+  share(executor, is_worse);
+  if (is_worse) faces.go_back(before, changed);
 }
 
 void part_touching(MeshedFaces& faces, const Executor& executor) {

@@ -28,6 +28,8 @@ struct RefinementPolicy {
   static constexpr std::uint64_t kFewCrossings = 200;    ///< so many may be refined for longer
   static constexpr std::size_t kMaxWallPlaces = 8000;    ///< in one round, where it is measured what parts walls
   static constexpr std::size_t kMostBadPlaces = 2000;    ///< that are looked at when refinements are taken back
+  static constexpr std::int64_t kMoreBad = 2;            ///< times the folds before: they vary by chance as much
+  static constexpr std::size_t kUnheldWeighs = 5;        ///< angles above 150 degrees: one station stands for many
   static constexpr std::size_t kMostEasedPlaces = 4000;  ///< whose lengths along become shorter in one round
   static constexpr std::size_t kFewRefined = 200;        ///< with more, no lengths are loosened: it takes too long
 
@@ -112,6 +114,8 @@ struct RefinementPolicy {
   static bool mends_first(std::int64_t n_bad, std::int64_t n_unmeasured_pairs, std::uint64_t n) {
     return n_bad == n_unmeasured_pairs && n_bad <= kFewPairs && static_cast<std::uint64_t>(n_bad) * kPerMended <= n;
   }
+  /// What easing may leave of folds and crossings, where `n` were before: others mend them. No face may fail for that.
+  static std::int64_t n_bad_while_easing(std::int64_t n) { return n + std::min(kPerFailure - 1, kMoreBad * n); }
   /// Triangles that bad ones were refilled by: they stay where so many are bad.
   static bool refill_stays(std::size_t n_left, std::size_t n_bad) {
     return static_cast<double>(n_left) <= kClearlyFewer * static_cast<double>(n_bad);

@@ -14,7 +14,7 @@ using Policy = RefinementPolicy;
 
 void StretchEasing::run() {
   if (!field_.is_stretched() || field_.has_metrics()) return;  // a solver asks for what metrics make obtuse
-  n_bad_ = faces_.n_bad() + Policy::n_more_allowed(faces_.n_bad());
+  n_bad_ = Policy::n_bad_while_easing(faces_.n_bad());
   share(executor_, n_bad_);
   n_first_ = n_triangles(all_faces());
   flaws_ = find_flaws(0);
@@ -96,7 +96,7 @@ StretchEasing::Count StretchEasing::count_flaws() const {
   std::int64_t n_bad = std::max(faces_.n_bad(), n_bad_);  // as many as before are for others to mend
   std::size_t n_far = flaws_.n_far, n_unheld = flaws_.n_unheld, n_obtuse = flaws_.n_obtuse, n_large = flaws_.n_large;
   share(executor_, n_bad, n_far, n_unheld, n_obtuse, n_large);
-  return {n_bad, n_far, n_unheld, n_obtuse, n_large};
+  return {n_bad, n_far + Policy::kUnheldWeighs * n_unheld, n_far, n_obtuse, n_large};
 }
 
 /// Sets is_best_.

@@ -81,6 +81,9 @@ TEST(RefinementPolicy, tells_success_from_none) {
           {"none of one", [] { return Policy::refill_stays(0, 1); }, true}});
   EXPECT_EQ(Policy::n_more_allowed(91), 10) << "a ninth";
   EXPECT_EQ(Policy::n_more_allowed(1'000'000), 999) << "no face may fail for it";
+  EXPECT_EQ(Policy::n_bad_while_easing(0), 0);
+  EXPECT_EQ(Policy::n_bad_while_easing(8), 24) << "tips of the propeller have 8 to 18 folds by chance";
+  EXPECT_EQ(Policy::n_bad_while_easing(1'000), 1'999) << "no face may fail for it";
 }
 
 TEST(RefinementPolicy, gives_up_faces_that_smaller_triangles_do_not_help) {

@@ -1,0 +1,90 @@
+#include "meshing/face/blunt_swaps.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
+
+#include "mesh/corner_uv.h"
+
+namespace st {
+namespace {
+
+/// A flat triangle of 151 degrees at `apex` over the side of another, whose apex is `below` it.
+struct Pair {
+  std::vector<FaceNode> nodes;
+  std::vector<Triangle> triangles{{{0, 1, 2}}, {{1, 0, 3}}};
+
+  explicit Pair(Vec3 apex = {0, 0.25, 0}, Vec3 below = {0, -1, 0}) {
+    for (const Vec3 x : {Vec3{-1, 0, 0}, Vec3{1, 0, 0}, apex, below}) nodes.push_back({.uv = {x.x, x.y}, .x = x});
+  }
+};
+
+std::vector<std::array<NodeId, 3>> corners(const std::vector<Triangle>& triangles) {
+  std::vector<std::array<NodeId, 3>> all;
+  for (const Triangle& t : triangles) all.push_back(std::to_array(t.n));
+  return all;
+}
+
+TEST(BluntSwaps, make_two_triangles_of_a_flat_one_and_its_neighbour) {
+  Pair pair;
+  EXPECT_EQ(swap_blunt(pair.nodes, pair.triangles), 1);
+  EXPECT_EQ(corners(pair.triangles), (std::vector<std::array<NodeId, 3>>{{2, 0, 3}, {2, 3, 1}}));
+  EXPECT_EQ(swap_blunt(pair.nodes, pair.triangles), 0) << "neither is flat now";
+}
+
+TEST(BluntSwaps, leave_what_is_not_flat) {
+  Pair pair({0, 0.5, 0});
+  EXPECT_EQ(swap_blunt(pair.nodes, pair.triangles), 0);
+}
+
+TEST(BluntSwaps, join_no_twins_of_a_seam_and_no_poles) {
+  Pair twins;
+  twins.nodes[2].id = twins.nodes[3].id = 7;
+  EXPECT_EQ(swap_blunt(twins.nodes, twins.triangles), 0);
+  Pair pole;
+  pole.nodes[3].is_pole = true;
+  EXPECT_EQ(swap_blunt(pole.nodes, pole.triangles), 0);
+}
+
+TEST(BluntSwaps, make_no_edge_that_is_there) {
+  Pair pair;
+  pair.nodes.push_back({.uv = {0, -0.4}, .x = {0, -0.4, 3}});
+  pair.triangles.push_back({{3, 2, 4}});
+  EXPECT_EQ(swap_blunt(pair.nodes, pair.triangles), 0);
+}
+
+TEST(BluntSwaps, fold_nothing) {
+  Pair pair({1.5, 0.1, 0});  // beyond the end of the side: the new edge would pass outside both
+  pair.nodes[3].x = {0.9, -0.02, 0};
+  const auto before = corners(pair.triangles);
+  swap_blunt(pair.nodes, pair.triangles);
+  EXPECT_EQ(corners(pair.triangles), before);
+}
+
+TEST(BluntSwaps, keep_the_parameters_of_a_patch) {
+  const Pair pair;
+  FacePatch patch;
+  patch.face = 0;
+  patch.n_boundary = 4;
+  patch.triangles = pair.triangles;
+  patch.triangle_previous = {5, 6};
+  std::vector<Vec3> xyz;
+  std::vector<Vec2> uv;
+  for (const FaceNode& n : pair.nodes) xyz.push_back(n.x);
+  for (const Triangle& t : pair.triangles)
+    for (const NodeId n : t.n) uv.push_back(pair.nodes[n].uv);
+  set_corner_uvs(uv, patch);
+  EXPECT_EQ(swap_blunt(xyz, patch), 1);
+  for (std::size_t i = 0; i < 6; ++i)
+    EXPECT_TRUE(corner_uv(patch, i) == pair.nodes[patch.triangles[i / 3].n[i % 3]].uv);
+  EXPECT_EQ(patch.triangle_previous, (std::vector<TriangleId>{kNone, kNone}));
+  uv[2] = {9, 9};  // the side between both is on a seam
+  uv[0] = {8, 8};
+  patch.triangles = pair.triangles;
+  set_corner_uvs(uv, patch);
+  EXPECT_EQ(swap_blunt(xyz, patch), 0);
+}
+
+}  // namespace
+}  // namespace st
