@@ -14,7 +14,7 @@ namespace st {
 /// Up to this cell_per_length lengths are stored by cell; where cells are larger, samples keep their places.
 inline constexpr double kStoredByCellUpTo = 2;
 
-/// A raster box without its reach.
+/// A raster box without half its edge.
 struct LengthSample {
   Vec3 xyz;          ///< model unit; in single precision from where places count
   float length = 0;  ///< model unit, > 0

@@ -32,6 +32,7 @@ class EasedPlaces {
   }
 
   std::vector<Refinement> run() {
+    counts_.resize(items_.size() * rounds_.size());
     for (std::size_t k = 0; k < rounds_.size(); ++k)
       for (const StretchFlaw& flaw : rounds_[k].flaws) count(flaw, k);
     std::vector<Refinement> best = rounds_[0].refinements;
@@ -60,14 +61,11 @@ class EasedPlaces {
     visit_reaching(flaw.x, [&](std::int32_t i) { places.push_back(sets_.find(i)); });
     std::ranges::sort(places);
     places.erase(std::unique(places.begin(), places.end()), places.end());
-    for (const std::int32_t place : places) {
-      counts_.resize(items_.size() * rounds_.size());
+    for (const std::int32_t place : places)
       ++counts_[place * rounds_.size() + round][static_cast<std::size_t>(flaw.kind)];
-    }
   }
 
   std::size_t best_round(std::int32_t place) const {
-    if (counts_.empty()) return 0;
     const auto of_place = std::span(counts_).subspan(place * rounds_.size(), rounds_.size());
     return static_cast<std::size_t>(std::ranges::min_element(of_place) - of_place.begin());
   }
