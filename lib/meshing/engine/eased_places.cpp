@@ -42,10 +42,6 @@ class EasedPlaces {
   }
 
  private:
-  static bool contains(const std::vector<Refinement>& all, const Refinement& r) {
-    return std::ranges::any_of(all, [&](const Refinement& other) { return is_same(other, r); });
-  }
-
   template <class Visit>
   void visit_reaching(Vec3 x, const Visit& visit) const {
     tree_.visit_near(

@@ -151,9 +151,7 @@ void StretchEasing::mix_rounds() {
   share(executor_, mixed);
   std::vector<Refinement> changed;
   const auto add_missing = [&](const std::vector<Refinement>& from, const std::vector<Refinement>& in) {
-    std::ranges::copy_if(from, std::back_inserter(changed), [&](const Refinement& r) {
-      return std::ranges::none_of(in, [&](const Refinement& other) { return is_same(r, other); });
-    });
+    std::ranges::copy_if(from, std::back_inserter(changed), [&](const Refinement& r) { return !contains(in, r); });
   };
   add_missing(before, mixed);
   add_missing(mixed, before);

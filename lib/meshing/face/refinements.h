@@ -1,9 +1,9 @@
 // Places where the size field became finer than requested, and the field with them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -34,10 +34,14 @@ struct Refinement {
   double reach = 0;   ///< distance at which the request at `x` is met again, model unit
   double radius = 0;  ///< around `x`: requested there, too
   Shortens shortens = Shortens::kAll;
+
+  bool operator==(const Refinement&) const = default;
 };
 static_assert(sizeof(Refinement) == 7 * sizeof(double));
 
-inline bool is_same(const Refinement& a, const Refinement& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+inline bool contains(const std::vector<Refinement>& all, const Refinement& r) {
+  return std::ranges::find(all, r) != all.end();
+}
 
 inline double slope_of(Shortens shortens) { return shortens == Shortens::kAll ? kRefinementSlope : kAlongSlope; }
 
