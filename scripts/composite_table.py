@@ -8,7 +8,7 @@ Of folders all CAD files are taken. A mode that joins nothing is no run of its o
 Columns: model, mode, triangles, those below 10 and 20 degrees; of those below 10 degrees how many touch an edge along
 which normals stay within 3 degrees (smooth), no edge at all (inside) and only edges that turn by more (real), as
 st-check tells; their causes; exit code of st-check; pairs of triangles that cross and folds (wrong); seconds of the
-chain; unions joined, refused and divided, with reasons, and what st-mesh took apart.
+chain; composites joined, refused and divided, with reasons, and what st-mesh took apart.
 
 The last lines are sums of the models that all modes meshed: all of them, without the model that has most triangles
 below 10 degrees, those whose faces were joined, medians of the changes of these, and the reasons of refusals.
@@ -49,7 +49,7 @@ class NoMesh(Exception):
     """A tool of the chain failed, and which."""
 
 
-class Unions:
+class Joining:
     """What st-import -v says of joining."""
 
     def __init__(self, said):
@@ -90,10 +90,10 @@ class Chain:
         return done.stdout + done.stderr
 
     def join(self, model, mode):
-        return Unions(self.need("st-import", model, "-o", self.file("geometry"), "--composite", mode, "-v"))
+        return Joining(self.need("st-import", model, "-o", self.file("geometry"), "--composite", mode, "-v"))
 
     def mesh(self):
-        """What st-mesh says of unions that fail, exit code and JSON of st-check."""
+        """What st-mesh says of composites that fail, exit code and JSON of st-check."""
         apart = []
         for tool, inputs, output in (("st-raster", ["geometry"], "raster"), ("st-prolong", ["raster"], "sizing"),
                                      ("st-mesh", ["geometry", "sizing"], "patches"), ("st-merge", ["patches"], "mesh")):
@@ -108,9 +108,9 @@ class Chain:
 
 
 class Row:
-    def __init__(self, chain, mode, unions):
-        self.mode, self.unions = mode, unions
-        unions.apart, self.code, said = chain.mesh()
+    def __init__(self, chain, mode, composites):
+        self.mode, self.composites = mode, composites
+        composites.apart, self.code, said = chain.mesh()
         self.n_wrong = said["crossings"] + said["folds"]
         angle, is_inside = smallest_angles(chain.file("mesh"))
         sharp, smooth = said["causes"]["sharp"], said["causes"]["sharp"]["at_smooth_edges"]
@@ -121,7 +121,7 @@ class Row:
 
     def text(self, model):
         counts = [*self.counts[:-1], self.causes, self.code, self.n_wrong, f"{self.counts[-1]:.2f}",
-                  self.unions.text()]
+                  self.composites.text()]
         return "\t".join(map(str, [model.name, self.mode, *counts]))
 
 
@@ -132,12 +132,12 @@ def rows_of(options, modes, model):
         with tempfile.TemporaryDirectory() as folder:
             chain = Chain(options, Path(folder))
             try:
-                unions = chain.join(model, mode)
-                if unions.n_joined == 0 and "none" in rows:
+                composites = chain.join(model, mode)
+                if composites.n_joined == 0 and "none" in rows:
                     rows[mode] = rows["none"]
-                    lines.append(f"{model.name}\t{mode}\tas none\t{unions.text()}")
+                    lines.append(f"{model.name}\t{mode}\tas none\t{composites.text()}")
                     continue
-                rows[mode] = Row(chain, mode, unions)
+                rows[mode] = Row(chain, mode, composites)
                 lines.append(rows[mode].text(model))
             except NoMesh as why:
                 lines.append(f"{model.name}\t{mode}\tno mesh\t{why}")
@@ -181,7 +181,7 @@ def main():
     modes = options.modes.split(",")
     models = [m for given in options.model for m in (sorted(given.rglob("*")) if given.is_dir() else [given])
               if m == given or m.suffix.lower() in CAD_SUFFIXES]
-    print("\t".join(["model", "mode", *COUNTS[:-1], "causes", "code", "wrong", COUNTS[-1], "unions"]))
+    print("\t".join(["model", "mode", *COUNTS[:-1], "causes", "code", "wrong", COUNTS[-1], "composites"]))
     all_rows = []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for lines, rows in pool.map(lambda m: rows_of(options, modes, m), models):
@@ -190,14 +190,14 @@ def main():
     print_sums("all", all_rows, modes)
     worst = max(all_rows, key=lambda rows: rows[modes[0]].counts[1], default=None)
     print_sums("without the worst", [rows for rows in all_rows if rows is not worst], modes)
-    joined = [rows for rows in all_rows if any(rows[mode].unions.n_joined for mode in modes)]
-    print_sums("with unions", joined, modes)
+    joined = [rows for rows in all_rows if any(rows[mode].composites.n_joined for mode in modes)]
+    print_sums("with composites", joined, modes)
     print_medians(joined, modes)
     for mode in modes[1:]:
-        unions = [rows[mode].unions for rows in all_rows]
-        reasons = collections.Counter(why for u in unions for why in u.refused)
-        print(f"unions\t{mode}\t{sum(u.n_joined for u in unions)} joined, {sum(reasons.values())} refused, "
-              f"{sum(len(u.divided) for u in unions)} divided")
+        composites = [rows[mode].composites for rows in all_rows]
+        reasons = collections.Counter(why for u in composites for why in u.refused)
+        print(f"composites\t{mode}\t{sum(u.n_joined for u in composites)} joined, {sum(reasons.values())} refused, "
+              f"{sum(len(u.divided) for u in composites)} divided")
         for why, n in reasons.most_common():
             print(f"refused\t{mode}\t{n}\t{why}")
     return 0

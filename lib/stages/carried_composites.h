@@ -1,4 +1,4 @@
-// Joined faces of the inputs of st-edit, in its result.
+// Composites of the inputs of st-edit, in its result.
 #pragma once
 
 #include <span>

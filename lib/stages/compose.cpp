@@ -164,7 +164,7 @@ class HarmFinder {
   std::vector<std::pair<EdgeId, std::pair<FaceId, CoedgeId>>> uses_;  // ascending
 };
 
-/// Keeps smooth edges between faces that some edge is to go from: others are in no union.
+/// Keeps smooth edges between faces that some edge is to go from: others are in no composite.
 void keep_smooth(const ModelTables& t, JoinRequest& request, SmoothEdges& is_smooth) {
   const EdgeFaces faces_at(t);
   std::vector<std::uint8_t> is_wanted(static_cast<std::size_t>(t.n_faces()), 0);
@@ -176,7 +176,7 @@ void keep_smooth(const ModelTables& t, JoinRequest& request, SmoothEdges& is_smo
                           std::ranges::all_of(faces_at[e], [&](FaceId f) { return is_wanted[f] != 0; }) && is_smooth(e);
 }
 
-/// Narrow faces between edges that stay are apart: their widths ask for lengths, and those of a union would not.
+/// Narrow faces between edges that stay are apart: their widths ask for lengths, and those of a composite would not.
 void keep_strips(const ModelTables& t, JoinRequest& request) {
   for (const StripSides& strip : find_strip_sides(t)) {
     const auto stays = [&](const StripSides::Side& side) { return !request.may_join[side.edge]; };
@@ -185,8 +185,8 @@ void keep_strips(const ModelTables& t, JoinRequest& request) {
   }
 }
 
-/// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each union that was divided
-/// or refused is logged.
+/// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each composite that was
+/// divided or refused is logged.
 std::string said(const GeometryArtifact& geometry, const FoundComposites& found) {
   std::map<std::string, int> reasons;
   for (const std::string& why : found.divided) log_info("  divided: " + why);
@@ -199,7 +199,7 @@ std::string said(const GeometryArtifact& geometry, const FoundComposites& found)
   std::string text = c.empty() ? "no faces joined"
                                : fmt::format("{} faces and {} edges after joining ({} faces became {})", left.faces,
                                              left.edges, c.member.size(), c.size());
-  for (const auto& [why, n] : reasons) text += fmt::format(", {} refused: {}", counted(n, "union"), why);
+  for (const auto& [why, n] : reasons) text += fmt::format(", {} refused: {}", counted(n, "composite"), why);
   return text;
 }
 

@@ -353,7 +353,7 @@ std::string write(const EditStageOptions& o, const EditInputs& inputs, const Edi
   g.composites = carry_composites(inputs.joined, e.trace, e.model, e.motion, n_left);
   if (n_left > 0)
     log_report(
-        fmt::format("  {} unions of joined faces are apart: some of their faces are gone, were mirrored, or "
+        fmt::format("  {} composites are apart: some of their faces are gone, were mirrored, or "
                     "moved on their own",
                     n_left));
   if (!g.composites.empty()) g.cad = std::exchange(g.tables, join_tables(g.tables, g.composites).tables);

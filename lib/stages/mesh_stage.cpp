@@ -43,7 +43,7 @@ namespace st {
 namespace {
 
 constexpr double kLeastTile = 1000;  // triangles
-constexpr int kMostPartings = 3;     // times that all is meshed again, each time with more joined faces apart
+constexpr int kMostPartings = 3;     // times that all is meshed again, each time with more composites apart
 
 FaceId parse_face(std::string_view text, std::string_view all, FaceId n_faces) {
   FaceId id = 0;
@@ -112,7 +112,7 @@ MeshPlan make_plan(const MeshStageOptions& o, const MeshTopology& topology, std:
 GeometryArtifact read_geometry_for(const MeshStageOptions& o) {
   GeometryArtifact geometry = read_geometry(o.geometry);
   if (!o.pairs.empty() && part_joined_faces(geometry))
-    log_report("  --pairs: joined faces are apart, as the CAD has them");
+    log_report("  --pairs: composites are apart, as the CAD has them");
   return geometry;
 }
 
@@ -327,7 +327,7 @@ Meshed MeshRun::mesh_apart(const std::vector<std::uint8_t>& is_apart, Resumption
   return mesh(model, std::move(composites), resumption);
 }
 
-/// Collective. Where joined faces cannot be meshed: the faces of the CAD instead, unless more is wrong with them. What
+/// Collective. Where composites cannot be meshed: the faces of the CAD instead, unless more is wrong with them. What
 /// else is joined stays so. A part has to fit other parts, so its faces stay joined.
 void MeshRun::part_wrong(Meshed& best, Resumption& resumption) {
   if (!faces_.empty() || !o_.edges.empty()) return;
@@ -338,7 +338,7 @@ void MeshRun::part_wrong(Meshed& best, Resumption& resumption) {
     share(trace_, marked);
     if (marked == is_apart) break;
     is_apart = marked;
-    log_info(fmt::format("{} of {} joined faces fail, fold or cross: the faces of the CAD are meshed there",
+    log_info(fmt::format("{} of {} composites fail, fold or cross: the faces of the CAD are meshed there",
                          std::ranges::count(is_apart, 1), all.size()));
     Meshed apart = mesh_apart(is_apart, resumption);
     if (comm_.is_root()) mark_wrong(apart, all, marked);

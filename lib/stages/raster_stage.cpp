@@ -171,7 +171,7 @@ void share_limits(const Executor& comm, ModelLimits& l) {
 GeometryArtifact read_geometry_for(const std::string& path, const std::vector<SizeRule>& rules) {
   GeometryArtifact geometry = read_geometry(path);
   if (select_parts(rules, geometry) && part_joined_faces(geometry))
-    log_report("  rules select parts of joined faces: all faces are apart, as the CAD has them");
+    log_report("  rules select parts of composites: all faces are apart, as the CAD has them");
   return geometry;
 }
 

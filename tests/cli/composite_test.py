@@ -84,7 +84,7 @@ class Composite(ToolTest):
     def test_nothing_is_joined_by_a_check(self):
         self.expect_error(USAGE, "st-import", MODEL, "--check", "--composite", "smooth", says="--check writes nothing")
 
-    def test_meshes_of_other_programs_lie_on_unions(self):
+    def test_meshes_of_other_programs_lie_on_composites(self):
         folder, python = self.chain(), "/usr/bin/python3"
         must("st-export", folder / "mesh.hdf", "-o", folder / "joined.vtu")
         make_chain(MODEL, folder / "apart", import_options=["--composite", "none"])
@@ -126,14 +126,14 @@ class Composite(ToolTest):
         self.assertNotIn("joined", must("st-info", folder / "m.hdf", "--json").json())
         self.assertEqual(Run("st-check", folder / "m.hdf", "--geometry", folder / "geometry.hdf").code, OK)
 
-    def test_a_part_of_a_union_is_meshed_whole(self):
+    def test_a_part_of_a_composite_is_meshed_whole(self):
         folder = self.chain()
         run = must("st-mesh", folder / "geometry.hdf", folder / "sizing.hdf", "-o", folder / "p.hdf", "--faces", "2-3",
                    "--json")
         self.assertEqual(run.json()["faces_meshed"], 1)
         self.assertIn("are joined", run.err + run.out)
 
-    def test_edits_keep_unions_that_move_as_one(self):
+    def test_edits_keep_composites_that_move_as_one(self):
         folder = self.chain()
         must("st-edit", folder / "geometry.hdf", "-o", folder / "moved.hdf", "--transform", "rotate 0 0 1 10")
         before, after = (must("st-info", folder / f, "--json").json()["joined"] for f in ("geometry.hdf", "moved.hdf"))
@@ -144,7 +144,7 @@ class Composite(ToolTest):
              folder / "n.hdf")
         self.assertEqual(Run("st-check", folder / "n.hdf", "--geometry", folder / "moved.hdf").code, OK)
 
-    def test_edits_keep_unions_that_are_scaled(self):
+    def test_edits_keep_composites_that_are_scaled(self):
         folder = self.chain()
         must("st-edit", folder / "geometry.hdf", "-o", folder / "large.hdf", "--transform",
              "scale 2.5; rotate 0 1 1 20; translate 1 2 3")
@@ -157,7 +157,7 @@ class Composite(ToolTest):
         self.assertEqual(run.json()["triangles_redone"], 0)
         self.assertEqual(Run("st-check", folder / "n.hdf", "--geometry", folder / "large.hdf").code, OK)
 
-    def test_a_mesh_is_not_put_onto_other_unions(self):
+    def test_a_mesh_is_not_put_onto_other_composites(self):
         folder = self.chain()
         run = must("st-edit", folder / "geometry.hdf", "-o", folder / "other.hdf", "--transform", "mirror 0 1 0")
         self.assertIn("are apart", run.err + run.out)

@@ -1,4 +1,4 @@
-// Where on the CAD a place on joined faces is, from their charts alone.
+// Where on the CAD a place on a composite is, from their charts alone.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Charts of joined faces, turned in their plane.
+// Charts of composites, turned in their plane.
 #pragma once
 
 #include <cstdint>

@@ -21,12 +21,12 @@ namespace st {
 namespace {
 
 constexpr std::size_t kMostFacets = 20000;  // of a chart: flatten_whole() takes no more
-constexpr std::size_t kFew = 8;             // faces: a union of so many loses its least urgent one, else half of them
-constexpr double kMostBulge = 0.6;          // of its chord: how far a trimming curve leaves a chart's rim
-constexpr double kOffRim = 1e-2;            // of its chord: how far a chart may be off an edge, more than its face
+constexpr std::size_t kFew = 8;     // faces: a composite of so many loses its least urgent one, else half of them
+constexpr double kMostBulge = 0.6;  // of its chord: how far a trimming curve leaves a chart's rim
+constexpr double kOffRim = 1e-2;    // of its chord: how far a chart may be off an edge, more than its face
 
-/// Facets of a union of faces, with nodes of their own.
-struct Union {
+/// Facets of several faces, with nodes of their own.
+struct FacetsOfMany {
   std::vector<std::int32_t> triangles;  ///< of the facets
   std::vector<Corners> corners;
   std::vector<Vec3> x;
@@ -82,7 +82,7 @@ class CompositeFinder {
   void make_facets() {
     std::vector<std::uint8_t> is_wanted(part_of_.size(), 0);
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
-      if (request_.may_join[e] && request_.urgency[e] > 0)  // other faces are in no union
+      if (request_.may_join[e] && request_.urgency[e] > 0)  // other faces are in no composite
         for (const int k : {0, 1}) is_wanted[side(e, k)] = 1;
     facets_ = make_uv_facets(cad_, is_wanted, request_.facets);
     across_.assign(facets_.mate.size(), kNone);
@@ -137,7 +137,7 @@ class CompositeFinder {
     for (const EdgeId e : edges) is_joined_[e] = value;
   }
 
-  /// Joins the parts at `e` where their union is usable: with all edges between them, else with `e` and what still can
+  /// Joins the parts at `e` where they are usable as one: with all edges between them, else with `e` and what still can
   /// go.
   void try_edge(EdgeId e, std::int32_t most_faces) {
     const FaceId a = part_of_[side(e, 0)], b = part_of_[side(e, 1)];
@@ -182,8 +182,8 @@ class CompositeFinder {
     return inside;
   }
 
-  Union unite(const std::vector<FaceId>& faces) const {
-    Union u;
+  FacetsOfMany unite(const std::vector<FaceId>& faces) const {
+    FacetsOfMany u;
     std::vector<std::int32_t> shift(faces.size());
     for (std::size_t i = 0; i < faces.size(); ++i) {
       shift[i] = static_cast<std::int32_t>(u.triangles.size()) - facets_.face_offsets[faces[i]];
@@ -214,7 +214,7 @@ class CompositeFinder {
     return u;
   }
 
-  void number(DisjointSets& sets, Union& u) const {
+  void number(DisjointSets& sets, FacetsOfMany& u) const {
     std::vector<std::int32_t> number(3 * u.triangles.size(), kNone);
     for (std::int32_t i = 0; i < static_cast<std::int32_t>(u.triangles.size()); ++i) {
       Corners own{};
@@ -234,7 +234,7 @@ class CompositeFinder {
     std::size_t n = 0;
     for (const FaceId f : faces) n += static_cast<std::size_t>(facets_.face_offsets[f + 1] - facets_.face_offsets[f]);
     if (n > kMostFacets) return false;
-    const Union u = unite(faces);
+    const FacetsOfMany u = unite(faces);
     return u.topology.is_manifold && u.topology.n_components == 1 && u.topology.genus == 0 &&
            !u.topology.loops.empty() && is_shallow(u.x, u.corners, u.topology);
   }
@@ -249,7 +249,7 @@ class CompositeFinder {
 
   /// Why these faces cannot be one, empty where they are from here on.
   std::string accept(const std::vector<FaceId>& faces) {
-    const Union u = unite(faces);
+    const FacetsOfMany u = unite(faces);
     auto uv = flatten_whole(u.x, u.corners, u.topology);
     if (!uv) return "they cannot be laid into a plane";
     align_chart(cad_, facets_, u.triangles, u.x, u.corners, *uv);
@@ -262,11 +262,11 @@ class CompositeFinder {
 
   struct Rim {
     CoedgeId coedge;
-    std::vector<std::int32_t> node, triangle;  ///< within the union
+    std::vector<std::int32_t> node, triangle;  ///< within the composite
   };
   using Rims = std::vector<Rim>;
 
-  Rims rims_of(const std::vector<FaceId>& faces, const Union& u) const {
+  Rims rims_of(const std::vector<FaceId>& faces, const FacetsOfMany& u) const {
     Rims rims;
     std::vector<std::int32_t> place(facets_.corners.size(), kNone);
     for (std::size_t i = 0; i < u.triangles.size(); ++i)
@@ -290,7 +290,7 @@ class CompositeFinder {
   }
 
   /// Why the chart does not stand for its faces, empty where it does; bounds are those of the trimming curves.
-  std::string fault(const std::vector<FaceId>& faces, const Union& u, const Chart& chart, const Rims& rims) {
+  std::string fault(const std::vector<FaceId>& faces, const FacetsOfMany& u, const Chart& chart, const Rims& rims) {
     CompositeSupport support;
     std::vector<std::unique_ptr<Surface>> members;
     for (const FaceId f : faces) members.push_back(cad_.surface(f));
@@ -310,7 +310,7 @@ class CompositeFinder {
     return "";
   }
 
-  bool follows(const CompositeSurface& surface, const Union& u, const Chart& chart, const Rim& rim) {
+  bool follows(const CompositeSurface& surface, const FacetsOfMany& u, const Chart& chart, const Rim& rim) {
     const EdgeId e = t_.coedge_edge[rim.coedge];
     const auto face = cad_.surface(face_of_coedge_[rim.coedge]);
     const auto pcurve = cad_.pcurve(face_of_coedge_[rim.coedge], rim.coedge);
@@ -337,7 +337,7 @@ class CompositeFinder {
     return true;
   }
 
-  void record(const std::vector<FaceId>& faces, const Union& u, const Chart& chart, Rims& rims) {
+  void record(const std::vector<FaceId>& faces, const FacetsOfMany& u, const Chart& chart, Rims& rims) {
     Composites& c = found_.composites;
     c.member.insert(c.member.end(), faces.begin(), faces.end());
     c.member_offsets.push_back(static_cast<std::int32_t>(c.member.size()));

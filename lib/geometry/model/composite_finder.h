@@ -21,11 +21,11 @@ struct JoinRequest {
 
 struct FoundComposites {
   Composites composites;
-  std::vector<std::string> divided;  ///< unions of which smaller ones were tried, and why
+  std::vector<std::string> divided;  ///< composites of which smaller ones were tried, and why
   std::vector<std::string> refused;  ///< faces that stay apart, and why
 };
 
-/// Unions of faces, edge by edge, while they are discs with holes that can be laid into a plane; one that cannot is
+/// Composites, edge by edge, while they are discs with holes that can be laid into a plane; one that cannot is
 /// divided. Each chart is compared with the CAD: normals, places along its rim. The same input gives the same bits.
 /// Local. Cost: some microseconds per facet and edge, up to a millisecond per facet where faces cannot be projected.
 FoundComposites find_composites(const Model& cad, const JoinRequest& request);
