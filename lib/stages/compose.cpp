@@ -199,7 +199,7 @@ std::string said(const GeometryArtifact& geometry, const FoundComposites& found)
   std::string text = c.empty() ? "no faces joined"
                                : fmt::format("{} faces and {} edges after joining ({} faces became {})", left.faces,
                                              left.edges, c.member.size(), c.size());
-  for (const auto& [why, n] : reasons) text += fmt::format(", {} refused: {}", counted(n, "composite"), why);
+  for (const auto& [why, n] : reasons) text += fmt::format(", {} refused: {}", n, why);
   return text;
 }
 
@@ -232,7 +232,7 @@ JoinRequest join_request(const Model& cad, bool is_harm_only) {
   for (const EntityGroup& g : t.labels.edge_groups)
     for (const EdgeId e : g.ids)
       for (const std::size_t k : {0, 1}) request.must_end[t.edge_vertices[2 * static_cast<std::size_t>(e) + k]] = 1;
-  request.facets = {.deflection = kChartDeflection * t.reference_diagonal(), .angle = kChartAngle, .is_exact = true};
+  request.facets = {.deflection = kChartDeflection * t.reference_diagonal(), .angle = kChartAngle, .is_exact = false};
   return request;
 }
 

@@ -373,6 +373,23 @@ TopoDS_Shape helical_ribbon() {
   return sewing.SewedShape();
 }
 
+/// A disc of radius 60 with a pin of radius 2 and height 40 in its middle, round at its foot and its head.
+TopoDS_Shape disc_with_pin() {
+  const auto p = [](double r, double z) { return gp_Pnt(r, 0, z); };
+  BRepBuilderAPI_MakeWire wire;
+  const auto line = [&](const gp_Pnt& from, const gp_Pnt& to) { wire.Add(BRepBuilderAPI_MakeEdge(from, to)); };
+  const double bend = std::sqrt(0.5);
+  line(p(0, 0), p(60, 0));
+  line(p(60, 0), p(60, 5));
+  line(p(60, 5), p(3, 5));
+  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(p(3, 5), p(3 - bend, 6 - bend), p(2, 6)).Value()));
+  line(p(2, 6), p(2, 44));
+  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(p(2, 44), p(1 + bend, 44 + bend), p(1, 45)).Value()));
+  line(p(1, 45), p(0, 45));
+  line(p(0, 45), p(0, 0));
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeFace(wire.Wire()), gp::OZ()).Shape();
+}
+
 /// NACA 0012 of chord 10 in z = 0, nose at the origin, from the upper end to the lower one; `closing`: its last
 /// coefficient, 0.1036 ends in a point, 0.1015 is 0.0252 thick at the end.
 Handle(Geom_BSplineCurve) aerofoil(double closing, double thickness = 0.12) {
@@ -735,6 +752,7 @@ const std::map<std::string, Factory>& factories() {
       {"spiked_plate", spiked_plate},
       {"wedge_strip", [] { return tapered_bar(); }},
       {"helical_ribbon", helical_ribbon},
+      {"disc_with_pin", disc_with_pin},
       {"thin_crescent",
        [] {
          const auto circle = [](double x, double r) {

@@ -10,6 +10,7 @@
 #include "base/boxes.h"
 #include "base/disjoint_sets.h"
 #include "base/sort_once.h"
+#include "base/text.h"
 #include "geometry/model/chart_alignment.h"
 #include "geometry/model/passed_vertices.h"
 #include "geometry/model/uv_facets.h"
@@ -85,15 +86,16 @@ class CompositeFinder {
       if (request_.may_join[e] && request_.urgency[e] > 0)  // other faces are in no composite
         for (const int k : {0, 1}) is_wanted[side(e, k)] = 1;
     facets_ = make_uv_facets(cad_, is_wanted, request_.facets);
+    for (const FaceId f : facets_.turned) {  // each composite with it would fail
+      for (const CoedgeId c : t_.coedges(f)) facets_.rim_side[c].clear();
+      found_.refused.push_back(named({f}) + ": its facets turn away from it");
+    }
     across_.assign(facets_.mate.size(), kNone);
     can_join_.assign(static_cast<std::size_t>(t_.n_edges()), 0);
     for (EdgeId e = 0; e < t_.n_edges(); ++e) {
       if (!request_.may_join[e]) continue;
       const auto &a = facets_.rim_side[uses_[e][0]], &b = facets_.rim_side[uses_[e][1]];
-      if (a.empty() || a.size() != b.size()) continue;
-      bool is_same = true;
-      for (std::size_t i = 0; i < a.size() && is_same; ++i) is_same = facets_.fit(a[i], b[i]);
-      if (!is_same) continue;
+      if (a.empty() || !std::ranges::equal(a, b, [&](auto s, auto o) { return facets_.fit(s, o); })) continue;
       can_join_[e] = 1;
       for (std::size_t i = 0; i < a.size(); ++i) across_[a[i]] = b[i], across_[b[i]] = a[i];
     }
@@ -190,8 +192,7 @@ class CompositeFinder {
       for (std::int32_t t = facets_.face_offsets[faces[i]]; t < facets_.face_offsets[faces[i] + 1]; ++t)
         u.triangles.push_back(t);
     }
-    const auto n = static_cast<std::int32_t>(u.triangles.size());
-    DisjointSets sets(3 * static_cast<std::int64_t>(n));
+    DisjointSets sets(3 * static_cast<std::int64_t>(u.triangles.size()));
     const auto join = [&](std::int32_t s, std::int32_t o) {
       const auto own = [&](std::int32_t side) {
         const FaceId f = facets_.face[static_cast<std::size_t>(side / 3)];
@@ -235,13 +236,12 @@ class CompositeFinder {
     for (const FaceId f : faces) n += static_cast<std::size_t>(facets_.face_offsets[f + 1] - facets_.face_offsets[f]);
     if (n > kMostFacets) return false;
     const FacetsOfMany u = unite(faces);
-    return u.topology.is_manifold && u.topology.n_components == 1 && u.topology.genus == 0 &&
-           !u.topology.loops.empty() && is_shallow(u.x, u.corners, u.topology);
+    return is_disc_with_holes(u.topology) && is_shallow(u.x, u.corners, u.topology);
   }
 
   /// "7 faces (1, 2, 3, 4, 5 ...)".
   static std::string named(const std::vector<FaceId>& faces) {
-    std::string ids = fmt::format("{} faces ({}", faces.size(), faces[0] + 1);
+    std::string ids = fmt::format("{} ({}", counted(static_cast<std::int64_t>(faces.size()), "face"), faces[0] + 1);
     constexpr std::size_t kNamed = 5;
     for (std::size_t i = 1; i < std::min(faces.size(), kNamed); ++i) ids += fmt::format(", {}", faces[i] + 1);
     return ids + (faces.size() > kNamed ? " ...)" : ")");
@@ -254,7 +254,7 @@ class CompositeFinder {
     if (!uv) return "they cannot be laid into a plane";
     align_chart(cad_, facets_, u.triangles, u.x, u.corners, *uv);
     Chart chart{u.x, std::vector<Vec3>(u.x.size(), Vec3{0, 0, 1}), *uv, u.corners};
-    Rims rims = rims_of(faces, u);
+    std::vector<Rim> rims = rims_of(faces, u);
     const std::string why = fault(faces, u, chart, rims);
     if (why.empty()) record(faces, u, chart, rims);
     return why;
@@ -264,10 +264,9 @@ class CompositeFinder {
     CoedgeId coedge;
     std::vector<std::int32_t> node, triangle;  ///< within the composite
   };
-  using Rims = std::vector<Rim>;
 
-  Rims rims_of(const std::vector<FaceId>& faces, const FacetsOfMany& u) const {
-    Rims rims;
+  std::vector<Rim> rims_of(const std::vector<FaceId>& faces, const FacetsOfMany& u) const {
+    std::vector<Rim> rims;
     std::vector<std::int32_t> place(facets_.corners.size(), kNone);
     for (std::size_t i = 0; i < u.triangles.size(); ++i)
       place[static_cast<std::size_t>(u.triangles[i])] = static_cast<std::int32_t>(i);
@@ -290,7 +289,8 @@ class CompositeFinder {
   }
 
   /// Why the chart does not stand for its faces, empty where it does; bounds are those of the trimming curves.
-  std::string fault(const std::vector<FaceId>& faces, const FacetsOfMany& u, const Chart& chart, const Rims& rims) {
+  std::string fault(const std::vector<FaceId>& faces, const FacetsOfMany& u, const Chart& chart,
+                    const std::vector<Rim>& rims) {
     CompositeSupport support;
     std::vector<std::unique_ptr<Surface>> members;
     for (const FaceId f : faces) members.push_back(cad_.surface(f));
@@ -337,7 +337,7 @@ class CompositeFinder {
     return true;
   }
 
-  void record(const std::vector<FaceId>& faces, const FacetsOfMany& u, const Chart& chart, Rims& rims) {
+  void record(const std::vector<FaceId>& faces, const FacetsOfMany& u, const Chart& chart, std::vector<Rim>& rims) {
     Composites& c = found_.composites;
     c.member.insert(c.member.end(), faces.begin(), faces.end());
     c.member_offsets.push_back(static_cast<std::int32_t>(c.member.size()));
@@ -385,7 +385,7 @@ class CompositeFinder {
   std::vector<FaceId> part_of_;  // lowest face of the part
   std::vector<std::vector<FaceId>> parts_;
   Box2 bounds_;
-  Rims rims_;
+  std::vector<Rim> rims_;
   FoundComposites found_;
 };
 

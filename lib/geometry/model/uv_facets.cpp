@@ -1,6 +1,7 @@
 #include "geometry/model/uv_facets.h"
 
 #include <BRepBuilderAPI_Copy.hxx>
+#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Poly_PolygonOnTriangulation.hxx>
 #include <Poly_Triangulation.hxx>
@@ -12,9 +13,11 @@
 #include <utility>
 
 #include "base/boxes.h"
+#include "base/threads.h"
 #include "geometry/brep/compound.h"
 #include "geometry/model/brep_facets.h"
 #include "geometry/model/model_editor.h"
+#include "geometry/shape/composite_surface.h"
 #include "geometry/shape/member_map.h"
 
 namespace st {
@@ -220,6 +223,77 @@ class FacetReader {
   UvFacets& facets_;
 };
 
+bool has_turned_facet(const Surface& surface, const UvFacets& facets, std::int32_t first, std::int32_t end) {
+  for (std::int32_t t = first; t < end; ++t) {
+    const Corners& c = facets.corners[t];
+    const std::array<Vec2, 3>& uv = facets.uv[t];
+    const double side = cross(uv[1] - uv[0], uv[2] - uv[0]) < 0 ? -1 : 1;  // facets are seen from outside
+    for (const std::array<double, 3>& w : kFacetPlaces) {
+      const SurfacePoint p = surface.evaluate(w[0] * uv[0] + w[1] * uv[1] + w[2] * uv[2]);
+      if (is_turned(facets.x[c[0]], facets.x[c[1]], facets.x[c[2]], side * cross(p.du, p.dv))) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<FaceId> find_turned(const Model& model, const UvFacets& facets) {
+  std::vector<std::uint8_t> is_turned(facets.face_offsets.size() - 1, 0);
+  parallel_for(is_turned.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = begin; f < end; ++f)
+      if (facets.face_offsets[f] < facets.face_offsets[f + 1])
+        is_turned[f] = has_turned_facet(*model.surface(static_cast<FaceId>(f)), facets, facets.face_offsets[f],
+                                        facets.face_offsets[f + 1]);
+  });
+  std::vector<FaceId> turned;
+  for (std::size_t f = 0; f < is_turned.size(); ++f)
+    if (is_turned[f]) turned.push_back(static_cast<FaceId>(f));
+  return turned;
+}
+
+class FacetMaker {
+ public:
+  FacetMaker(const Model& model, const std::vector<std::uint8_t>& is_wanted)
+      : model_(model), is_wanted_(is_wanted), copy_(wanted_faces(), false) {}  // the model itself keeps no triangles
+
+  UvFacets run(FacetLimits limits) {
+    UvFacets facets = make(limits);
+    if (facets.turned.empty() || limits.is_exact) return facets;
+    limits.is_exact = true;
+    for (const FaceId f : facets.turned) BRepTools::Clean(face(f));  // others, and edges between them, keep theirs
+    return make(limits);
+  }
+
+ private:
+  TopoDS_Shape wanted_faces() const {
+    std::vector<TopoDS_Shape> faces;
+    for (std::size_t f = 0; f < is_wanted_.size(); ++f)
+      if (is_wanted_[f])
+        faces.push_back(ModelEditor::brep(model_).faces(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
+    return occt::compound_of(faces);
+  }
+
+  TopoDS_Face face(FaceId f) const {
+    return TopoDS::Face(copy_.ModifiedShape(ModelEditor::brep(model_).faces(f + 1)).Oriented(TopAbs_FORWARD));
+  }
+
+  UvFacets make(const FacetLimits& limits) {
+    put_facets(copy_.Shape(), limits, FacetsGo::kToAllEdges);
+    UvFacets facets;
+    FacetReader reader(model_, facets);
+    for (std::size_t f = 0; f < is_wanted_.size(); ++f) {
+      facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
+      if (is_wanted_[f]) reader.add(static_cast<FaceId>(f), face(static_cast<FaceId>(f)), copy_);
+    }
+    facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
+    facets.turned = find_turned(model_, facets);
+    return facets;
+  }
+
+  const Model& model_;
+  const std::vector<std::uint8_t>& is_wanted_;
+  BRepBuilderAPI_Copy copy_;
+};
+
 }  // namespace
 
 bool UvFacets::fit(std::int32_t a, std::int32_t b) const {
@@ -231,29 +305,15 @@ bool UvFacets::fit(std::int32_t a, std::int32_t b) const {
 }
 
 UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits) {
-  const Model::Impl& brep = ModelEditor::brep(model);
-  UvFacets facets;
-  FacetReader reader(model, facets);
   try {
-    std::vector<TopoDS_Shape> faces;
-    for (std::size_t f = 0; f < is_wanted.size(); ++f)
-      if (is_wanted[f]) faces.push_back(brep.faces(static_cast<int>(f) + 1).Oriented(TopAbs_FORWARD));
-    BRepBuilderAPI_Copy copy(occt::compound_of(faces), false);  // the model itself keeps no triangles
-    put_facets(copy.Shape(), limits, FacetsGo::kToAllEdges);
-    for (std::size_t f = 0; f < is_wanted.size(); ++f) {
-      facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
-      if (!is_wanted[f]) continue;
-      const TopoDS_Shape face = copy.ModifiedShape(brep.faces(static_cast<int>(f) + 1));
-      reader.add(static_cast<FaceId>(f), TopoDS::Face(face.Oriented(TopAbs_FORWARD)), copy);
-    }
+    return FacetMaker(model, is_wanted).run(limits);
   } catch (const Standard_Failure&) {
-    facets = {};
-    facets.face_offsets.assign(is_wanted.size(), 0);
-    facets.rim_t.resize(model.tables().coedge_edge.size());
-    facets.rim_side.resize(model.tables().coedge_edge.size());
+    UvFacets none;
+    none.face_offsets.assign(is_wanted.size() + 1, 0);
+    none.rim_t.resize(model.tables().coedge_edge.size());
+    none.rim_side.resize(model.tables().coedge_edge.size());
+    return none;
   }
-  facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
-  return facets;
 }
 
 }  // namespace st

@@ -22,13 +22,15 @@ struct UvFacets {
   std::vector<std::int32_t> mate;                   ///< [3*n_triangles] side of the same face; kNone along its edges
   std::vector<std::vector<double>> rim_t;           ///< [n_coedges] parameters of nodes along its edge, ascending
   std::vector<std::vector<std::int32_t>> rim_side;  ///< [n_coedges] the sides between them
+  std::vector<FaceId> turned;                       ///< faces with a facet that is_turned(), ascending
 
   /// Whether two sides are one, passed in opposite directions, within a tenth of it.
   bool fit(std::int32_t a, std::int32_t b) const;
 };
 
 /// By OpenCASCADE's BRepMesh; faces that are not wanted, whose triangles do not fill their loops or do not lie side by
-/// side around a pole, or whose nodes are not those of their edges have none. Local. Cost: some microseconds per facet.
+/// side around a pole, or whose nodes are not those of their edges have none. Faces that a facet turns away from get
+/// exact ones, whatever `limits` say. Local, on all threads. Cost: some microseconds per facet.
 UvFacets make_uv_facets(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits);
 
 }  // namespace st

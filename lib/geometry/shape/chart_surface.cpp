@@ -102,8 +102,9 @@ struct ChartSurface::Data {
     constexpr int kMostSteps = 200;
     for (int step = 0; step < kMostSteps; ++step) {
       const Corners& c = chart.corners[t];
-      const auto w = barycentric(p, chart.uv[c[0]], chart.uv[c[1]], chart.uv[c[2]]);
-      const auto k = std::min_element(w.begin(), w.end()) - w.begin();
+      const Vec2 a = chart.uv[c[0]] - p, b = chart.uv[c[1]] - p, d = chart.uv[c[2]] - p;
+      const double w[3] = {cross(b, d), cross(d, a), cross(a, b)};  // twice the areas across from the corners
+      const auto k = std::min_element(w, w + 3) - w;
       if (w[k] >= 0) return true;
       const std::int32_t next = neighbours[t][(k + 1) % 3];  // across the side that faces corner k
       if (next == kNone) return false;
@@ -227,12 +228,15 @@ double ChartSurface::largest_stretch() const { return data_->largest_stretch; }
 
 ChartSurface::Place ChartSurface::locate(Vec2 p) const {
   Place place{data_->seed(p), {}};
-  double best2 = data_->walk(p, place.triangle) ? 0 : std::numeric_limits<double>::infinity();
-  data_->plane_tree.visit_near(
-      flat(p), [&](std::int32_t, double d2) { return d2 < best2; },
-      [&](std::int32_t t) {
-        if (const double d2 = data_->plane_distance2(t, p); d2 < best2) place.triangle = t, best2 = d2;
-      });
+  double best2 = 0;
+  if (!data_->walk(p, place.triangle)) {  // beside the patch, or in the way of its rim
+    best2 = data_->plane_distance2(place.triangle, p);
+    data_->plane_tree.visit_near(
+        flat(p), [&](std::int32_t, double d2) { return d2 < best2; },
+        [&](std::int32_t t) {
+          if (const double d2 = data_->plane_distance2(t, p); d2 < best2) place.triangle = t, best2 = d2;
+        });
+  }
   const Corners& c = data_->chart.corners[place.triangle];
   const auto& uv = data_->chart.uv;
   if (best2 > 0)

@@ -144,23 +144,24 @@ std::optional<Vec2> CompositeSurface::foot_near(Vec3 p, Vec2 guess) const {
   return refined(p, data_->chart->foot_near(p, guess));
 }
 
-bool follows_facets(const CompositeSurface& surface, const Chart& chart) {
+bool is_turned(Vec3 a, Vec3 b, Vec3 c, Vec3 normal) {
   constexpr double kNeedle = 1e-6;  // height over longest side: rounding turns its normal
-  for (const Corners& c : chart.corners) {
-    const Vec3 a = chart.x[c[1]] - chart.x[c[0]], b = chart.x[c[2]] - chart.x[c[0]], n = cross(a, b);
-    const double longest2 = std::max({norm2(a), norm2(b), norm2(b - a)});
-    const bool is_needle = norm(n) <= kNeedle * longest2;
-    const double least = norm(n) <= kSlender * longest2 ? kLeastSlenderCosine : kLeastCosine;
-    for (const auto& w : {std::array{1 / 3., 1 / 3., 1 / 3.}, std::array{0.8, 0.1, 0.1}, std::array{0.1, 0.8, 0.1},
-                          std::array{0.1, 0.1, 0.8}}) {
+  const Vec3 n = cross(b - a, c - a);
+  const double longest2 = std::max({norm2(b - a), norm2(c - a), norm2(c - b)}), twice_area = norm(n);
+  if (twice_area <= kNeedle * longest2) return false;
+  const double least = twice_area <= kSlender * longest2 ? kLeastSlenderCosine : kLeastCosine;
+  return !(dot(normal, n) > least * norm(normal) * twice_area);
+}
+
+bool follows_facets(const CompositeSurface& surface, const Chart& chart) {
+  for (const Corners& c : chart.corners)
+    for (const std::array<double, 3>& w : kFacetPlaces) {
       const SurfacePoint p = surface.evaluate(w[0] * chart.uv[c[0]] + w[1] * chart.uv[c[1]] + w[2] * chart.uv[c[2]]);
-      const Vec3 m = cross(p.du, p.dv);
-      if (!is_needle && !(dot(m, n) > least * norm(m) * norm(n))) return false;
+      if (is_turned(chart.x[c[0]], chart.x[c[1]], chart.x[c[2]], cross(p.du, p.dv))) return false;
       const double e = norm2(p.du), f = dot(p.du, p.dv), g = norm2(p.dv), mean = 0.5 * (e + g),
                    root = std::hypot(0.5 * (e - g), f);
       if (!(mean + root <= kMostCompositeStretch * kMostCompositeStretch * (mean - root))) return false;
     }
-  }
   return true;
 }
 

@@ -60,8 +60,13 @@ class CompositeSurface final : public Surface {
   std::vector<std::unique_ptr<Surface>> members_;
 };
 
-/// Whether the surface's normals are within 60 degrees of the facets' (84 of slender ones), at four places in each, and
-/// (u,v) stretches by 20 at most there.
+/// Places in a facet where its face is compared with it: weights of its corners.
+inline constexpr std::array<std::array<double, 3>, 4> kFacetPlaces{
+    {{1 / 3., 1 / 3., 1 / 3.}, {0.8, 0.1, 0.1}, {0.1, 0.8, 0.1}, {0.1, 0.1, 0.8}}};
+/// Whether a facet is more than 60 degrees (84 where it is slender) off its face's normal, which has any length.
+/// Needles are not.
+bool is_turned(Vec3 a, Vec3 b, Vec3 c, Vec3 normal);
+/// Whether no facet is turned at its places, and (u,v) stretches by 40 at most there.
 bool follows_facets(const CompositeSurface& surface, const Chart& chart);
 
 }  // namespace st

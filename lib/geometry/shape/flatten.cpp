@@ -393,7 +393,7 @@ class Relaxation {
 
   std::optional<std::vector<double>> solve_step(std::span<const Vec2> p) {
     std::vector<SparseEntry> entries;
-    entries.reserve(rest_.size() * 36 + 2 * p.size());
+    entries.reserve(rest_.size() * 24 + 2 * p.size());
     std::vector<double> right(2 * p.size(), 0);
     double diagonal = 0;
     for (std::size_t t = 0; t < rest_.size(); ++t) {
@@ -405,6 +405,7 @@ class Relaxation {
         right[2 * static_cast<std::size_t>(c[k])] += f[0];
         right[2 * static_cast<std::size_t>(c[k]) + 1] += f[1];
         for (int l = 0; l < 3; ++l) {
+          if (c[l] > c[k]) continue;  // the solver takes what is below the diagonal
           const double s = rest_[t].area * dot(g[k], g[l]);
           for (int i = 0; i < 2; ++i)
             for (int q = 0; q < 2; ++q) entries.push_back({2 * c[k] + i, 2 * c[l] + q, s * weight(i, q)});

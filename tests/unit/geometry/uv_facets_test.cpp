@@ -96,5 +96,18 @@ TEST(UvFacets, are_made_of_wanted_faces_alone) {
   EXPECT_EQ(facets.corners.size(), 4u);
 }
 
+TEST(UvFacets, are_exact_on_faces_that_coarse_ones_turn_away_from) {
+  const Model model = test::make_model("wing_of_2");
+  const ModelTables& t = model.tables();
+  const auto facets = [&](double angle, bool is_exact) {
+    return make_uv_facets(model, std::vector<std::uint8_t>(static_cast<std::size_t>(t.n_faces()), 1),
+                          {.deflection = t.reference_diagonal(), .angle = radians(angle), .is_exact = is_exact});
+  };
+  EXPECT_NE(facets(30, false).corners, facets(30, true).corners);
+  const UvFacets coarse = facets(170, false), exact = facets(170, true);  // edges alone cut the nose off
+  EXPECT_EQ(coarse.corners, exact.corners);
+  EXPECT_TRUE(coarse.turned.empty());
+}
+
 }  // namespace
 }  // namespace st
