@@ -43,6 +43,12 @@ inline std::uint64_t sort_key(double x) {
   return bits >> 63 ? ~bits : bits | std::uint64_t{1} << 63;
 }
 
+inline std::uint32_t sort_key(float x) {
+  const auto bits = std::bit_cast<std::uint32_t>(x + 0.0F);
+  return bits >> 31 ? ~bits : bits | std::uint32_t{1} << 31;
+}
+inline std::uint32_t sort_key(std::int32_t x) { return static_cast<std::uint32_t>(x) ^ std::uint32_t{1} << 31; }
+
 /// Sorts ascending by number_of(item), which is never NaN; items of one number keep their order. For large items: each
 /// moves once.
 template <class Item, class NumberOf>

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/limits.h"
+#include "base/parallel_reserve.h"
 #include "base/threads.h"
 
 namespace st {
@@ -23,7 +24,7 @@ class FaceAgreement {
         cones_(cones),
         largest_(largest),
         samples_(std::move(samples)),
-        more_(sites.cell.size(), kNone) {}
+        more_(sites.cell.size()) {}
 
   SiteSamples run() {
     constexpr std::size_t kSitesPerPiece = 2'048;
@@ -45,6 +46,10 @@ class FaceAgreement {
   static constexpr std::int32_t kToSecond = 1, kToFirst = 2, kBothWays = kToSecond | kToFirst;
   struct Added {
     std::int32_t site, sample;
+  };
+  struct More {
+    std::int32_t last = kNone;  // of the samples that were added, into links_
+    std::int32_t n = 0;
   };
   struct FaceScratch {
     std::vector<FaceCone> on_face;
@@ -130,8 +135,9 @@ class FaceAgreement {
 
   void add(const Added& a) {
     const auto [site, sample] = a;
-    links_.push_back({sample, more_[site]});
-    more_[site] = static_cast<std::int32_t>(links_.size()) - 1;
+    More& more = more_[site];
+    links_.push_back({sample, more.last});
+    more = {static_cast<std::int32_t>(links_.size()) - 1, more.n + 1};
     added_.push_back(a);
     const float(&c)[3] = sites_.cell[site].c;
     const auto length = static_cast<float>(cones_[sample].length_at({c[0], c[1], c[2]}));
@@ -144,7 +150,7 @@ class FaceAgreement {
   bool has(std::int32_t site, std::int32_t sample) const {
     const std::span<const std::int32_t> own = own_samples(site);
     if (std::find(own.begin(), own.end(), sample) != own.end()) return true;
-    std::int32_t k = more_[site];
+    std::int32_t k = more_[site].last;
     while (k != kNone && links_[k].sample != sample) k = links_[k].next;
     return k != kNone;
   }
@@ -174,7 +180,7 @@ class FaceAgreement {
                            samples_.sample.data() + first,
                            n,
                            links_.data(),
-                           more_[to]};
+                           more_[to].last};
     const ConeFace face = face_of(from, to);
     for (std::int32_t set = 0; set < (n > kManyCones ? kFaceSets : 1); ++set)
       if (kernels_.wins_on_face(face, set, cones_[sample].numbers(), largest_, known)) return true;
@@ -229,22 +235,24 @@ class FaceAgreement {
     return rise > 0 && rise * rise > slope * slope * distance2;
   }
 
+  /// What each site had and what was added, the last first.
   SiteSamples joined() {
+    constexpr std::size_t kSitesPerPiece = 4'096;
     const std::size_t n = sites_.cell.size();
     SiteSamples all;
-    all.first.reserve(n + 1);
+    all.first.assign(n + 1, 0);
     require_countable(samples_.sample.size() + links_.size(), "lengths of samples in cells");
-    for (std::size_t site = 0; site < n; ++site) {
-      std::int32_t end = all.first.back() + samples_.first[site + 1] - samples_.first[site];
-      for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next) ++end;
-      all.first.push_back(end);
-    }
-    all.sample.reserve(samples_.sample.size() + links_.size());
-    for (std::size_t site = 0; site < n; ++site) {
-      const std::span<const std::int32_t> own = own_samples(static_cast<std::int32_t>(site));
-      all.sample.insert(all.sample.end(), own.begin(), own.end());
-      for (std::int32_t k = more_[site]; k != kNone; k = links_[k].next) all.sample.push_back(links_[k].sample);
-    }
+    for (std::size_t site = 0; site < n; ++site)
+      all.first[site + 1] = all.first[site] + samples_.first[site + 1] - samples_.first[site] + more_[site].n;
+    parallel_reserve(all.sample, samples_.sample.size() + links_.size());
+    all.sample.resize(samples_.sample.size() + links_.size());
+    parallel_for(n, kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t site = begin; site < end; ++site) {
+        auto to = std::ranges::copy(own_samples(static_cast<std::int32_t>(site)),
+                                    all.sample.begin() + all.first[site]).out;
+        for (std::int32_t k = more_[site].last; k != kNone; k = links_[k].next) *to++ = links_[k].sample;
+      }
+    });
     all.at_center = std::move(samples_.at_center);
     all.center_length = std::move(samples_.center_length);
     return all;
@@ -255,7 +263,7 @@ class FaceAgreement {
   const float largest_;
   const ConeKernels& kernels_ = cone_kernels();
   SiteSamples samples_;
-  std::vector<std::int32_t> more_;  // [n_sites] the last sample that was added, into links_
+  std::vector<More> more_;  // [n_sites]
   std::vector<SampleLink> links_;
   std::vector<Added> added_;
   std::vector<std::int32_t> lowered_;  // sites whose length at the centre is lower than when it was looked at

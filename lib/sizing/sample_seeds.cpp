@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/parallel_reserve.h"
+#include "base/radix_sort.h"
 #include "base/threads.h"
 
 namespace st {
@@ -105,29 +107,37 @@ Vec3 origin_of_places(const Box3& model) {
 }
 
 std::vector<LengthSample> sorted_samples(std::span<const RasterBox> boxes, Vec3 origin) {
-  std::vector<LengthSample> samples;
-  samples.reserve(boxes.size());
-  const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
-  for (const RasterBox& b : boxes) {
+  constexpr std::size_t kPerPiece = 2'048;  // samples
+  const auto sample_of = [&](std::size_t i) {
+    const RasterBox& b = boxes[i];
+    const auto rounded = [](double x) { return static_cast<double>(static_cast<float>(x)); };
     const Vec3 x = b.center - origin;
-    samples.push_back(
-        {origin + Vec3{rounded(x.x), rounded(x.y), rounded(x.z)}, b.length, b.cause, b.normal, b.stretch, b.reach});
-  }
-  struct Place {  // what tells most apart, and which sample it is
-    std::int32_t cause;
-    float x;
+    return LengthSample{
+        origin + Vec3{rounded(x.x), rounded(x.y), rounded(x.z)}, b.length, b.cause, b.normal, b.stretch, b.reach};
+  };
+  struct Place {
+    std::uint64_t key;  // what tells most apart: the cause, then x
     std::size_t i;
   };
-  std::vector<Place> order;
-  order.reserve(samples.size());
-  for (const LengthSample& s : samples) order.push_back({s.cause, static_cast<float>(s.xyz.x), order.size()});
-  std::sort(order.begin(), order.end(), [&](const Place& a, const Place& b) {
-    if (a.cause != b.cause) return a.cause < b.cause;
-    return a.x != b.x ? a.x < b.x : key_of(samples[a.i]) < key_of(samples[b.i]);
+  std::vector<Place> order(boxes.size()), other;
+  parallel_for(boxes.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const LengthSample s = sample_of(i);
+      order[i] = {std::uint64_t{sort_key(s.cause)} << 32 | sort_key(static_cast<float>(s.xyz.x)), i};
+    }
   });
+  radix_sort(order, other, [](const Place& p) { return p.key; });
+  for (auto begin = order.begin(), end = begin; begin != order.end(); begin = end) {
+    end = std::find_if(begin, order.end(), [&](const Place& p) { return p.key != begin->key; });
+    std::sort(begin, end,
+              [&](const Place& p, const Place& q) { return key_of(sample_of(p.i)) < key_of(sample_of(q.i)); });
+  }
   std::vector<LengthSample> sorted;
-  sorted.reserve(samples.size());
-  for (const Place& p : order) sorted.push_back(samples[p.i]);
+  parallel_reserve(sorted, boxes.size());
+  sorted.resize(boxes.size());
+  parallel_for(boxes.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) sorted[i] = sample_of(order[i].i);
+  });
   return sorted;
 }
 

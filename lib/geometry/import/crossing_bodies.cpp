@@ -35,8 +35,9 @@ int cost_of(SurfaceType type) { return type == SurfaceType::kPlane ? 8 : type < 
 /// touch have many edges that lie on the other's faces; OpenCASCADE takes a hundred times as long to intersect those.
 class ThroughSearch {
  public:
-  ThroughSearch(const BRepAdaptor_Curve& edge, const Surface& surface, double tolerance)
-      : edge_(edge), surface_(surface), tolerance_(tolerance) {}
+  /// `grid`: of the surface, kept for the next edge.
+  ThroughSearch(const BRepAdaptor_Curve& edge, const Surface& surface, SurfaceGrid& grid, double tolerance)
+      : edge_(edge), surface_(surface), grid_(grid), tolerance_(tolerance) {}
 
   bool may_go_through() const {
     constexpr int kHalvings = 5;  // a crossing and the way back within 1/128 of the edge are overlooked
@@ -60,7 +61,7 @@ class ThroughSearch {
 
   Station station(double t) const {
     const Vec3 x = vec(edge_.Value(t));
-    const SurfaceFoot foot = closest_point(surface_, x);
+    const SurfaceFoot foot = closest_point(surface_, x, grid_);
     if (foot.distance <= tolerance_) return {t, x, 0, 0};
     const SurfacePoint p = surface_.evaluate(foot.uv);
     return {t, x, foot.distance, dot(x - foot.x, cross(p.du, p.dv))};
@@ -79,6 +80,7 @@ class ThroughSearch {
 
   const BRepAdaptor_Curve& edge_;
   const Surface& surface_;
+  SurfaceGrid& grid_;
   double tolerance_;
 };
 
@@ -109,6 +111,10 @@ class CrossingSearch {
   struct Test {
     FaceId face;
     EdgeId edge;
+  };
+  struct SampledSurface {
+    std::unique_ptr<Surface> surface;
+    SurfaceGrid grid;
   };
   struct Pair {
     std::vector<Test> tests;
@@ -167,11 +173,11 @@ class CrossingSearch {
 
   bool may_go_through(EdgeId e, FaceId f) {
     if (t_.face_type[f] == SurfaceType::kPlane) return true;  // costs less than to look
-    auto& surface = surfaces_[f];
+    auto& [surface, grid] = surfaces_[f];
     const double* b = &t_.face_uv_bounds[4 * static_cast<std::size_t>(f)];
     if (!surface)
       surface = make_surface(BRep_Tool::Surface(TopoDS::Face(model_.faces(f + 1))), {b[0], b[1], b[2], b[3]});
-    return ThroughSearch(BRepAdaptor_Curve(TopoDS::Edge(edges_(e + 1))), *surface, tolerance_).may_go_through();
+    return ThroughSearch(BRepAdaptor_Curve(TopoDS::Edge(edges_(e + 1))), *surface, grid, tolerance_).may_go_through();
   }
 
   CrossingBodies results() const {
@@ -223,7 +229,7 @@ class CrossingSearch {
   TopTools_IndexedMapOfShape edges_;
   std::map<std::pair<int, int>, Pair> pairs_;                             ///< of bodies, the smaller number first
   std::vector<std::unique_ptr<IntCurvesFace_Intersector>> intersectors_;  ///< [n_faces] null: not used yet
-  std::vector<std::unique_ptr<Surface>> surfaces_;                        // [n_faces] likewise
+  std::vector<SampledSurface> surfaces_;                                  // [n_faces] likewise
   int cost_ = 0;
 };
 

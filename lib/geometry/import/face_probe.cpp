@@ -76,7 +76,7 @@ double FaceProbe::distance_to(Vec3 p) {
     if (foot.distance < least && classifier_.Perform(gp_Pnt2d(foot.uv.x, foot.uv.y)) != TopAbs_OUT)
       least = foot.distance;
   };
-  take(closest_point(*domain_.surface, p));
+  take(closest_point(*domain_.surface, p, grid_));
   if (least > tolerance_)
     for (const PlacedCurve& edge : edges_) least = std::min(least, closest_point(*edge.curve, p).distance);
   if (least > tolerance_)
@@ -101,12 +101,12 @@ std::vector<Vec2> FaceProbe::nearest_places(Vec3 p) {
   return nearest;
 }
 
-Vec3 FaceProbe::normal_at(Vec3 p) const {
-  return surface_normal(*domain_.surface, closest_point(*domain_.surface, p).uv);
+Vec3 FaceProbe::normal_at(Vec3 p) {
+  return surface_normal(*domain_.surface, closest_point(*domain_.surface, p, grid_).uv);
 }
 
 std::optional<double> FaceProbe::distance_inside(Vec3 p) {
-  const SurfaceFoot foot = closest_point(*domain_.surface, p);
+  const SurfaceFoot foot = closest_point(*domain_.surface, p, grid_);
   if (foot.distance > tolerance_) return std::nullopt;
   if (classifier_.Perform(gp_Pnt2d(foot.uv.x, foot.uv.y)) != TopAbs_IN) return std::nullopt;
   const double beside = kBeside * tolerance_;

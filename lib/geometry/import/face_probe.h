@@ -10,6 +10,7 @@
 
 #include "geometry/brep/face_domain.h"
 #include "geometry/shape/curve.h"
+#include "geometry/shape/projection.h"
 
 namespace st::occt {
 
@@ -34,7 +35,7 @@ class FaceProbe {
   /// thousands of points of the surface once, and a search from some of them.
   double distance_to(Vec3 p);
   /// du x dv at the point of the surface that is next, normalised.
-  Vec3 normal_at(Vec3 p) const;
+  Vec3 normal_at(Vec3 p);
 
  private:
   struct PlacedCurve {
@@ -45,6 +46,7 @@ class FaceProbe {
   std::vector<Vec2> nearest_places(Vec3 p);
 
   FaceDomain domain_;
+  SurfaceGrid grid_;  ///< of its surface, made when first needed
   BRepTopAdaptor_FClass2d classifier_;
   double tolerance_;
   Box3 box_;

@@ -80,12 +80,13 @@ std::optional<bool> are_one_surface(const BRepAdaptor_Surface& a, const BRepAdap
 /// Points of `of` in the box, all of which are on `on`: three at least.
 bool lies_on(const Surface& of, const Surface& on, const Box3& box, double tolerance) {
   int n = 0;
+  SurfaceGrid grid;
   for (int i = 0; i < kStations; ++i)
     for (int k = 0; k < kStations; ++k) {
       const Vec3 p = of.point({of.u_min() + (of.u_max() - of.u_min()) * (i + 0.5) / kStations,
                                of.v_min() + (of.v_max() - of.v_min()) * (k + 0.5) / kStations});
       if (!contains(box, p, tolerance)) continue;
-      if (closest_point(on, p).distance > tolerance) return false;
+      if (closest_point(on, p, grid).distance > tolerance) return false;
       ++n;
     }
   return n >= 3;

@@ -151,18 +151,57 @@ std::vector<Triangle> read_triangles(const Hdf5Reader& r, std::size_t n_nodes) {
   const std::vector<std::int64_t> offsets = r.read_rows<std::int64_t>("/VTKHDF/Offsets", n + 1);
   const std::vector<std::uint8_t> types = r.read_rows<std::uint8_t>("/VTKHDF/Types", n);
   std::vector<Triangle> triangles(n);
-  for (std::size_t t = 0; t < n; ++t) {
-    if (types[t] != kVtkTriangle || offsets[t] != static_cast<std::int64_t>(3 * t))
-      r.fail("/VTKHDF/Types", "cell " + std::to_string(t) + " is no triangle");
-    for (int k = 0; k < 3; ++k) {
-      const std::int64_t node = connectivity[3 * t + k];
-      if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
-        r.fail("/VTKHDF/Connectivity",
-               "cell " + std::to_string(t) + " names node " + std::to_string(node) + " of " + std::to_string(n_nodes));
-      triangles[t].n[k] = static_cast<NodeId>(node);
+  parallel_for(n, kRowsAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      if (types[t] != kVtkTriangle || offsets[t] != static_cast<std::int64_t>(3 * t))
+        r.fail("/VTKHDF/Types", "cell " + std::to_string(t) + " is no triangle");
+      for (int k = 0; k < 3; ++k) {
+        const std::int64_t node = connectivity[3 * t + k];
+        if (node < 0 || static_cast<std::size_t>(node) >= n_nodes)
+          r.fail("/VTKHDF/Connectivity", "cell " + std::to_string(t) + " names node " + std::to_string(node) + " of " +
+                                             std::to_string(n_nodes));
+        triangles[t].n[k] = static_cast<NodeId>(node);
+      }
     }
-  }
+  });
   return triangles;
+}
+
+/// The large arrays of a mesh with labels, one each: for several threads. The first failure is that of the first job.
+std::vector<std::function<void()>> read_jobs(const Hdf5Reader& r, std::size_t n_nodes, std::size_t n_triangles,
+                                             SurfaceMesh& m) {
+  const auto ids_of = [&r, n_triangles](const char* name, std::vector<std::int32_t>& ids, std::size_t n) {
+    ids = read_ids(r, name, n_triangles);
+    require_ids(r, name, ids, n);
+  };
+  std::vector<std::function<void()>> jobs = {
+      [&r, &m] {
+        m.node_xyz = r.read<Vec3>("/VTKHDF/Points");
+        require_finite(r, "/VTKHDF/Points", m.node_xyz);
+      },
+      [&r, &m, n_nodes] { m.triangles = read_triangles(r, n_nodes); },
+      [&r, &m, n_triangles] { m.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * n_triangles); },
+      [&r, &m, n_nodes] {
+        m.node_entity_dim = r.read_rows<std::uint8_t>("/VTKHDF/PointData/entity_dim", n_nodes);
+        m.node_entity = read_ids(r, "/VTKHDF/PointData/entity_id", n_nodes);
+      },
+      [&r, &m, n_nodes] {
+        m.node_size = r.read_rows<double>("/VTKHDF/PointData/size", n_nodes);
+        require_lengths(r, "/VTKHDF/PointData/size", m.node_size);
+      },
+      [&r, &m, n_nodes] { m.node_t = r.read_rows<double>("/st/node/t", n_nodes); },
+      [ids_of, &m] { ids_of("/VTKHDF/CellData/face", m.triangle_face, m.labels.face_name.size()); },
+      [ids_of, &m] { ids_of("/VTKHDF/CellData/group", m.triangle_group, m.labels.group_name.size()); }};
+  for (const FaceNumbers& n : face_numbers(m))  // made again from the labels
+    jobs.emplace_back([&r, name = "/VTKHDF/CellData/" + n.name] { r.verify(name); });
+  return jobs;
+}
+
+void require_entities(const Hdf5Reader& r, const SurfaceMesh& m) {
+  for (std::size_t n = 0; n < m.node_xyz.size(); ++n)
+    if (m.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace) &&
+        m.node_entity[n] >= static_cast<std::int64_t>(m.labels.face_name.size()))
+      r.fail("/VTKHDF/PointData/entity_id", "row " + std::to_string(n) + " names no face");
 }
 
 MeshColumns columns_of(const MeshArtifact& artifact) {
@@ -269,25 +308,11 @@ MeshArtifact read_mesh(const std::string& path) {
   SurfaceMesh& m = artifact.mesh;
   for (const char* count : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
     r.verify(std::string("/VTKHDF/") + count);  // for other programs
-  m.node_xyz = r.read<Vec3>("/VTKHDF/Points");
-  const std::size_t n_nodes = m.node_xyz.size();
-  m.node_entity_dim = r.read_rows<std::uint8_t>("/VTKHDF/PointData/entity_dim", n_nodes);
-  m.node_entity = read_ids(r, "/VTKHDF/PointData/entity_id", n_nodes);
-  m.node_size = r.read_rows<double>("/VTKHDF/PointData/size", n_nodes);
-  require_finite(r, "/VTKHDF/Points", m.node_xyz);
-  require_lengths(r, "/VTKHDF/PointData/size", m.node_size);
-  m.node_t = r.read_rows<double>("/st/node/t", n_nodes);
-  m.triangles = read_triangles(r, n_nodes);
+  const std::size_t n_nodes = r.info("/VTKHDF/Points").shape[0],
+                    n_triangles = r.info("/VTKHDF/Connectivity").shape[0] / 3;
   m.labels = read_labels(r, r.read_strings("/st/face/name").size());
-  for (const FaceNumbers& n : face_numbers(m)) r.verify("/VTKHDF/CellData/" + n.name);  // made again from the labels
-  m.triangle_face = read_ids(r, "/VTKHDF/CellData/face", m.triangles.size());
-  require_ids(r, "/VTKHDF/CellData/face", m.triangle_face, m.labels.face_name.size());
-  for (std::size_t n = 0; n < n_nodes; ++n)
-    if (m.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace) &&
-        m.node_entity[n] >= static_cast<std::int64_t>(m.labels.face_name.size()))
-      r.fail("/VTKHDF/PointData/entity_id", "row " + std::to_string(n) + " names no face");
-  m.triangle_group = read_ids(r, "/VTKHDF/CellData/group", m.triangles.size());
-  require_ids(r, "/VTKHDF/CellData/group", m.triangle_group, m.labels.group_name.size());
+  run_jobs(read_jobs(r, n_nodes, n_triangles, m));
+  require_entities(r, m);
   if (r.has("/st/segment/edge")) {
     m.segment_edge = r.read<std::int32_t>("/st/segment/edge");
     m.segment_nodes = r.read_rows<std::int32_t>("/st/segment/nodes", m.segment_edge.size(), 2);
@@ -295,14 +320,13 @@ MeshArtifact read_mesh(const std::string& path) {
     require_ids(r, "/st/segment/edge", m.segment_edge, kAnyEdge);
   }
   for (const NodeGroups& n : node_groups(m)) r.verify("/VTKHDF/PointData/" + n.name);
-  m.corner_uv = r.read_rows<Vec2>("/st/triangle/corner_uv", 3 * m.triangles.size());
   m.merged = read_merged(r, kAnyEdge, m.labels.face_name.size());
   if (r.has("/VTKHDF/PointData/previous_id")) {
     m.node_previous = r.read_rows<std::int32_t>("/VTKHDF/PointData/previous_id", n_nodes);
-    m.triangle_previous = r.read_rows<std::int32_t>("/VTKHDF/CellData/previous_id", m.triangles.size());
+    m.triangle_previous = r.read_rows<std::int32_t>("/VTKHDF/CellData/previous_id", n_triangles);
   }
   if (r.has("/VTKHDF/CellData/cad_face")) {
-    artifact.triangle_cad_face = read_ids(r, "/VTKHDF/CellData/cad_face", m.triangles.size());
+    artifact.triangle_cad_face = read_ids(r, "/VTKHDF/CellData/cad_face", n_triangles);
     artifact.node_cad_face = read_ids(r, "/VTKHDF/PointData/cad_face", n_nodes);
     artifact.node_cad_uv = r.read_rows<Vec2>("/st/node/cad_uv", n_nodes);
   }

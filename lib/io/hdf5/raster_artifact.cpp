@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "base/threads.h"
 #include "io/hdf5/raster_parts_io.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "io/hdf5/wing_records_io.h"
@@ -60,7 +61,8 @@ void write_samples(Hdf5Writer& file, const std::vector<LengthSample>& samples, V
   file.write<float>(kSampleAlong, along);
 }
 
-std::vector<LengthSample> read_samples(const Hdf5Reader& file, Vec3 origin) {
+/// Their places from the origin on which lengths count: the model's is added later.
+std::vector<LengthSample> read_samples(const Hdf5Reader& file) {
   const std::vector<float> lengths = file.read<float>(kSampleLength), points = file.read<float>(kSamplePoint, 3);
   const std::vector<std::int32_t> causes = file.read_rows<std::int32_t>(kSampleCause, lengths.size());
   if (points.size() != 3 * lengths.size()) file.fail(kSamplePoint, "does not fit the number of lengths");
@@ -68,7 +70,6 @@ std::vector<LengthSample> read_samples(const Hdf5Reader& file, Vec3 origin) {
   if (file.has(kSampleNormal)) normals = file.read_rows<SmallNormal>(kSampleNormal, lengths.size());
   require_finite(file, kSamplePoint, points);
   require_rows_to_be(file, kSampleLength, std::span<const float>(lengths), "a finite length > 0", is_positive);
-  std::vector<LengthSample> samples;
   std::vector<SmallNormal> directions(lengths.size());
   std::vector<float> along(lengths.size());
   std::vector<SampleReach> reaches(lengths.size());
@@ -81,8 +82,10 @@ std::vector<LengthSample> read_samples(const Hdf5Reader& file, Vec3 origin) {
     along = file.read_rows<float>(kSampleAlong, lengths.size());
     require_lengths(file, kSampleAlong, along);
   }
+  std::vector<LengthSample> samples;
+  samples.reserve(lengths.size());
   for (std::size_t i = 0; i < lengths.size(); ++i)
-    samples.push_back({origin + Vec3{points[3 * i], points[3 * i + 1], points[3 * i + 2]},
+    samples.push_back({Vec3{points[3 * i], points[3 * i + 1], points[3 * i + 2]},
                        lengths[i],
                        causes[i],
                        normals[i],
@@ -138,15 +141,22 @@ RasterArtifact read_raster(const std::string& path) {
   raster.numbers = read_numbers(file);
   if (raster.header.schema_version >= kPartialRasterVersion)
     raster.n_not_sampled = file.int_attribute(kSizing, kNotSampled);
-  raster.octree.shape = read_shape(file);
-  const std::size_t n = raster.octree.shape.leaf_keys.size();
-  raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
-  raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
-  if (file.has(kSurfaceTriangle)) raster.surface = read_surface(file);
-  require_rows_to_be(file, kStoredLength, std::span<const float>(raster.octree.stored_length), "a length > 0",
-                     [](float x) { return x > 0; });
-  raster.model = read_model(file, n);
-  if (file.has(kSamplePoint)) raster.samples = read_samples(file, raster.model.faces.origin);
+  run_jobs({[&] {
+              raster.octree.shape = read_shape(file);
+              const std::size_t n = raster.octree.shape.leaf_keys.size();
+              raster.octree.stored_length = file.read_rows<float>(kStoredLength, n);
+              raster.octree.stored_cause = file.read_rows<std::int32_t>(kStoredCause, n);
+              require_rows_to_be(file, kStoredLength, std::span<const float>(raster.octree.stored_length),
+                                 "a length > 0", [](float x) { return x > 0; });
+              raster.model = read_model(file, n);
+            },
+            [&] {
+              if (file.has(kSurfaceTriangle)) raster.surface = read_surface(file);
+            },
+            [&] {
+              if (file.has(kSamplePoint)) raster.samples = read_samples(file);
+            }});
+  for (LengthSample& s : raster.samples) s.xyz = raster.model.faces.origin + s.xyz;
   return raster;
 }
 
