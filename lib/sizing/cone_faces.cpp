@@ -20,11 +20,7 @@ constexpr std::int32_t kManyCones = 24;  // of both cells: more places of their 
 class FaceAgreement {
  public:
   FaceAgreement(const SiteGraph& sites, std::span<const Cone> cones, float largest, SiteSamples samples)
-      : sites_(sites),
-        cones_(cones),
-        largest_(largest),
-        samples_(std::move(samples)),
-        more_(sites.cell.size()) {}
+      : sites_(sites), cones_(cones), largest_(largest), samples_(std::move(samples)), more_(sites.cell.size()) {}
 
   SiteSamples run() {
     constexpr std::size_t kSitesPerPiece = 2'048;
@@ -248,8 +244,8 @@ class FaceAgreement {
     all.sample.resize(samples_.sample.size() + links_.size());
     parallel_for(n, kSitesPerPiece, [&](std::size_t begin, std::size_t end) {
       for (std::size_t site = begin; site < end; ++site) {
-        auto to = std::ranges::copy(own_samples(static_cast<std::int32_t>(site)),
-                                    all.sample.begin() + all.first[site]).out;
+        auto to =
+            std::ranges::copy(own_samples(static_cast<std::int32_t>(site)), all.sample.begin() + all.first[site]).out;
         for (std::int32_t k = more_[site].last; k != kNone; k = links_[k].next) *to++ = links_[k].sample;
       }
     });
@@ -270,6 +266,25 @@ class FaceAgreement {
 };
 
 }  // namespace
+
+std::vector<std::int32_t> used_samples(const SiteSamples& kept, std::size_t n_samples) {
+  constexpr std::size_t kSitesPerPiece = 16'384;  // more where there are more samples: each piece marks all of them
+  const std::size_t n = kept.at_center.size(), n_per_piece = std::max(kSitesPerPiece, n_samples);
+  const auto add_new = [&](std::span<const std::int32_t> samples, std::vector<std::int32_t>& used) {
+    std::vector<std::uint8_t> is_used(n_samples, 0);
+    for (const std::int32_t s : samples)
+      if (!std::exchange(is_used[s], 1)) used.push_back(s);
+  };
+  std::vector<std::vector<std::int32_t>> pieces((n + n_per_piece - 1) / n_per_piece);
+  parallel_for(n, n_per_piece, [&](std::size_t begin, std::size_t end) {
+    add_new(std::span(kept.sample).subspan(kept.first[begin], kept.first[end] - kept.first[begin]),
+            pieces[begin / n_per_piece]);
+  });
+  std::vector<std::int32_t> all, used;
+  for (const std::vector<std::int32_t>& piece : pieces) all.insert(all.end(), piece.begin(), piece.end());
+  add_new(all, used);
+  return used;
+}
 
 SiteSamples agree_on_faces(const SiteGraph& sites, std::span<const Cone> cones, float largest, SiteSamples samples) {
   if (cones.empty()) return samples;

@@ -1,6 +1,7 @@
 // Cells that touch made to tell the same on their common face: so that the size field has no jumps. Internal to sizing.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,6 +17,9 @@ struct SiteSamples {
   std::vector<std::int32_t> at_center;  ///< [n_sites] which tells the length there; kNone: the largest length
   std::vector<float> center_length;     ///< [n_sites]
 };
+
+/// All that sites keep of samples [0, n_samples), each once, in the order in which they come first.
+std::vector<std::int32_t> used_samples(const SiteSamples& kept, std::size_t n_samples);
 
 /// Gives each site the cones that tell clearly less than its own on a face common with a site that has them, and the
 /// one that tells the length at the centre of a site that touches it, where the step from there is above the slope.

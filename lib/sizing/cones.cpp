@@ -81,14 +81,12 @@ class ConeSpread {
     table.of_site.resize(all.sample.size());
     table.at_center.assign(all.at_center.size(), kNone);
     std::vector<std::int32_t> number(cones_.size(), kNone);
-    for (const std::vector<std::int32_t>& piece : used_samples(all))
-      for (const std::int32_t s : piece) {
-        if (number[s] != kNone) continue;
-        number[s] = static_cast<std::int32_t>(table.cone.size());
-        table.cone.push_back(cones_[s]);
-        table.cause.push_back(samples_[s].cause);
-        table.sample.push_back(s);
-      }
+    table.sample = used_samples(all, cones_.size());
+    for (const std::int32_t s : table.sample) {
+      number[s] = static_cast<std::int32_t>(table.cone.size());
+      table.cone.push_back(cones_[s]);
+      table.cause.push_back(samples_[s].cause);
+    }
     table.first = all.first;
     const auto is_shorter = [&](std::int32_t a, std::int32_t b) {
       return table.cone[a].length != table.cone[b].length ? table.cone[a].length < table.cone[b].length : a < b;
@@ -105,18 +103,6 @@ class ConeSpread {
   }
 
  private:
-  /// Those of each piece of the sites, each where it comes first in it.
-  std::vector<std::vector<std::int32_t>> used_samples(const SiteSamples& all) const {
-    const std::size_t n = all.at_center.size(), n_per_piece = std::max(8 * kSitesPerPiece, cones_.size());
-    std::vector<std::vector<std::int32_t>> used((n + n_per_piece - 1) / n_per_piece);
-    parallel_for(n, n_per_piece, [&](std::size_t begin, std::size_t end) {
-      std::vector<std::uint8_t> is_used(cones_.size(), 0);
-      for (std::int32_t i = all.first[begin]; i < all.first[end]; ++i)
-        if (const std::int32_t s = all.sample[i]; !std::exchange(is_used[s], 1)) used[begin / n_per_piece].push_back(s);
-    });
-    return used;
-  }
-
   void make_parts() {
     constexpr std::size_t kPartsPerThread = 8, kLeastSites = 256;
     const std::size_t n_wanted = kPartsPerThread * static_cast<std::size_t>(thread_count());

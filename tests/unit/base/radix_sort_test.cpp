@@ -80,6 +80,12 @@ TEST(RadixSort, has_keys_that_ascend_as_numbers_do) {
   for (std::size_t i = 1; i < ascending.size(); ++i)
     EXPECT_LT(sort_key(ascending[i - 1]), sort_key(ascending[i])) << ascending[i];
   EXPECT_EQ(sort_key(-0.0), sort_key(0.0));
+  const std::vector<float> singles{-std::numeric_limits<float>::infinity(), -2.5F, -2, 0, 1e-40F, 1, 3e38F};
+  for (std::size_t i = 1; i < singles.size(); ++i)
+    EXPECT_LT(sort_key(singles[i - 1]), sort_key(singles[i])) << singles[i];
+  EXPECT_EQ(sort_key(-0.0F), sort_key(0.0F));
+  const std::vector<std::int32_t> whole{std::numeric_limits<std::int32_t>::min(), -1, 0, 7};
+  for (std::size_t i = 1; i < whole.size(); ++i) EXPECT_LT(sort_key(whole[i - 1]), sort_key(whole[i])) << whole[i];
 }
 
 TEST(RadixSort, sorts_large_items_by_a_number_of_theirs) {

@@ -163,5 +163,20 @@ TEST(ConeFaces, settle_the_steps_to_centres_everywhere) {
   EXPECT_EQ(row.settled(2), (CellSamples{0, 1})) << "once the second cell is lower";
 }
 
+TEST(ConeFaces, lists_each_sample_where_it_comes_first_over_all_pieces) {
+  SiteSamples kept;
+  constexpr std::int32_t kSites = 40'000, kSamples = 9;
+  std::vector<std::int32_t> expected;
+  for (std::int32_t site = 0; site < kSites; ++site) {
+    for (const std::int32_t s : {site * 7 % kSamples, (site / 5'000 + 3) % kSamples}) kept.sample.push_back(s);
+    kept.first.push_back(static_cast<std::int32_t>(kept.sample.size()));
+    kept.at_center.push_back(kNone);
+  }
+  kept.sample.back() = kSamples;  // in the last piece alone
+  for (const std::int32_t s : kept.sample)
+    if (std::ranges::count(expected, s) == 0) expected.push_back(s);
+  EXPECT_EQ(used_samples(kept, kSamples + 1), expected);
+}
+
 }  // namespace
 }  // namespace st
