@@ -136,10 +136,13 @@ class Blanker {
   }
 
   /// An open surface has no inside: all is flow.
-  CellColour colour_at(Vec3 x) const {
-    if (!open_edges_.empty()) return CellColour::kFlow;
-    const bool is_inside = winding_number(surface_, x) > 0;
-    return is_inside == (flow_sign_ < 0) ? CellColour::kFlow : CellColour::kBlanked;
+  std::vector<CellColour> colours_at(std::span<const Vec3> points) const {
+    std::vector<CellColour> colours(points.size(), CellColour::kFlow);
+    if (!open_edges_.empty()) return colours;
+    const std::vector<int> winding = winding_numbers(surface_, points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if ((winding[i] > 0) != (flow_sign_ < 0)) colours[i] = CellColour::kBlanked;
+    return colours;
   }
 
   /// One ray for each region of uncut cells that hang together at faces, and its colour for all of them.
@@ -161,9 +164,9 @@ class Blanker {
         });
       }
     }
-    std::vector<CellColour> colour(seeds.size());
-    parallel_for(seeds.size(), 1,
-                 [&](std::size_t i, std::size_t) { colour[i] = colour_at(octree_.leaf_center(seeds[i])); });
+    std::vector<Vec3> centers;
+    for (const std::int32_t seed : seeds) centers.push_back(octree_.leaf_center(seed));
+    const std::vector<CellColour> colour = colours_at(centers);
     for (std::size_t leaf = 0; leaf < region.size(); ++leaf)
       if (region[leaf] != kNone) result_.colour[leaf] = colour[region[leaf]];
   }

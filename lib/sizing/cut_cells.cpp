@@ -1,7 +1,11 @@
 #include "sizing/cut_cells.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "base/axis.h"
@@ -109,6 +113,26 @@ class TriangleWalk {
   Box3 box_;
 };
 
+/// Of one triangle around the ray from x along +x. Seen along it, each triangle winds around x or not; common edges of
+/// two triangles are counted once whatever the rounding.
+int winding_of(const std::array<Vec3, 3>& p, Vec3 x) {
+  if (std::max({p[0].x, p[1].x, p[2].x}) < x.x) return 0;
+  const Vec2 origin{x.y, x.z};
+  int turns = 0;
+  for (int k = 0; k < 3; ++k) {
+    const Vec2 a{p[k].y, p[k].z}, b{p[(k + 1) % 3].y, p[(k + 1) % 3].z};
+    if ((a.y <= origin.y) == (b.y <= origin.y)) continue;
+    const double side = orient2d(a, b, origin);
+    if (b.y > origin.y && side > 0) ++turns;
+    if (a.y > origin.y && side < 0) --turns;
+  }
+  if (turns == 0) return 0;
+  // the side of the triangle that x lies on tells whether the ray meets it: seen along +x, a counter-clockwise one
+  // has its normal there
+  const double side = orient3d(p[0], p[1], p[2], x);
+  return (turns > 0 && side < 0) || (turns < 0 && side > 0) ? turns : 0;
+}
+
 }  // namespace
 
 CutCells find_cut_cells(const OctreeView& octree, const SurfaceView& surface) {
@@ -181,29 +205,27 @@ bool segment_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const V
   return line_meets_triangle(p, q, a, b, c);
 }
 
-// A ray along +x: seen along it, each triangle winds around x or not; common edges of two triangles are counted once
-// whatever the rounding.
-int winding_number(const SurfaceView& surface, Vec3 x) {
-  const Vec2 origin{x.y, x.z};
-  int winding = 0;
-  for (TriangleId t = 0; t < static_cast<TriangleId>(surface.triangles.size()); ++t) {
-    const Vec3 p[3] = {surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2)};
-    if (std::max({p[0].x, p[1].x, p[2].x}) < x.x) continue;
-    int turns = 0;
-    for (int k = 0; k < 3; ++k) {
-      const Vec2 a{p[k].y, p[k].z}, b{p[(k + 1) % 3].y, p[(k + 1) % 3].z};
-      if ((a.y <= origin.y) == (b.y <= origin.y)) continue;
-      const double side = orient2d(a, b, origin);
-      if (b.y > origin.y && side > 0) ++turns;
-      if (a.y > origin.y && side < 0) --turns;
+std::vector<int> winding_numbers(const SurfaceView& surface, std::span<const Vec3> points) {
+  constexpr std::size_t kPerPiece = 4'096;  // triangles
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(points[i].y, i); });
+  std::vector<double> y;
+  for (const std::size_t i : order) y.push_back(points[i].y);
+  std::vector<int> winding(points.size(), 0);
+  parallel_for(surface.triangles.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto id = static_cast<TriangleId>(t);
+      const std::array<Vec3, 3> p = {surface.corner(id, 0), surface.corner(id, 1), surface.corner(id, 2)};
+      const auto [lo, hi] = std::minmax({p[0].y, p[1].y, p[2].y});
+      for (auto k = std::ranges::lower_bound(y, lo) - y.begin(); k < std::ssize(y) && y[k] <= hi; ++k)
+        if (const int turns = winding_of(p, points[order[k]]); turns != 0)
+          std::atomic_ref(winding[order[k]]).fetch_add(turns, std::memory_order_relaxed);
     }
-    if (turns == 0) continue;
-    // the side of the triangle that x lies on tells whether the ray meets it: seen along +x, a counter-clockwise one
-    // has its normal there
-    const double side = orient3d(p[0], p[1], p[2], x);
-    if ((turns > 0 && side < 0) || (turns < 0 && side > 0)) winding += turns;
-  }
+  });
   return winding;
 }
+
+int winding_number(const SurfaceView& surface, Vec3 x) { return winding_numbers(surface, {&x, 1}).front(); }
 
 }  // namespace st

@@ -50,5 +50,7 @@ bool line_meets_triangle(const Vec3& p, const Vec3& q, const Vec3& a, const Vec3
 /// How often a closed, oriented surface winds around `x`: 1 inside, 0 outside. Exact, unless x lies on it.
 /// O(n_triangles).
 int winding_number(const SurfaceView& surface, Vec3 x);
+/// Likewise of many points, on all threads. Each triangle looks at those alone that have its y.
+std::vector<int> winding_numbers(const SurfaceView& surface, std::span<const Vec3> points);
 
 }  // namespace st

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "base/threads.h"
 #include "unit/mesh/shapes.h"
 
 namespace st {
@@ -95,6 +96,29 @@ TEST(WindingNumber, is_one_inside_minus_one_when_turned_and_zero_outside) {
   EXPECT_EQ(at({-9, 2, 3}), 0) << "its ray meets the surface twice";
   shapes::turn(m);
   EXPECT_EQ(at({1, 2, 3}), -1);
+}
+
+TEST(WindingNumber, of_many_points_is_that_of_each_at_every_number_of_threads) {
+  const SurfaceMesh m = shapes::sphere(24, {1, 2, 3}, 2);
+  const SurfaceView surface{m.node_xyz, m.triangles};
+  std::vector<Vec3> points;
+  for (double y = -1; y < 5; y += 0.25)
+    for (double z = 0.1; z < 6; z += 0.5) points.push_back({1 + 0.1 * z, y, z});
+  for (const int n_threads : {1, 3}) {
+    set_thread_count(n_threads);
+    const std::vector<int> winding = winding_numbers(surface, points);
+    set_thread_count(1);
+    int n_inside = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double off = distance(points[i], {1, 2, 3});
+      if (off < 1.9 || off > 2) {
+        ASSERT_EQ(winding[i], off < 1.9 ? 1 : 0) << i;
+      }
+      ASSERT_EQ(winding[i], winding_number(surface, points[i]));
+      n_inside += winding[i];
+    }
+    EXPECT_GT(n_inside, 50);
+  }
 }
 
 }  // namespace
