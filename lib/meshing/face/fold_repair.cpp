@@ -63,11 +63,14 @@ class SeenSurface final : public Surface {
     v_min_ = std::min(v_min_, st.y), v_max_ = std::max(v_max_, st.y);
   }
 
-  /// (u,v) of the point at a place; nullopt: not found.
-  std::optional<Vec2> foot(Vec2 st) const {
-    const auto nearest = std::min_element(
-        seeds_.begin(), seeds_.end(), [&](const Seed& a, const Seed& b) { return norm(a.st - st) < norm(b.st - st); });
-    Vec2 uv = nearest->uv;
+  struct Foot {
+    Vec2 uv;
+    SurfacePoint p;  // there
+  };
+
+  /// Of the point at a place; nullopt: not found.
+  std::optional<Foot> foot(Vec2 st) const {
+    Vec2 uv = nearest_seed(st).uv;
     SurfacePoint p = surface_.evaluate(uv);
     Vec2 miss = st - axis_.place_of(p.x);
     const double enough = kFound * std::hypot(u_max_ - u_min_, v_max_ - v_min_);
@@ -86,14 +89,14 @@ class SeenSurface final : public Surface {
       if (part <= 1e-3) return std::nullopt;
     }
     if (norm(miss) > enough) return std::nullopt;
-    return uv;
+    return Foot{uv, p};
   }
 
   Vec3 point(Vec2 st) const override { return evaluate(st).x; }
   /// A cylinder about the axis where there is no point.
   SurfacePoint evaluate(Vec2 st) const override {
-    if (const auto uv = foot(st)) {
-      const SurfacePoint p = surface_.evaluate(*uv);
+    if (const auto found = foot(st)) {
+      const SurfacePoint& p = found->p;
       const Eigen::Matrix2d m = change_of(p), way = adjugate(m) / m.determinant();
       return {p.x, way(0, 0) * p.du + way(1, 0) * p.dv, way(0, 1) * p.du + way(1, 1) * p.dv};
     }
@@ -107,6 +110,18 @@ class SeenSurface final : public Surface {
   }
 
  private:
+  /// The first of the nearest ones.
+  const Seed& nearest_seed(Vec2 st) const {
+    const Seed* nearest = &seeds_.front();
+    double least2 = std::numeric_limits<double>::infinity(), least = least2;
+    for (const Seed& seed : seeds_) {
+      const Vec2 way = seed.st - st;
+      const double distance2 = dot(way, way);
+      if (distance2 < least2 && std::sqrt(distance2) < least)
+        nearest = &seed, least2 = distance2, least = std::sqrt(distance2);
+    }
+    return *nearest;
+  }
   /// Of (s,t) per (u,v).
   Eigen::Matrix2d change_of(const SurfacePoint& p) const {
     const Vec3 turning = axis_.turning(p.x);
@@ -281,9 +296,9 @@ class FoldRepair {
 
   static bool find_feet(const SeenSurface& seen, FaceMesh& mesh) {
     for (FaceNode& n : mesh.inner) {
-      const auto uv = seen.foot(n.uv);
-      if (!uv) return false;
-      n.uv = *uv;
+      const auto foot = seen.foot(n.uv);
+      if (!foot) return false;
+      n.uv = foot->uv;
     }
     return true;
   }
