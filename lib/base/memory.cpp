@@ -6,9 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <mutex>
+#include <utility>
+#include <vector>
 
 namespace st {
 namespace {
@@ -26,6 +30,8 @@ constexpr std::size_t kHeapOfLargePages = std::size_t{3} << 28;
 
 /// Least memory that a process may use for such a reserve, in reserves: it counts in limits of address space.
 constexpr double kLeastReserves = 8;
+
+std::atomic<bool> g_ends_with_memory = false;
 
 }  // namespace
 
@@ -46,6 +52,16 @@ void return_freed_memory() {
 #ifdef __GLIBC__
   malloc_trim(0);
 #endif
+}
+
+void end_with_memory() { g_ends_with_memory = true; }
+bool ends_with_memory() { return g_ends_with_memory; }
+
+void keep_to_end(std::shared_ptr<const void> thing) {
+  static std::mutex mutex;
+  static auto& kept = *new std::vector<std::shared_ptr<const void>>();  // never destroyed
+  const std::lock_guard lock(mutex);
+  kept.push_back(std::move(thing));
 }
 
 void prefer_large_pages([[maybe_unused]] void* array, [[maybe_unused]] std::size_t bytes) {

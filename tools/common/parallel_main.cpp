@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/log.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "base/threads.h"
 #include "comm/communicator.h"
@@ -151,6 +152,7 @@ int ToolMain::run_parallel(int argc, char** argv, const std::function<StageSumma
     set_thread_count(n_threads_.value_or(comm->size() > 1 ? 1 : processor_count()));
     if (restarts_after_crash_) watch_late_work();
     if (restarts_after_crash_ && comm->size() == 1) restart_after_crashes(argv);
+    end_with_memory();
     const StageSummary summary = stage(*comm);
     if (comm->is_root()) print_summary(summary);
     return summary.code;

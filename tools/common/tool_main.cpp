@@ -456,6 +456,7 @@ int ToolMain::run(int argc, char** argv, const std::function<StageSummary()>& st
     }
     watch_time([&](ExitCode code, const std::string& message) { print_error(code, message); });
     set_thread_count(n_threads_.value_or(processor_count()));
+    end_with_memory();
     const StageSummary summary = stage();
     print_summary(summary);
     return summary.code;

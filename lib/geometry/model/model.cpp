@@ -18,6 +18,7 @@
 
 #include "base/assert.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/model/model_impl.h"
 #include "geometry/shape/analytic.h"
@@ -142,7 +143,9 @@ Model::Model(ModelTables cad, std::vector<std::byte> brep, Composites composites
   impl_->cad = std::make_unique<Model>(std::move(cad), std::move(brep));
 }
 
-Model::~Model() = default;
+Model::~Model() {
+  if (impl_ && ends_with_memory()) keep_to_end(std::move(impl_));  // OpenCASCADE frees thousands of small objects
+}
 Model::Model(Model&&) noexcept = default;
 Model& Model::operator=(Model&&) noexcept = default;
 

@@ -53,6 +53,13 @@ TEST(FreedMemory, goes_back_to_the_system_from_between_what_is_used) {
   EXPECT_LT(resident_bytes(), kept - 0.5 * kPieces * kBytes);
 }
 
+TEST(KeptToEnd, is_not_taken_apart) {
+  bool is_gone = false;
+  keep_to_end(std::shared_ptr<const void>(&is_gone, [](bool* gone) { *gone = true; }));
+  EXPECT_FALSE(is_gone);
+  EXPECT_FALSE(ends_with_memory());
+}
+
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
 /// The line of flags of the mapping that holds an address.
