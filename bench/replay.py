@@ -19,7 +19,8 @@ What is replayed, with one processor for each thread:
 tasks as much slower as they were there: two processors of a machine share caches and memory.
 --chain runs all stages on one processor, and replays each on the threads of --on: st-raster and st-mesh by their
 traces; of the others the loops over threads are shared, down to their longest pieces, and the rest takes as long as it
-took. What starting a program takes is in it. The least of --runs counts.
+took. Each is run with its loops cut for as many threads. What starting a program takes is in it. The least of --runs
+counts.
 """
 import argparse
 import bisect
@@ -219,9 +220,10 @@ def validate(options):
                   f"{slower:.2f} | {slow:.3f} | {100 * (slow / run.end - 1):+.1f} % |")
 
 
-def run_stage(name, words, on):
-    """Seconds of a run on one processor and thread, and on each number of threads of `on`."""
-    done = subprocess.Popen(["taskset", "-c", "0", *map(str, words), "--json"], stdout=subprocess.PIPE)
+def run_stage(name, words, n):
+    """Seconds of a run on one processor and thread, and as replayed on n threads, for which its loops are cut."""
+    done = subprocess.Popen(["taskset", "-c", "0", *map(str, words), "--json"], stdout=subprocess.PIPE,
+                            env=os.environ | {"ST_PIECES_FOR": str(n)})
     summary = json.loads(done.stdout.read().splitlines()[-1])
     _, status, usage = os.wait4(done.pid, 0)
     if os.waitstatus_to_exitcode(status) not in (0, 5):
@@ -229,10 +231,10 @@ def run_stage(name, words, on):
     seconds = usage.ru_utime + usage.ru_stime
     if name in ("raster", "mesh"):
         trace = Trace(words[-1])
-        of = [Machine(1, n, argparse.Namespace(times=1, latency=0, bandwidth=1)).run(trace) for n in (1, *on)]
-        return seconds, [seconds - of[0] + s for s in of[1:]]
+        one, many = (Machine(1, k, argparse.Namespace(times=1, latency=0, bandwidth=1)).run(trace) for k in (1, n))
+        return seconds, seconds - one + many
     loops, longest = (summary["processor_seconds"][k] for k in ("in_loops", "longest_pieces"))
-    return seconds, [seconds - loops + max(loops / n, longest) for n in on]
+    return seconds, seconds - loops + max(loops / n, longest)
 
 
 def replay_chain(options):
@@ -250,8 +252,9 @@ def replay_chain(options):
         print("|---|--:" + "|--:|--:" * len(options.on) + "|")
         rows = []
         for name, words in stages:
-            rows.append(min((run_stage(name, [options.bin / f"st-{name}", *words], options.on)
-                             for _ in range(options.runs)), key=lambda row: row[0]))
+            of = {n: min(run_stage(name, [options.bin / f"st-{name}", *words], n) for _ in range(options.runs))
+                  for n in (1, *options.on)}
+            rows.append((of[1][0], [of[n][1] for n in options.on]))
             tell_stage(name, *rows[-1])
         tell_stage("chain", sum(r[0] for r in rows), [sum(of) for of in zip(*(r[1] for r in rows))])
 

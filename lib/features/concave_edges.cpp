@@ -1,7 +1,8 @@
 #include "features/concave_edges.h"
 
 #include <array>
-#include <optional>
+
+#include "base/threads.h"
 
 namespace st {
 namespace {
@@ -37,30 +38,34 @@ bool is_concave(const EdgeSide& a, const EdgeSide& b) {
 }  // namespace
 
 std::vector<std::uint8_t> find_concave_edges(const Model& model, const FaceRoles& roles) {
+  constexpr std::size_t kFacesPerPiece = 4;
   const ModelTables& t = model.tables();
   const bool is_turned = is_material_ahead(t, roles);
-  std::vector<std::vector<EdgeSide>> sides(static_cast<std::size_t>(t.n_edges()));
-  std::vector<std::optional<EdgePlaces>> places(sides.size());
-  for (FaceId f = 0; f < t.n_faces(); ++f) {
-    if (roles.role[f] != FaceRole::kWall) continue;
-    const auto surface = model.surface(f);
-    for (const CoedgeId c : t.coedges(f)) {
-      const EdgeId e = t.coedge_edge[c];
-      if (t.edge_is_degenerate[e]) continue;
-      if (!places[e]) places[e] = places_on(*model.curve(e));
-      const auto pcurve = model.pcurve(f, c);
-      EdgeSide side;
-      for (int i = 0; i < kPlaces; ++i) {
-        const Vec3 n = surface_normal(*surface, pcurve->point(places[e]->t[i])), tangent = places[e]->tangent[i];
-        side.normal[i] = (t.face_is_reversed[f] != 0) != is_turned ? -n : n;
-        side.inward[i] = normalized(cross(n, t.coedge_is_reversed[c] ? -tangent : tangent));
+  std::vector<EdgeSide> side(static_cast<std::size_t>(t.n_coedges()));
+  parallel_for(static_cast<std::size_t>(t.n_faces()), kFacesPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (auto f = static_cast<FaceId>(begin); f < static_cast<FaceId>(end); ++f) {
+      if (roles.role[f] != FaceRole::kWall) continue;
+      const auto surface = model.surface(f);
+      for (const CoedgeId c : t.coedges(f)) {
+        if (t.edge_is_degenerate[t.coedge_edge[c]]) continue;
+        const EdgePlaces places = places_on(*model.curve(t.coedge_edge[c]));
+        const auto pcurve = model.pcurve(f, c);
+        for (int i = 0; i < kPlaces; ++i) {
+          const Vec3 n = surface_normal(*surface, pcurve->point(places.t[i])), tangent = places.tangent[i];
+          side[c].normal[i] = (t.face_is_reversed[f] != 0) != is_turned ? -n : n;
+          side[c].inward[i] = normalized(cross(n, t.coedge_is_reversed[c] ? -tangent : tangent));
+        }
       }
-      sides[e].push_back(side);
     }
-  }
+  });
+  std::vector<std::vector<CoedgeId>> of_edge(static_cast<std::size_t>(t.n_edges()));
+  for (FaceId f = 0; f < t.n_faces(); ++f)
+    if (roles.role[f] == FaceRole::kWall)
+      for (const CoedgeId c : t.coedges(f))
+        if (!t.edge_is_degenerate[t.coedge_edge[c]]) of_edge[t.coedge_edge[c]].push_back(c);
   std::vector<std::uint8_t> is_concave_edge;
-  for (const std::vector<EdgeSide>& own : sides)
-    is_concave_edge.push_back(own.size() == 2 && is_concave(own[0], own[1]));
+  for (const std::vector<CoedgeId>& own : of_edge)
+    is_concave_edge.push_back(own.size() == 2 && is_concave(side[own[0]], side[own[1]]));
   return is_concave_edge;
 }
 

@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/boxes.h"
 #include "base/disjoint_sets.h"
+#include "base/pieces.h"
 #include "base/share.h"
 #include "base/threads.h"
 #include "features/edge_places.h"
@@ -36,7 +37,7 @@ void ProfileFacets::add_along(std::span<const WingEdge> edges, const Executor& e
     return;
   }
   add(walls_along(all), executor);
-  if (executor.is_root()) walk(all, thread_count() > 1 ? kAhead : 1);
+  if (executor.is_root()) walk(all, threads_of_pieces() > 1 ? kAhead : 1);
 }
 
 std::vector<std::uint8_t> ProfileFacets::walls_along(std::span<const WingEdge> edges) {

@@ -10,6 +10,7 @@
 
 #include "base/boxes.h"
 #include "base/limits.h"
+#include "base/pieces.h"
 #include "base/predicates.h"
 #include "base/threads.h"
 #include "mesh/adjacency.h"
@@ -70,7 +71,7 @@ struct Scratch {
 };
 
 /// What a piece knows of its cells helps the next ones in it: pieces are shorter only where several threads share them.
-std::size_t cut_cells_per_piece() { return thread_count() > 1 ? kCutCellsPerPiece : kCellsPerPiece; }
+std::size_t cut_cells_per_piece() { return threads_of_pieces() > 1 ? kCutCellsPerPiece : kCellsPerPiece; }
 
 /// Links of some sites, in order.
 struct LinkRows {

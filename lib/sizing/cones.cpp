@@ -11,6 +11,7 @@
 #include "base/limits.h"
 #include "base/memory.h"
 #include "base/parallel_reserve.h"
+#include "base/pieces.h"
 #include "base/radix_sort.h"
 #include "base/threads.h"
 #include "sizing/cone_cell.h"
@@ -105,7 +106,7 @@ class ConeSpread {
  private:
   void make_parts() {
     constexpr std::size_t kPartsPerThread = 8, kLeastSites = 256;
-    const std::size_t n_wanted = kPartsPerThread * static_cast<std::size_t>(thread_count());
+    const std::size_t n_wanted = kPartsPerThread * static_cast<std::size_t>(threads_of_pieces());
     part_bits_ = std::bit_width(std::max(sites_.size() / n_wanted, kLeastSites));
     parts_.resize((sites_.size() >> part_bits_) + 1);
     for (Part& part : parts_) part.offers.resize(parts_.size());
