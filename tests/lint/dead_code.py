@@ -13,7 +13,7 @@ from collections import defaultdict
 import lint
 
 WORD = re.compile(r"[A-Za-z_]\w*")
-ROOTS = {"main", "st_read_cad_file"}  # the latter: of modules that are loaded
+ROOTS = {"main", "st_read_cad_file", "ProcessShape"}  # of modules that are loaded; called by OpenCASCADE
 
 
 class Calls:

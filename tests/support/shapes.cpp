@@ -40,6 +40,7 @@
 #include <GeomFill.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_OffsetSurface.hxx>
@@ -57,6 +58,7 @@
 #include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Controller.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
 #include <TDataStd_Name.hxx>
 #include <TDocStd_Document.hxx>
@@ -666,6 +668,32 @@ TopoDS_Shape ball_with_bar() {
   return BRepAlgoAPI_Fuse(ball, BRepBuilderAPI_Transform(bar, turn, true).Shape()).Shape();
 }
 
+/// The body of revolution of a curve from tip to tip, about z.
+TopoDS_Shape between_tips(const Handle(Geom_Curve) & curve) {
+  const TopoDS_Edge side = BRepBuilderAPI_MakeEdge(curve);
+  const TopoDS_Edge axis = BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 9), gp_Pnt(0, 0, -9));
+  const TopoDS_Shape half = BRepBuilderAPI_MakeFace(BRepBuilderAPI_MakeWire(side, axis).Wire()).Shape();
+  return BRepPrimAPI_MakeRevol(half, gp::OZ()).Shape();
+}
+
+TopoDS_Shape spindle() {
+  TColgp_Array1OfPnt poles(1, 3);
+  poles.SetValue(1, gp_Pnt(0, 0, -9));
+  poles.SetValue(2, gp_Pnt(6, 0, 0));
+  poles.SetValue(3, gp_Pnt(0, 0, 9));
+  return between_tips(new Geom_BezierCurve(poles));
+}
+
+/// Of an arc: the full circle that it is part of crosses the axis.
+TopoDS_Shape lemon() {
+  return between_tips(GC_MakeArcOfCircle(gp_Pnt(0, 0, -9), gp_Pnt(3, 0, 0), gp_Pnt(0, 0, 9)).Value());
+}
+
+/// With a box that stands across the seam of a body, or beside it.
+TopoDS_Shape with_fin(const TopoDS_Shape& body, double y) {
+  return BRepAlgoAPI_Fuse(body, moved(box(6, 1, 2), 0, y, -1)).Shape();
+}
+
 /// An eighth of a ball, in six pieces that meet at its pole.
 TopoDS_Shape melon() {
   TopoDS_Shape all;
@@ -694,6 +722,9 @@ const std::map<std::string, Factory>& factories() {
          return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeCylinder(along_x, 1, 9)).Shape();
        }},
       {"ball_with_bar", ball_with_bar},
+      {"spindle_with_fin", [] { return with_fin(spindle(), -0.4); }},
+      {"spindle_with_fin_beside", [] { return with_fin(spindle(), 0.4); }},
+      {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"two_balls", [] { return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"cone_on_cylinder",

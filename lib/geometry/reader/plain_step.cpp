@@ -116,6 +116,7 @@ CadPart part_of(const TopoDS_Shape& shape, const std::string& name) {
 extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   if (has_words_of_document(path)) return;
   STEPControl_Controller::Init();
+  mend_loops_before_healing();
   STEPControl_Reader reader;
   if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
     throw Error(ExitCode::kInput, path + ": the STEP file cannot be parsed; export the model again");

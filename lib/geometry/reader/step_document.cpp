@@ -50,6 +50,7 @@ std::vector<std::string> missing_files(const STEPCAFControl_Reader& reader) {
 
 extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   STEPCAFControl_Controller::Init();
+  mend_loops_before_healing();
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
   Interface_Static::SetCVal("read.step.codepage", step_codepage(file_encoding(path)));
   Handle(TDocStd_Document) document = new_document();

@@ -26,6 +26,10 @@ class FacesOfEntities {
   TopTools_IndexedMapOfShape faces_;
 };
 
+/// From here on, shapes of STEP files get outer loops and seams right before OpenCASCADE heals them:
+/// bound_whole_surfaces(), swap_seams(). Precondition: a controller of OpenCASCADE's readers is there.
+void mend_loops_before_healing();
+
 /// The file's unit: unit_in_mm and has_mixed_units.
 void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& file);
 

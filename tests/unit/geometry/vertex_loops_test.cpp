@@ -1,0 +1,42 @@
+// Bodies from tip to tip whose faces have a point for their outer loop in STEP files.
+#include "geometry/import/vertex_loops.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+#include "unit/geometry/broken_import.h"
+
+namespace st {
+namespace {
+
+TEST(VertexLoops, a_hole_leaves_the_body_whole) {
+  const TemporaryDirectory dir;
+  test::write_brep("spindle_with_fin_beside", dir / "a.brep");
+  test::write_step("spindle_with_fin_beside", dir / "a.step", "MM");
+  std::ostringstream text;
+  text << std::ifstream(dir / "a.step").rdbuf();
+  EXPECT_NE(text.str().find("VERTEX_LOOP"), std::string::npos);
+  const ImportResult sound = import_model(dir / "a.brep", {}), r = import_model(dir / "a.step", {});
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area);
+  EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
+}
+
+TEST(VertexLoops, other_faces_stay) {
+  for (const char* name : {"sphere", "torus", "cylinder", "cone", "two_balls", "ball_with_socket", "spindle_with_fin",
+                           "spindle_with_fin_beside", "periodic_tube", "closed_tube", "square"}) {
+    const TemporaryDirectory dir;
+    test::write_brep(name, dir / "a.brep");
+    TopoDS_Shape shape;
+    BRepTools::Read(shape, (dir / "a.brep").c_str(), BRep_Builder());
+    EXPECT_EQ(occt::bound_whole_surfaces(shape), 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace st
