@@ -49,6 +49,8 @@
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
 #include <Message.hxx>
 #include <Message_Messenger.hxx>
@@ -302,6 +304,11 @@ Handle(Geom_BSplineCurve) wavy_curve() {
   for (int i = 0; i < 6; ++i) poles(i + 1) = gp_Pnt(10 + 2 * std::sin(1.3 * i), 0, 5.0 * i);
   const Knots k = clamped(6, 3, 1);
   return new Geom_BSplineCurve(poles, k.knots, k.multiplicities, 3);
+}
+
+/// From the middle out.
+TopoDS_Shape bore_along_x(double radius) {
+  return BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 0), gp::DX()), radius, 20).Shape();
 }
 
 TopoDS_Shape ball_at(double x, double radius) { return BRepPrimAPI_MakeSphere(gp_Pnt(x, 0, 0), radius).Shape(); }
@@ -726,6 +733,12 @@ const std::map<std::string, Factory>& factories() {
       {"spindle_with_fin_beside", [] { return with_fin(spindle(), 0.4); }},
       {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
+      {"ball_with_bore", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(10), bore_along_x(2)).Shape(); }},
+      {"ring_with_ball",
+       [] {
+         const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Pnt(8, -0.5, -1.5), 2).Shape();
+         return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeTorus(7, 2.5).Shape(), ball).Shape();
+       }},
       {"two_balls", [] { return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"cone_on_cylinder",
        [] {
@@ -1033,6 +1046,15 @@ void write_step(const std::string& shape, const std::string& path, const std::st
                   writer.Write(path.c_str()) == IFSelect_RetDone;
   Interface_Static::SetCVal("write.step.unit", "MM");
   require(ok, "cannot write " + path);
+}
+
+void write_iges(const std::string& shape, const std::string& path) {
+  be_quiet();
+  IGESControl_Controller::Init();
+  IGESControl_Writer writer("MM", 0);
+  require(writer.AddShape(make_shape(shape)), "cannot transfer " + path);
+  writer.ComputeModel();
+  require(writer.Write(path.c_str()), "cannot write " + path);
 }
 
 void write_named_loose_box(const std::string& path) {

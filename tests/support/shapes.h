@@ -42,6 +42,8 @@ void write_brep(const std::string& shape, const std::string& path);
 void write_binary_brep(const std::string& shape, const std::string& path);
 /// `unit` as OpenCASCADE spells it: "MM", "INCH", "M". The shape's numbers are millimetres.
 void write_step(const std::string& shape, const std::string& path, const std::string& unit);
+/// Its faces, which share no edges; millimetres.
+void write_iges(const std::string& shape, const std::string& path);
 /// loose_box as STEP: each face a part of its own, named after the side it is ("x_min" ... "z_max").
 void write_named_loose_box(const std::string& path);
 /// A box with names on its faces ("wing", "symmetry", "Far Field"), a red one, a layer; and two instances of a part

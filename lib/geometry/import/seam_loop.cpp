@@ -23,7 +23,7 @@ struct LoopEdge {
   TopoDS_Edge edge;
   Handle(Geom2d_Curve) curve;
   double t_min = 0, t_max = 0;
-  bool is_seam = false;  ///< or a pole
+  bool is_seam = false;  ///< or a pole, or along the bounds of a period
   gp_Vec2d shift = {};   ///< of its curve
   bool is_turned = false;
 
@@ -47,8 +47,18 @@ struct Periods {
   /// By whole periods, the shift that brings a point inside.
   gp_Vec2d into(gp_Pnt2d p) const { return {-whole(p.X() - u_min, u), -whole(p.Y() - v_min, v)}; }
   double close() const { return kClose * std::max(u, v); }
+  /// Whether a line between two points runs along the bounds: so do seams of files whose faces share no edges.
+  bool is_along(gp_Pnt2d a, gp_Pnt2d middle, gp_Pnt2d b) const {
+    return is_along(a.X() - u_min, middle.X() - u_min, b.X() - u_min, u) ||
+           is_along(a.Y() - v_min, middle.Y() - v_min, b.Y() - v_min, v);
+  }
 
  private:
+  static bool is_along(double a, double middle, double b, double period) {
+    const double bound = period * std::round(middle / period);
+    const auto is_on = [&](double x) { return std::abs(x - bound) < kClose * period; };
+    return period > 0 && (bound == 0 || bound == period) && is_on(a) && is_on(middle) && is_on(b);
+  }
   bool is_inside(double x, double period) const {
     return period == 0 || (x > -kClose * period && x < (1 + kClose) * period);
   }
@@ -57,14 +67,15 @@ struct Periods {
 
 using Loop = std::vector<LoopEdge>;
 
-std::optional<Loop> loop_of(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+std::optional<Loop> loop_of(const TopoDS_Wire& wire, const TopoDS_Face& face, const Periods& periods) {
   Loop loop;
   for (TopoDS_Iterator e(wire); e.More(); e.Next()) {
     LoopEdge& use = loop.emplace_back();
     use.edge = TopoDS::Edge(e.Value());
     use.curve = BRep_Tool::CurveOnSurface(use.edge, face, use.t_min, use.t_max);
     if (use.curve.IsNull()) return std::nullopt;
-    use.is_seam = BRep_Tool::IsClosed(use.edge, face) || BRep_Tool::Degenerated(use.edge);
+    use.is_seam = BRep_Tool::IsClosed(use.edge, face) || BRep_Tool::Degenerated(use.edge) ||
+                  periods.is_along(use.point(0), use.point(0.5), use.point(1));
   }
   return loop;
 }
@@ -131,7 +142,7 @@ TopoDS_Face with_chains_turned(const TopoDS_Face& face) {
   bool is_any_turned = false;
   for (TopoDS_Iterator w(forward); w.More(); w.Next()) {
     if (w.Value().ShapeType() != TopAbs_WIRE) return {};
-    std::optional<Loop> loop = loop_of(TopoDS::Wire(w.Value()), forward);
+    std::optional<Loop> loop = loop_of(TopoDS::Wire(w.Value()), forward, periods);
     if (!loop) return {};
     const bool has_seam = std::ranges::any_of(*loop, &LoopEdge::is_seam);
     const auto is_outside = [&](const LoopEdge& e) { return !is_inside(e, periods); };

@@ -231,7 +231,8 @@ double free_length(const TopoDS_Shape& shape) {
 
 /// The model with the smallest tolerance that closes it, else the one that leaves the fewest free edges; nothing when
 /// none helps. After sew_groups() one that leaves as many will do: it makes shells. Short edges become points where
-/// that closes the model.
+/// that closes the model. What is left free is sewn once more: of edges that all end at the same two points OpenCASCADE
+/// joins one pair at a time.
 std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const std::vector<double>& tolerances) {
   const int n_allowed = start.group_tolerance > 0 ? start.n_free : start.n_free - 1;
   std::optional<Sewn> best;
@@ -254,6 +255,7 @@ std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const
       return best;
     best = before;
   }
+  if (best) is_closed_by(sew(*best, {best->shape}, best->tolerance), best->tolerance);  // halves of rims
   return best;
 }
 
@@ -322,8 +324,8 @@ std::optional<Sewn> sew_third_faces(const ImportedShape& model, const Sewn& star
   const double reasonable = reasonable_tolerance(tolerance, now.edge_tolerance);
   judge(*sewn, reasonable);
   const auto n_edges = [](const TopoDS_Shape& shape) { return all_of(shape, TopAbs_EDGE).Extent(); };
-  const bool is_joined =
-      sewn->n_open() < now.n_open() || (sewn->n_open() == now.n_open() && n_edges(sewn->shape) < n_edges(now.shape));
+  const auto rank = [&](const Sewn& s) { return std::pair(s.n_open(), n_edges(s.shape)); };
+  const bool is_joined = rank(*sewn) < rank(now);
   if (!is_joined || sewn->n_false > 0 || sewn->edge_tolerance > reasonable) return std::nullopt;
   return sewn;
 }
@@ -365,7 +367,7 @@ Pairs sew_pairs(ImportedShape& model, const SewingLimits& limits, std::vector<Im
 /// The model as it is sewn, with third faces where edges are left.
 void take_pairs(ImportedShape& model, const Pairs& pairs, std::vector<ImportFinding>& findings) {
   const Sewn& now = pairs.now();
-  const double tolerance = pairs.best ? pairs.best->tolerance : pairs.tolerances.front();
+  const double tolerance = pairs.best ? now.tolerance : pairs.tolerances.front();
   const std::optional<Sewn> third = now.n_free > 0 ? sew_third_faces(model, pairs.start, now, tolerance) : std::nullopt;
   if (third) findings.push_back(sewn_finding(FindingKind::kThirdFace, now, *third, tolerance));
   if (third || pairs.best || pairs.is_group_sewn) adopt(model, pairs.original, third ? *third : now, findings);
@@ -390,10 +392,8 @@ void sew_if_open(ImportedShape& model, const SewingLimits& limits, std::vector<I
       const double share = parts.has_empty_parts ? kNoMoreFree : kLessFree;
       is_divided = free_length(divided.shape) < share * free_length(pairs.now().shape);
     }
-  if (is_divided)
-    model = divided, own = of_divided;
-  else
-    take_pairs(model, pairs, own);
+  if (!is_divided) take_pairs(model, pairs, own);
+  if (is_divided) model = divided, own = of_divided;
   findings.insert(findings.end(), own.begin(), own.end());
 }
 

@@ -160,8 +160,9 @@ void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings) {
       findings.push_back({FindingKind::kOtherSide, file_label(first + faces.index.FindIndex(face) - 1), box.center(),
                           box.diagonal(), true});
     };
+    const bool is_any_seam_unknown = file.format == "IGES";  // its faces share no edges, not even with themselves
     for (const CadPart::FaceAttributes& f : part.faces)
-      if (f.has_seam) replace(TopoDS::Face(f.face), with_chains_turned(TopoDS::Face(f.face)));
+      if (f.has_seam || is_any_seam_unknown) replace(TopoDS::Face(f.face), with_chains_turned(TopoDS::Face(f.face)));
     for (TopExp_Explorer s(part.shape, TopAbs_SHELL); s.More(); s.Next())
       for (const TopoDS_Face& face : wrong_sides_of(s.Current(), faces)) replace(face, other_side(face));
     first += static_cast<std::int32_t>(part.faces.size());

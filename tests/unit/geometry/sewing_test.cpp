@@ -47,6 +47,14 @@ TEST(Sewing, says_how_many_edges_were_free_before_and_after) {
   EXPECT_EQ(r.tables.n_vertices(), 8);
 }
 
+TEST(Sewing, joins_both_halves_of_a_rim) {
+  const TemporaryDirectory dir;
+  test::write_iges("ball_with_bore", dir / "a.igs");
+  const ImportResult r = import_model(dir / "a.igs", {});
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_EQ(r.edge_uses.n_free, 0);
+}
+
 TEST(Sewing, takes_the_smallest_tolerance_that_closes_the_model) {
   const ImportResult exact = test::import_shape("loose_box");
   EXPECT_LE(findings_of(exact, "sewn").at(0).size, 1.01e-6 * exact.tables.box().diagonal());
