@@ -12,8 +12,9 @@ namespace st {
 bool is_folded(const FacetPatch& patch);
 
 /// Parts a patch that no plane cut makes flat: each group grew over sides from its largest triangle to those whose
-/// normals are within 60 degrees of that one's. Where that leaves one group, the triangles on each side
-/// of a plane through the middle are one. Returns the group of each triangle of the patch; all 0 for one triangle.
+/// normals are within 60 degrees of that one's. A few triangles left between the cones go to one of them. Where that
+/// leaves one group, the triangles on each side of a plane through the middle are one. Returns the group of each
+/// triangle of the patch; all 0 for one triangle.
 std::vector<std::int32_t> part_by_normals(const FacetPatch& patch);
 
 }  // namespace st

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <set>
 
 #include "geometry/facet/facet_cuts.h"
@@ -48,6 +50,22 @@ TEST(FacetCones, HalveWhatHasOneNormal) {
   FacetPatch one = flat;
   one.corners.resize(1), one.triangles.resize(1), one.neighbours = find_neighbours(one.corners);
   EXPECT_EQ(part_by_normals(one), std::vector<std::int32_t>{0});
+}
+
+/// A nose of two long sides that look away from each other, with one row of facets between them at an angle to the
+/// upper one.
+FacetPatch nose(double angle) {
+  const std::array<Vec2, 4> profile{
+      {{9, 1}, {0, 1}, {-std::cos(angle), 1 - std::sin(angle)}, {9, 1 - std::sin(angle)}}};
+  return whole_patch(test::grid_facets(3, 5, [&](int i, int j) { return Vec3{profile[i].x, 1.0 * j, profile[i].y}; }));
+}
+
+TEST(FacetCones, HandAFewFacetsBetweenThemToOne) {
+  const auto n_groups = [](const std::vector<std::int32_t>& group) {
+    return std::set<std::int32_t>(group.begin(), group.end()).size();
+  };
+  EXPECT_EQ(n_groups(part_by_normals(nose(radians(75)))), 2u);
+  EXPECT_EQ(n_groups(part_by_normals(nose(radians(90)))), 3u) << "they would be folded in either cone";
 }
 
 TEST(FacetCones, LeaveTheFacetsOfAFoldedSheet) {
