@@ -74,7 +74,7 @@ void FaceRounds::report(PatchesGo patches) {
     StretchEasing(tables(), field_, executor_, faces_, refinements_, options_.find_unheld, mesh_again).run();
   }
   refill_bad(faces_, executor_);
-  if (field_.is_stretched()) swap_obtuse(faces_, executor_);
+  if (field_.is_stretched()) mend_last_obtuse(faces_, field_.has_metrics(), executor_);
   part_touching(faces_, executor_);
   paired_.renew_images();
   faces_.hand_over(patches, result_);

@@ -1,11 +1,13 @@
 #include "meshing/engine/last_resorts.h"
 
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "base/share.h"
 #include "meshing/engine/refinement_policy.h"
 #include "meshing/face/blunt_swaps.h"
+#include "meshing/face/flaw_mending.h"
 #include "meshing/face/patch_refill.h"
 
 namespace st {
@@ -64,14 +66,14 @@ bool refill_all_bad(MeshedFaces& faces, const Executor& executor) {
   return is_sound != 0;
 }
 
-void swap_obtuse(MeshedFaces& faces, const Executor& executor) {
+void mend_obtuse(MeshedFaces& faces, const std::vector<FaceId>& which, double above, const Executor& executor) {
   int n_pairs = faces.crossings().n_pairs();
   share(executor, n_pairs);
-  MeshedFaces::Patches patches = faces.bring(faces.suspects());
+  MeshedFaces::Patches patches = faces.bring(which);
   const std::vector<FacePlace> before = faces.places();
   std::vector<FaceId> changed;
   for (auto& [f, patch] : patches) {
-    if (swap_blunt(faces.nodes_of(patch), patch) == 0) continue;
+    if (mend_blunt(faces.nodes_of(patch), patch, above) == 0) continue;
     changed.push_back(f);
     faces.put(f, std::move(patch));
   }
@@ -81,6 +83,14 @@ void swap_obtuse(MeshedFaces& faces, const Executor& executor) {
   char is_worse = faces.crossings().n_pairs() > n_pairs;
   share(executor, is_worse);
   if (is_worse) faces.go_back(before, changed);
+}
+
+void mend_last_obtuse(MeshedFaces& faces, bool has_metrics, const Executor& executor) {
+  mend_obtuse(faces, faces.suspects(), kMostAngle, executor);
+  if (has_metrics) return;  // a solver asks for what they make obtuse
+  std::vector<FaceId> all(faces.places().size());
+  std::iota(all.begin(), all.end(), 0);
+  mend_obtuse(faces, all, kFarAngle, executor);
 }
 
 void part_touching(MeshedFaces& faces, const Executor& executor) {

@@ -6,7 +6,9 @@
 
 #include "base/share.h"
 #include "mesh/merge.h"
+#include "meshing/engine/last_resorts.h"
 #include "meshing/engine/refinement_policy.h"
+#include "meshing/face/flaw_mending.h"
 
 namespace st {
 
@@ -68,7 +70,8 @@ std::int64_t StretchEasing::n_triangles(const std::vector<FaceId>& of) const {
 }
 
 /// On rank 0.
-StretchFlaws StretchEasing::find_flaws(int n_tries) const {
+StretchFlaws StretchEasing::find_flaws(int n_tries) {
+  mend_obtuse(faces_, faces_.suspects(), kMostAngle, executor_);
   const Patches patches = faces_.bring(all_faces());
   if (!executor_.is_root()) return {};
   std::vector<const FacePatch*> of_faces;

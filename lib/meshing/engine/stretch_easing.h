@@ -53,7 +53,7 @@ class StretchEasing {
 
   std::vector<FaceId> all_faces() const;
   std::int64_t n_triangles(const std::vector<FaceId>& of) const;
-  StretchFlaws find_flaws(int n_tries) const;
+  StretchFlaws find_flaws(int n_tries);
   void add_unheld(const SurfaceMesh& mesh, const SizeField& present, int n_tries, StretchFlaws& flaws) const;
   bool is_on_root(bool is_here) const;
   Count count_flaws() const;

@@ -11,14 +11,13 @@ namespace st {
 namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
-constexpr double kFarAngle = radians(150);  // likewise: above it all stretch may go
-constexpr double kGrowthLeft = 1.6;         // what is aimed at there
-constexpr double kShorter = 0.6;            // lengths along, in one round
-constexpr double kLeastShorter = 0.35;      // at most
-constexpr int kGentleTries = 3;             // then lengths along become those across
-constexpr double kLast = 0.9;               // of lengths that are alike, then
-constexpr double kAlike = 1.05;             // along over across: less is about the same
-constexpr double kAround = 0.75;            // of the longest side: so far about a triangle
+constexpr double kGrowthLeft = 1.6;     // what is aimed at there
+constexpr double kShorter = 0.6;        // lengths along, in one round
+constexpr double kLeastShorter = 0.35;  // at most
+constexpr int kGentleTries = 3;         // then lengths along become those across
+constexpr double kLast = 0.9;           // of lengths that are alike, then
+constexpr double kAlike = 1.05;         // along over across: less is about the same
+constexpr double kAround = 0.75;        // of the longest side: so far about a triangle
 const double kMostCosine = std::cos(kMostAngle), kFarCosine = std::cos(kFarAngle);
 
 class FlawFinder {

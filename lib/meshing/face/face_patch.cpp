@@ -79,6 +79,28 @@ FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boun
   return patch;
 }
 
+void drop_unused_nodes(FacePatch& patch) {
+  std::vector<NodeId> number(static_cast<std::size_t>(patch.n_boundary) + patch.inner_xyz.size(), kNone);
+  for (const Triangle& t : patch.triangles)
+    for (const NodeId n : t.n) number[n] = n;
+  FacePatch kept;
+  for (std::size_t i = 0; i < patch.inner_xyz.size(); ++i) {
+    NodeId& n = number[static_cast<std::size_t>(patch.n_boundary) + i];
+    if (n == kNone) continue;
+    n = patch.n_boundary + static_cast<NodeId>(kept.inner_xyz.size());
+    kept.inner_xyz.push_back(patch.inner_xyz[i]);
+    kept.inner_uv.push_back(patch.inner_uv[i]);
+    kept.inner_size.push_back(patch.inner_size[i]);
+    if (!patch.inner_previous.empty()) kept.inner_previous.push_back(patch.inner_previous[i]);
+  }
+  patch.inner_xyz = std::move(kept.inner_xyz);
+  patch.inner_uv = std::move(kept.inner_uv);
+  patch.inner_size = std::move(kept.inner_size);
+  patch.inner_previous = std::move(kept.inner_previous);
+  for (Triangle& t : patch.triangles)
+    for (NodeId& n : t.n) n = n < patch.n_boundary ? n : number[n];
+}
+
 bool has_numbers_only(const FacePatch& patch) {
   // 0 times a number is 0, and 0 times anything else is none: one sum tells.
   double sum = 0;

@@ -13,6 +13,9 @@ namespace st {
 FacePatch make_patch(const ModelTables& t, FaceId face, const FaceBoundary& boundary, const FaceMesh& mesh,
                      const BoundaryNumbering& numbering);
 
+/// Drops the nodes inside that no triangle uses. The patch is whole.
+void drop_unused_nodes(FacePatch& patch);
+
 /// Whether no place, (u,v) or length of it is infinite or none at all: what a patch must be to be stored. (u,v) are
 /// none where the loops of a face are known in space alone.
 bool has_numbers_only(const FacePatch& patch);

@@ -10,6 +10,8 @@ namespace st {
 /// root of the ratio of two neighbours' areas.
 inline constexpr double kMostAngle = radians(140);
 inline constexpr double kMostGrowth = 2.2;
+/// Angles above this one, radians, are mended at any price.
+inline constexpr double kFarAngle = radians(150);
 
 /// Where more is found in the face, a side is swapped or an inner node moved, whichever leaves the least: the metric
 /// does not see them. Nodes of rows stay. The mesh stays valid in the plane, and no triangle turns away from the

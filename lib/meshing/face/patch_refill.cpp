@@ -10,6 +10,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/corner_uv.h"
 #include "meshing/face/face_mesher.h"
+#include "meshing/face/face_patch.h"
 #include "meshing/face/least_area.h"
 #include "meshing/face/triangle_places.h"
 
@@ -123,29 +124,6 @@ std::vector<Triangle> fill(std::span<const Vec3> xyz, const std::vector<Triangle
   return LoopFill(xyz, place.loop, beyond, taken).run();
 }
 
-/// Drops nodes inside that no triangle uses.
-void drop_unused(FacePatch& patch) {
-  std::vector<NodeId> number(static_cast<std::size_t>(patch.n_boundary) + patch.inner_xyz.size(), kNone);
-  for (const Triangle& t : patch.triangles)
-    for (const NodeId n : t.n) number[n] = n;
-  FacePatch kept;
-  for (std::size_t i = 0; i < patch.inner_xyz.size(); ++i) {
-    NodeId& n = number[static_cast<std::size_t>(patch.n_boundary) + i];
-    if (n == kNone) continue;
-    n = patch.n_boundary + static_cast<NodeId>(kept.inner_xyz.size());
-    kept.inner_xyz.push_back(patch.inner_xyz[i]);
-    kept.inner_uv.push_back(patch.inner_uv[i]);
-    kept.inner_size.push_back(patch.inner_size[i]);
-    if (!patch.inner_previous.empty()) kept.inner_previous.push_back(patch.inner_previous[i]);
-  }
-  patch.inner_xyz = std::move(kept.inner_xyz);
-  patch.inner_uv = std::move(kept.inner_uv);
-  patch.inner_size = std::move(kept.inner_size);
-  patch.inner_previous = std::move(kept.inner_previous);
-  for (Triangle& t : patch.triangles)
-    for (NodeId& n : t.n) n = n < patch.n_boundary ? n : number[n];
-}
-
 /// The patch without the triangles of a place, with others at its end.
 void exchange(const TrianglePlace& place, const std::vector<Triangle>& added, FacePatch& patch) {
   const std::vector<Vec2> before = corner_uvs(patch);
@@ -212,7 +190,7 @@ int refill(std::span<const Vec3> xyz, std::span<const std::size_t> bad, FacePatc
       }
     }
   }
-  if (n_filled > 0) drop_unused(patch);
+  if (n_filled > 0) drop_unused_nodes(patch);
   return n_filled;
 }
 

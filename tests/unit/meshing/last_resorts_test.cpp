@@ -67,6 +67,34 @@ TEST(LastResorts, change_nothing_where_nothing_is_bad) {
     EXPECT_EQ(packed(patch), packed(box.meshed.result.patches[f]));
 }
 
+double largest_angle_deg(const test::PutFaces& all, const FacePatch& patch) {
+  double most = 0;
+  const std::vector<Vec3> x = all.faces.nodes_of(patch);
+  for (const Triangle& t : patch.triangles)
+    for (int k = 0; k < 3; ++k)
+      most = std::max(most, angle_between(x[t.n[(k + 1) % 3]] - x[t.n[k]], x[t.n[(k + 2) % 3]] - x[t.n[k]]));
+  return degrees(most);
+}
+
+TEST(LastResorts, mend_obtuse_triangles_of_the_faces_given) {
+  Box box(false);
+  FacePatch patch = box.meshed.result.patches[Box::kFace];
+  const auto is_inside = [&](const auto& t) { return std::ranges::min(t.n) >= patch.n_boundary; };
+  const auto it = std::ranges::find_if(patch.triangles, is_inside);
+  const auto x = [&](int k) -> Vec3& { return patch.inner_xyz[it->n[k] - patch.n_boundary]; };
+  x(0) = 0.95 * (0.5 * (x(1) + x(2))) + 0.05 * x(0);
+  box.faces.put(Box::kFace, std::move(patch));
+  box.faces.search_crossings();
+  const auto angle = [&] { return largest_angle_deg(box, box.faces.bring({Box::kFace}).at(Box::kFace)); };
+  const double before = angle();
+  EXPECT_GT(before, 150);
+  mend_obtuse(box.faces, {0, 1}, radians(140), test::one_rank);
+  mend_obtuse(box.faces, {Box::kFace}, radians(before + 1), test::one_rank);
+  EXPECT_EQ(angle(), before);
+  mend_obtuse(box.faces, {Box::kFace}, radians(140), test::one_rank);
+  EXPECT_LT(angle(), 140);
+}
+
 TEST(LastResorts, leave_no_fold_where_the_surface_is_folded) {
   const test::Meshed meshed("crumpled", 0.5);
   ASSERT_TRUE(meshed.result.failures.empty());
