@@ -71,7 +71,7 @@ std::int64_t StretchEasing::n_triangles(const std::vector<FaceId>& of) const {
 
 /// On rank 0.
 StretchFlaws StretchEasing::find_flaws(int n_tries) {
-  mend_obtuse(faces_, faces_.suspects(), kMostAngle, executor_);
+  mend_last_obtuse(faces_, false, executor_);
   const Patches patches = faces_.bring(all_faces());
   if (!executor_.is_root()) return {};
   std::vector<const FacePatch*> of_faces;

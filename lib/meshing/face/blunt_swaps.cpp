@@ -142,7 +142,13 @@ class BluntSwaps {
         {dot(own, other), dot(own, around[0]), dot(own, around[2]), dot(other, around[1]), dot(other, around[3])});
     const double after = std::min({dot(first, second), dot(first, around[0]), dot(first, around[1]),
                                    dot(second, around[2]), dot(second, around[3])});
-    return after >= std::min(before, kFlatEnough);
+    return may_be_sharp(after, before, std::max(bluntness(triangles_[side / 3]), bluntness(triangles_[back / 3])));
+  }
+  /// Cosines of the sharpest edges. Where the surface turns at once, triangles with angles above kFarAngle are worse
+  /// than edges that are sharp and not folded.
+  static bool may_be_sharp(double after, double before, double blunt) {
+    return after >= std::min(before, kFlatEnough) ||
+           (blunt > -std::cos(kFarAngle) && before < kFlatEnough && after > kFoldedCosine);
   }
   /// Of the triangle there; `none`: where there is none.
   Vec3 beyond_normal(SideId side, Vec3 none) const {
@@ -226,7 +232,8 @@ class BluntSwaps {
       add_beyond(ring.outer[i], after[behind == 0 ? 0 : std::min(behind - 1, last)], now);
     }
     for (std::size_t i = 1; i < after.size(); ++i) now.add(*this, after[i - 1], after[i]);
-    return now.cosine >= std::min(before.cosine, kFlatEnough) && now.growth <= std::max(before.growth, kMostGrowth);
+    return may_be_sharp(now.cosine, before.cosine, bluntness(ring.before)) &&
+           now.growth <= std::max(before.growth, kMostGrowth);
   }
 
   /// How well neighbours fit.

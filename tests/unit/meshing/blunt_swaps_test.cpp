@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "mesh/corner_uv.h"
@@ -61,6 +62,15 @@ TEST(BluntSwaps, fold_nothing) {
   const auto before = corners(pair.triangles);
   mend_blunt(pair.nodes, pair.triangles);
   EXPECT_EQ(corners(pair.triangles), before);
+}
+
+TEST(BluntSwaps, make_an_edge_sharper_for_the_largest_angles_alone_where_one_is_sharp) {
+  for (const auto& [height, n_swaps] : {std::pair{0.1, 1}, std::pair{0.3, 0}}) {
+    Pair pair({0, height, 0}, {0, -0.3, -1});
+    pair.nodes.push_back({.uv = {-1, 1}, .x = {-1, 1, -1}});
+    pair.triangles.push_back({{0, 2, 4}});
+    EXPECT_EQ(mend_blunt(pair.nodes, pair.triangles), n_swaps) << height;
+  }
 }
 
 TEST(BluntSwaps, keep_the_parameters_of_a_patch) {
