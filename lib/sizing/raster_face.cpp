@@ -27,6 +27,8 @@ constexpr double kBreakInset = 1e-7;  // of the interval: probes stay on their s
 constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du and dv at a singular point
 constexpr double kClearlyFlatter = 0.3;  // smaller over larger curvature: their directions are certain
 constexpr double kClearlyCurved = 0.01;  // of alpha along one length: likewise
+constexpr double kAligned = 0.9;         // cosine: pairs of probes that tell of a direction; others turn across it, too
+constexpr double kLeastOfHalf = 0.2;     // of half a patch: ends nearer to its middle tell nothing
 constexpr double kCollapsed = 1e-9;  // derivative over the other one, scaled to the ranges, where a side has collapsed
 
 class FaceRaster {
@@ -230,7 +232,7 @@ class FaceRaster {
     if (!is_clear && chord.length <= length)  // the chord decides
       direction = normalized(cross(normalized(cross(p.du, p.dv)), chord.direction));
     if (direction == Vec3{}) return {};
-    const double curvature = curvature_along(patch, direction, own);
+    const double curvature = std::max(curvature_along(patch, direction, own), turning_to_ends(patch, uv, p, direction));
     double along = std::min(max_along(), limits_.max_aspect * length);
     if (along * curvature > limits_.alpha) along = limits_.alpha / curvature;
     if (along * along * curvature > limits_.alpha * length) along = std::sqrt(limits_.alpha * length / curvature);
@@ -240,7 +242,6 @@ class FaceRaster {
 
   /// Largest turning per distance of the normal along the direction: at the middle, and between the probes.
   static double curvature_along(const CurvaturePatch& patch, Vec3 direction, const Curvature& own) {
-    constexpr double kAligned = 0.5;  // cosine: pairs of probes that tell of the direction
     double curvature = std::abs(own.k2);
     for (std::size_t i = 0; i < ProbePairs::n; ++i) {
       const std::size_t a = kPairs.first[i], b = kPairs.second[i];
@@ -254,6 +255,30 @@ class FaceRaster {
         curvature = std::max(curvature, std::abs(dot(pb.normal - pa.normal, direction)) / along);
     }
     return curvature;
+  }
+
+  /// As far as the patch is large to both sides of the place, no further than the surface: largest turning per distance
+  /// of the normal along the direction.
+  double turning_to_ends(const CurvaturePatch& patch, Vec2 uv, const SurfacePoint2& p, Vec3 direction) {
+    const auto way = tangent_step(p.du, p.dv, direction);
+    if (!way) return 0;
+    Box3 box;
+    for (const CurvatureProbe& probe : patch.probe) box.add(probe.x);
+    const double half = 0.5 * box.diagonal();
+    const Vec3 normal = normalized(cross(p.du, p.dv));
+    double turning = 0;
+    for (const double step : {-half, half}) {
+      const Vec2 end = uv + step * *way;
+      const Vec2 at{std::clamp(end.x, surface_.u_min(), surface_.u_max()),
+                    std::clamp(end.y, surface_.v_min(), surface_.v_max())};
+      const SurfacePoint there = surface_.evaluate(at);
+      const double distance = std::abs(dot(there.x - p.x, direction));
+      if (distance > kLeastOfHalf * half)
+        turning =
+            std::max(turning, std::abs(dot(normalized(cross(there.du, there.dv)) - normal, direction)) / distance);
+    }
+    report_.n_evaluations += 2;
+    return turning;
   }
 
   double max_along() const { return limits_.max_along.value_or(limits_.max_length); }

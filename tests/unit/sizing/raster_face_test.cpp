@@ -321,6 +321,43 @@ TEST(RasterFace, stretches_pieces_whose_middle_the_loops_cut_off) {
   }
 }
 
+double least_aspect(const Sampling& s) {
+  double least = 1e300;
+  for (const RasterBox& b : s.boxes) least = std::min<double>(least, b.stretch.along / b.length);
+  return least;
+}
+
+TEST(RasterFace, sees_straight_lines_where_those_of_the_parameters_run_aslant) {
+  // a cone whose lines v = const run about 45 degrees off its circles
+  const FormulaSurface cone(
+      [](double u, double v) {
+        const double s = v + u;
+        return Vec3{s * std::cos(u), s * std::sin(u), s};
+      },
+      0, 1, 0.5, 2);
+  SamplingLimits limits = kRasterLimits;
+  limits.max_aspect = 6;
+  limits.max_along = 10;
+  EXPECT_GT(least_aspect(sample(cone, {}, limits)), 5.9);
+}
+
+TEST(RasterFace, sees_where_the_surface_begins_to_bend_beside_its_probes) {
+  // a round nose that bends from 4.915 on; the loops leave a strip before that with one row of probes
+  const auto nose = [](double bend) {
+    return FormulaSurface(
+        [bend](double u, double v) {
+          return Vec3{0.1 * std::cos(u) + bend * std::pow(std::max(v - 4.915, 0.0), 2), 0.1 * std::sin(u), v};
+        },
+        -0.5, 0.5, 0, 10);
+  };
+  SamplingLimits limits = kRasterLimits;
+  limits.max_aspect = 50;
+  limits.max_along = 10;
+  const LoopPolygons strip = polygon({{{-0.5, 4.911}, {0.5, 4.911}, {0.5, 4.913}, {-0.5, 4.913}}});
+  EXPECT_GT(least_aspect(sample(nose(0), strip, limits)), 49);
+  EXPECT_LT(least_aspect(sample(nose(30), strip, limits)), 5);
+}
+
 TEST(RasterFace, takes_no_length_from_outside_the_loops) {
   // the surface bends sharply where it is trimmed away
   const FormulaSurface bend(
