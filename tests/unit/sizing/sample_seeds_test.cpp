@@ -37,6 +37,13 @@ TEST(SampleSeeds, keep_their_places_however_far_from_the_origin) {
   for (std::size_t i = 0; i < here.size(); ++i) EXPECT_LT(distance(here[i].xyz + far, there[i].xyz), 1e-6) << i;
 }
 
+TEST(SampleSeeds, lie_where_single_precision_puts_them) {
+  std::vector<RasterBox> boxes;
+  for (int i = 0; i < 5000; ++i) boxes.push_back({{std::cos(7 * i), std::sin(i), std::cos(3 * i)}, 0.02F, 0.01F, 1});
+  for (const LengthSample& s : sorted_samples(boxes))
+    for (const double x : {s.xyz.x, s.xyz.y, s.xyz.z}) ASSERT_EQ(static_cast<double>(static_cast<float>(x)), x);
+}
+
 TEST(SampleSeeds, merged_are_as_if_they_had_been_sorted_together) {
   std::vector<RasterBox> boxes;
   for (int i = 0; i < 100; ++i) boxes.push_back({{std::cos(7 * i), std::sin(i), 0.3}, 0.02F, 0.01F, i % 7});
