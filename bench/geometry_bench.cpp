@@ -96,7 +96,7 @@ Handle(Geom_BSplineCurve) wavy_curve(int degree, int n_poles, bool is_rational) 
 }
 
 /// A walk that turns slowly and is reflected at the bounds, or points all over.
-std::vector<Vec2> parameters(const occt::UvBounds& b, bool is_nearby) {
+std::vector<Vec2> parameters(const Box2& b, bool is_nearby) {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> uniform(0, 1);
   std::vector<Vec2> points(kPoints);
@@ -106,7 +106,7 @@ std::vector<Vec2> parameters(const occt::UvBounds& b, bool is_nearby) {
     heading += 0.2 * (uniform(random) - 0.5);
     at = is_nearby ? at + kStep * Vec2{std::cos(heading), std::sin(heading)} : Vec2{uniform(random), uniform(random)};
     const Vec2 r{std::abs(std::remainder(at.x, 2.0)), std::abs(std::remainder(at.y, 2.0))};
-    p = {b.u_min + (b.u_max - b.u_min) * r.x, b.v_min + (b.v_max - b.v_min) * r.y};
+    p = {b.lo.x + (b.hi.x - b.lo.x) * r.x, b.lo.y + (b.hi.y - b.lo.y) * r.y};
   }
   return points;
 }
@@ -143,7 +143,7 @@ void add_batch(const std::string& name, std::shared_ptr<Surface> own, std::vecto
   });
 }
 
-void add_surface(const std::string& name, const Handle(Geom_Surface) & geometry, const occt::UvBounds& b) {
+void add_surface(const std::string& name, const Handle(Geom_Surface) & geometry, const Box2& b) {
   const std::shared_ptr<Surface> own = occt::make_surface(geometry, b);
   const auto adaptor = std::make_shared<GeomAdaptor_Surface>(geometry);
   for (const bool is_nearby : {true, false}) {
@@ -184,10 +184,10 @@ struct Target {
 };
 
 /// Points slightly off the surface, in the order of a walk, with guesses beside their feet.
-void add_projection(const std::string& name, const Handle(Geom_Surface) & geometry, const occt::UvBounds& b) {
+void add_projection(const std::string& name, const Handle(Geom_Surface) & geometry, const Box2& b) {
   const std::shared_ptr<Surface> own = occt::make_surface(geometry, b);
   const auto adaptor = std::make_shared<GeomAdaptor_Surface>(geometry);
-  const double du = b.u_max - b.u_min, dv = b.v_max - b.v_min;
+  const double du = b.hi.x - b.lo.x, dv = b.hi.y - b.lo.y;
   std::vector<Target> targets;
   for (const Vec2 p : parameters(b, true)) {
     const SurfacePoint s = own->evaluate(p);
@@ -214,7 +214,7 @@ void add_curve(const std::string& name, const Handle(Geom_Curve) & geometry) {
   const auto adaptor = std::make_shared<GeomAdaptor_Curve>(geometry);
   for (const bool is_nearby : {true, false}) {
     std::vector<double> t;
-    for (const Vec2 p : parameters({t0, t1, 0, 1}, is_nearby)) t.push_back(p.x);
+    for (const Vec2 p : parameters({{t0, 0}, {t1, 1}}, is_nearby)) t.push_back(p.x);
     const std::string id = name + "/d2/" + (is_nearby ? "nearby" : "random");
     add(id + "/own", t, [own](double s) {
       const CurvePoint p = own->evaluate(s);
@@ -233,15 +233,15 @@ void add_synthetic() {
   for (const int degree : {3, 5})
     for (const bool is_rational : {false, true}) {
       const std::string name = fmt::format("nurbs{}{}", degree, is_rational ? "r" : "");
-      add_surface(name, wavy_surface(degree, 30, is_rational), {0, 1, 0, 1});
-      add_projection(name, wavy_surface(degree, 30, is_rational), {0, 1, 0, 1});
+      add_surface(name, wavy_surface(degree, 30, is_rational), {{0, 0}, {1, 1}});
+      add_projection(name, wavy_surface(degree, 30, is_rational), {{0, 0}, {1, 1}});
       add_curve("curve" + name.substr(5), wavy_curve(degree, 30, is_rational));
     }
-  add_surface("nurbs3_large", wavy_surface(3, 100, false), {0, 1, 0, 1});
+  add_surface("nurbs3_large", wavy_surface(3, 100, false), {{0, 0}, {1, 1}});
   const gp_Ax1 axis(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0));
-  add_surface("revolution", new Geom_SurfaceOfRevolution(wavy_curve(3, 30, false), axis), {0, 2 * kPi, 0, 1});
+  add_surface("revolution", new Geom_SurfaceOfRevolution(wavy_curve(3, 30, false), axis), {{0, 0}, {2 * kPi, 1}});
   add_surface("extrusion", new Geom_SurfaceOfLinearExtrusion(wavy_curve(3, 30, false), gp_Dir(0, 1, 0.2)),
-              {0, 1, 0, 10});
+              {{0, 0}, {1, 10}});
 }
 
 /// One face of the model as a model of its own, face after face.
@@ -272,8 +272,8 @@ void add_corpus_face(const std::filesystem::path& path) {
   if (best == 0) return;
   const double* b = &r.tables.face_uv_bounds[4 * static_cast<std::size_t>(best - 1)];
   const Handle(Geom_Surface) s = BRep_Tool::Surface(TopoDS::Face(faces(best)));
-  add_surface(path.stem().string(), s, {b[0], b[1], b[2], b[3]});
-  add_projection(path.stem().string(), s, {b[0], b[1], b[2], b[3]});
+  add_surface(path.stem().string(), s, {{b[0], b[2]}, {b[1], b[3]}});
+  add_projection(path.stem().string(), s, {{b[0], b[2]}, {b[1], b[3]}});
 }
 
 /// Collects ns per point and prints own beside OpenCASCADE's at the end.

@@ -58,7 +58,7 @@ std::unique_ptr<Surface> make_patch(int n, double length_u) {
       poles.push_back({{length_u * u, v, 0.1 * std::sin(5 * u) * std::cos(4 * v), 1}});
     }
   return std::make_unique<BsplineSurface>(KnotSpans(kDegree, knots, 0), KnotSpans(kDegree, knots, 0), std::move(poles),
-                                          n_poles, false, BsplineSurface::Bounds{0, 1, 0, 1});
+                                          n_poles, false, Box2{{0, 0}, {1, 1}});
 }
 
 enum Kind : int { kPlane, kSphere, kNurbs, kStretched, kCylinder, kTorus };

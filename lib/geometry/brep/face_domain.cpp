@@ -1,6 +1,5 @@
 #include "geometry/brep/face_domain.h"
 
-#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2dAdaptor_Curve.hxx>
 #include <GeomAdaptor_Surface.hxx>
@@ -11,6 +10,7 @@
 #include <cmath>
 
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 #include "geometry/brep/wire_walk.h"
 #include "geometry/shape/bspline.h"
 #include "geometry/shape/loop_polygons.h"
@@ -108,7 +108,7 @@ std::vector<Vec2> LoopUv::polygon() const {
 
 FaceDomain make_domain(const TopoDS_Face& face) {
   FaceDomain d;
-  BRepTools::UVBounds(face, d.bounds.u_min, d.bounds.u_max, d.bounds.v_min, d.bounds.v_max);
+  d.bounds = uv_box(face);
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   d.surface = make_surface(surface, d.bounds);
   d.u_knots = d.surface->u_breaks();
@@ -117,8 +117,8 @@ FaceDomain make_domain(const TopoDS_Face& face) {
     const Handle(Geom_BSplineSurface) spline = adaptor.BSpline();
     d.n_u = std::clamp(2 * spline->NbUKnots(), d.n_u, kMaxSamples);
     d.n_v = std::clamp(2 * spline->NbVKnots(), d.n_v, kMaxSamples);
-    d.u_knots = inside(spline->UKnots(), d.bounds.u_min, d.bounds.u_max);
-    d.v_knots = inside(spline->VKnots(), d.bounds.v_min, d.bounds.v_max);
+    d.u_knots = inside(spline->UKnots(), d.bounds.lo.x, d.bounds.hi.x);
+    d.v_knots = inside(spline->VKnots(), d.bounds.lo.y, d.bounds.hi.y);
   }
   for (TopoDS_Iterator w(face); w.More(); w.Next()) {
     if (w.Value().ShapeType() != TopAbs_WIRE) continue;
@@ -153,16 +153,16 @@ Box3 sampled_box(const FaceDomain& d) {
   Box3 box;
   const LoopPolygons loops(sides_of(d));
   if (d.surface->is_planar() || loops.sides().empty()) return box;
-  const double du = (d.bounds.u_max - d.bounds.u_min) / d.n_u, dv = (d.bounds.v_max - d.bounds.v_min) / d.n_v;
+  const double du = (d.bounds.hi.x - d.bounds.lo.x) / d.n_u, dv = (d.bounds.hi.y - d.bounds.lo.y) / d.n_v;
   Vec3 sag;
   std::vector<Vec2> places;  // of the samples inside at one v, with their neighbours along u; then those at v - dv, v +
                              // dv
   std::vector<Vec3> points;
   for (int j = 1; j < d.n_v; ++j) {
-    const double v = d.bounds.v_min + j * dv;
+    const double v = d.bounds.lo.y + j * dv;
     std::vector<double> u;
     for (int i = 1; i < d.n_u; ++i)
-      if (const double at = d.bounds.u_min + i * du; loops.contains({at, v})) u.push_back(at);
+      if (const double at = d.bounds.lo.x + i * du; loops.contains({at, v})) u.push_back(at);
     places.clear();
     for (const double at : u) places.insert(places.end(), {{at - du, v}, {at, v}, {at + du, v}});
     for (const double beside : {v - dv, v + dv})

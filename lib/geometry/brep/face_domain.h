@@ -30,7 +30,7 @@ struct LoopUv {
 /// Surface and loops; the loop of the largest signed area, the outer one, comes first. Edges inside the face are left
 /// out.
 struct FaceDomain {
-  UvBounds bounds;
+  Box2 bounds;
   std::unique_ptr<Surface> surface;
   int n_u = 12, n_v = 12;                ///< samples across the bounds that show the surface's bumps
   std::vector<double> u_knots, v_knots;  ///< inside the bounds, ascending: between them the surface is smooth

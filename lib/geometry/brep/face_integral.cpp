@@ -68,8 +68,8 @@ class Integrator {
   static constexpr int kMaxDepth = 10, kMaxIntervals = 1024;
 
   Vec3 at(double s, double t) const {
-    const UvBounds& b = d_.bounds;
-    return d_.surface->point({b.u_min + s * (b.u_max - b.u_min), b.v_min + t * (b.v_max - b.v_min)});
+    const Box2& b = d_.bounds;
+    return d_.surface->point({b.lo.x + s * (b.hi.x - b.lo.x), b.lo.y + t * (b.hi.y - b.lo.y)});
   }
 
   /// Areas within the tolerance, volumes within that of a cone on it.
@@ -111,10 +111,10 @@ class Integrator {
 
   /// `n` equal intervals between neighbouring knots.
   void set_intervals(int n) {
-    std::vector<double> knots{d_.bounds.u_min};
+    std::vector<double> knots{d_.bounds.lo.x};
     for (double b : d_.u_knots)
-      if (b > knots.back() && b < d_.bounds.u_max) knots.push_back(b);
-    knots.push_back(d_.bounds.u_max);
+      if (b > knots.back() && b < d_.bounds.hi.x) knots.push_back(b);
+    knots.push_back(d_.bounds.hi.x);
     u_.assign(1, knots.front());
     for (std::size_t i = 0; i + 1 < knots.size(); ++i)
       for (int k = 1; k <= n; ++k) u_.push_back(knots[i] + (knots[i + 1] - knots[i]) * k / n);
@@ -125,7 +125,7 @@ class Integrator {
     const auto lines = [&] {
       FaceIntegral sum;
       for (double s : {0.13, 0.47, 0.89})
-        sum = sum + primitive(d_.bounds.u_max, d_.bounds.v_min + s * (d_.bounds.v_max - d_.bounds.v_min));
+        sum = sum + primitive(d_.bounds.hi.x, d_.bounds.lo.y + s * (d_.bounds.hi.y - d_.bounds.lo.y));
       return sum;
     };
     FaceIntegral before = lines();
@@ -144,7 +144,7 @@ class Integrator {
   bool contributes_nothing(const CoedgeUv& c) const {
     if (!c.is_line) return false;
     const gp_Pnt2d a = c.curve->Value(c.t_start), b = c.curve->Value(c.t_end);
-    return a.Y() == b.Y() || (a.X() == d_.bounds.u_min && b.X() == d_.bounds.u_min);
+    return a.Y() == b.Y() || (a.X() == d_.bounds.lo.x && b.X() == d_.bounds.lo.x);
   }
 
   /// Parameters where the trimming curve crosses a knot line of the surface, between its ends.

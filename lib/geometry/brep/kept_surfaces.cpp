@@ -21,7 +21,7 @@ bool are_equal(const SplineInput& a, const SplineInput& b) {
 class Store {
  public:
   std::unique_ptr<BsplineSurface> get(const Handle(Geom_BSplineSurface) & original, SplineInput&& in,
-                                      const BsplineSurface::Bounds& bounds) {
+                                      const Box2& bounds) {
     {
       const std::lock_guard lock(mutex_);
       if (const auto own = kept_.find(original.get()); own != kept_.end() && are_equal(own->second.input, in))
@@ -54,7 +54,7 @@ KeptSurfaces::KeptSurfaces() { g_store = new Store; }
 
 KeptSurfaces::~KeptSurfaces() { delete g_store.exchange(nullptr); }
 
-std::unique_ptr<BsplineSurface> surface_of(SplineInput in, const BsplineSurface::Bounds& bounds) {
+std::unique_ptr<BsplineSurface> surface_of(SplineInput in, const Box2& bounds) {
   const int n_v = in.n_v();
   return std::make_unique<BsplineSurface>(KnotSpans(in.u_degree, in.u_flat, in.u_period),
                                           KnotSpans(in.v_degree, in.v_flat, in.v_period), std::move(in.poles), n_v,
@@ -62,7 +62,7 @@ std::unique_ptr<BsplineSurface> surface_of(SplineInput in, const BsplineSurface:
 }
 
 std::unique_ptr<BsplineSurface> surface_of(const Handle(Geom_BSplineSurface) & original, SplineInput input,
-                                           const BsplineSurface::Bounds& bounds) {
+                                           const Box2& bounds) {
   Store* const store = g_store;
   return store ? store->get(original, std::move(input), bounds) : surface_of(std::move(input), bounds);
 }

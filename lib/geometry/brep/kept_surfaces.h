@@ -30,9 +30,9 @@ class KeptSurfaces {
   KeptSurfaces(const KeptSurfaces&) = delete;
 };
 
-std::unique_ptr<BsplineSurface> surface_of(SplineInput input, const BsplineSurface::Bounds& bounds);
+std::unique_ptr<BsplineSurface> surface_of(SplineInput input, const Box2& bounds);
 /// `original`: where `input` comes from.
 std::unique_ptr<BsplineSurface> surface_of(const Handle(Geom_BSplineSurface) & original, SplineInput input,
-                                           const BsplineSurface::Bounds& bounds);
+                                           const Box2& bounds);
 
 }  // namespace st::occt

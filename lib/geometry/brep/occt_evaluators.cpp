@@ -88,12 +88,12 @@ class LineCurve2d : public Curve2d {
 
 class AdaptorSurface : public Surface {
  public:
-  AdaptorSurface(const Handle(Geom_Surface) & s, SurfaceType type, const UvBounds& b) : surface_(s) {
+  AdaptorSurface(const Handle(Geom_Surface) & s, SurfaceType type, const Box2& b) : surface_(s) {
     type_ = type;
-    u_min_ = b.u_min;
-    u_max_ = b.u_max;
-    v_min_ = b.v_min;
-    v_max_ = b.v_max;
+    u_min_ = b.lo.x;
+    u_max_ = b.hi.x;
+    v_min_ = b.lo.y;
+    v_max_ = b.hi.y;
     if (s->IsUPeriodic()) u_period_ = s->UPeriod();
     if (s->IsVPeriodic()) v_period_ = s->VPeriod();
     add_breaks(surface_.NbUIntervals(GeomAbs_C1), true);
@@ -221,18 +221,18 @@ std::unique_ptr<Curve2d> make_curve2d(const Handle(Geom2d_Curve) & curve, double
 }
 
 std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface) {
-  UvBounds b{};
-  surface->Bounds(b.u_min, b.u_max, b.v_min, b.v_max);
+  Box2 b;
+  surface->Bounds(b.lo.x, b.hi.x, b.lo.y, b.hi.y);
   return make_surface(surface, b);
 }
 
-std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, const UvBounds& b) {
+std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, const Box2& b) {
   const Handle(Geom_Surface) s = basis_surface(surface);
   const auto axial = [&](SurfaceType type, const gp_Ax3& position, double radius, double second) {
-    return std::make_unique<AxialSurface>(type, frame(position), radius, second, b.u_min, b.u_max, b.v_min, b.v_max);
+    return std::make_unique<AxialSurface>(type, frame(position), radius, second, b.lo.x, b.hi.x, b.lo.y, b.hi.y);
   };
   if (const auto plane = Handle(Geom_Plane)::DownCast(s))
-    return std::make_unique<PlaneSurface>(frame(plane->Position()), b.u_min, b.u_max, b.v_min, b.v_max);
+    return std::make_unique<PlaneSurface>(frame(plane->Position()), b.lo.x, b.hi.x, b.lo.y, b.hi.y);
   if (const auto cylinder = Handle(Geom_CylindricalSurface)::DownCast(s))
     return axial(SurfaceType::kCylinder, cylinder->Position(), cylinder->Radius(), 0);
   if (const auto cone = Handle(Geom_ConicalSurface)::DownCast(s))
@@ -241,11 +241,9 @@ std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, cons
     return axial(SurfaceType::kSphere, sphere->Position(), sphere->Radius(), 0);
   if (const auto torus = Handle(Geom_ToroidalSurface)::DownCast(s))
     return axial(SurfaceType::kTorus, torus->Position(), torus->MajorRadius(), torus->MinorRadius());
-  const BsplineSurface::Bounds bounds{b.u_min, b.u_max, b.v_min, b.v_max};
-  if (const auto bspline = Handle(Geom_BSplineSurface)::DownCast(s))
-    return surface_of(bspline, input_of(bspline), bounds);
+  if (const auto bspline = Handle(Geom_BSplineSurface)::DownCast(s)) return surface_of(bspline, input_of(bspline), b);
   if (const auto bezier = Handle(Geom_BezierSurface)::DownCast(s))
-    return surface_of(input_of(GeomConvert::SurfaceToBSplineSurface(bezier)), bounds);
+    return surface_of(input_of(GeomConvert::SurfaceToBSplineSurface(bezier)), b);
   return std::make_unique<AdaptorSurface>(s, surface_type(s), b);
 }
 

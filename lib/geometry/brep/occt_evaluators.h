@@ -6,19 +6,16 @@
 #include <Geom_Surface.hxx>
 #include <memory>
 
+#include "base/boxes.h"
 #include "geometry/shape/curve.h"
 #include "geometry/shape/surface.h"
 
 namespace st::occt {
 
-struct UvBounds {
-  double u_min, u_max, v_min, v_max;
-};
-
 /// Own evaluator where one pays, OpenCASCADE's adaptor otherwise.
 std::unique_ptr<Curve> make_curve(const Handle(Geom_Curve) & curve, double t_min, double t_max);
 std::unique_ptr<Curve2d> make_curve2d(const Handle(Geom2d_Curve) & curve, double t_min, double t_max);
-std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, const UvBounds& bounds);
+std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface, const Box2& bounds);
 /// Within its own bounds.
 std::unique_ptr<Surface> make_surface(const Handle(Geom_Surface) & surface);
 

@@ -1,6 +1,5 @@
 #include "geometry/brep/wire_walk.h"
 
-#include <BRepTools.hxx>
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Tool.hxx>
 #include <TopExp.hxx>
@@ -11,6 +10,7 @@
 #include <cmath>
 
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 
 namespace st::occt {
 namespace {
@@ -36,13 +36,12 @@ bool is_ring(const std::vector<TopoDS_Edge>& edges, const TopoDS_Face& face) {
   const auto after = [&](std::size_t k) -> const TopoDS_Edge& { return edges[(k + 1) % edges.size()]; };
   for (std::size_t k = 0; k < edges.size(); ++k)
     if (!TopExp::LastVertex(edges[k], true).IsSame(TopExp::FirstVertex(after(k), true))) return false;
-  double u0, u1, v0, v1;
-  BRepTools::UVBounds(face, u0, u1, v0, v1);
+  const Vec2 extent = uv_box(face).size();
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const TopoDS_Edge &edge = edges[k], &next = after(k);
     const gp_Pnt2d end = end_of(edge, face, true), next_start = end_of(next, face, false);
-    if (std::fabs(end.X() - next_start.X()) > kAsFar * (u1 - u0)) return false;
-    if (std::fabs(end.Y() - next_start.Y()) > kAsFar * (v1 - v0)) return false;
+    if (std::fabs(end.X() - next_start.X()) > kAsFar * extent.x) return false;
+    if (std::fabs(end.Y() - next_start.Y()) > kAsFar * extent.y) return false;
   }
   return true;
 }

@@ -32,12 +32,6 @@ constexpr int kMisfitSamples = 8;       // segments that decide on the order of 
 
 gp_Pnt point(Vec3 p) { return {p.x, p.y, p.z}; }
 
-std::unique_ptr<Surface> evaluator(const Handle(Geom_BSplineSurface) & surface) {
-  UvBounds b{};
-  surface->Bounds(b.u_min, b.u_max, b.v_min, b.v_max);
-  return make_surface(surface, b);
-}
-
 /// A segment of a loop with its trimming curve.
 struct TrimmedSegment {
   int segment;
@@ -118,7 +112,7 @@ class ShapeBuilder {
 
   /// How far the curves of a surface's regions are from it, half way between their points.
   double misfit(int surface, const Handle(Geom_BSplineSurface) & candidate) const {
-    const std::unique_ptr<Surface> s = evaluator(candidate);
+    const std::unique_ptr<Surface> s = make_surface(candidate);
     double sum = 0;
     int n = 0;
     for (const FliteRegion& region : file_.regions)
@@ -196,7 +190,7 @@ class ShapeBuilder {
   TopoDS_Face make_face(int r) {
     const FliteRegion& region = file_.regions[r];
     const Handle(Geom_BSplineSurface) support = surface(region.surface);
-    const std::unique_ptr<Surface> s = evaluator(support);
+    const std::unique_ptr<Surface> s = make_surface(support);
     TopoDS_Face face;
     builder_.MakeFace(face, support, least_tolerance());
     std::vector<TrimmedLoop> loops;

@@ -84,7 +84,7 @@ std::unique_ptr<BsplineSurface> ferguson_surface(int n_u, int n_v, std::span<con
   for (int i = 0; i < m_u; ++i)
     for (int j = 0; j < m_v; ++j) poles.push_back(pole(by_row[static_cast<std::size_t>(j) * m_u + i]));
   return std::make_unique<BsplineSurface>(spans(n_u), spans(n_v), std::move(poles), m_v, false,
-                                          BsplineSurface::Bounds{0, n_u - 1.0, 0, n_v - 1.0});
+                                          Box2{{0, 0}, {n_u - 1.0, n_v - 1.0}});
 }
 
 }  // namespace st

@@ -1,7 +1,6 @@
 #include "geometry/import/air_pieces.h"
 
 #include <BRepAdaptor_Surface.hxx>
-#include <BRepTools.hxx>
 #include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
 #include <Standard_Failure.hxx>
@@ -17,6 +16,7 @@
 #include <numeric>
 
 #include "base/disjoint_sets.h"
+#include "geometry/brep/uv_box.h"
 #include "geometry/model/sameness.h"
 #include "geometry/shape/surface.h"
 
@@ -63,11 +63,11 @@ std::vector<FaceSample> sample_face(const TopoDS_Face& face) {
     const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
     const BRepAdaptor_Surface surface(forward);
     BRepTopAdaptor_FClass2d classifier(forward, Precision::PConfusion());
-    double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
-    BRepTools::UVBounds(forward, u0, u1, v0, v1);
+    const Box2 box = uv_box(forward);
+    const Vec2 extent = box.size();
     for (int i = 0; i < kGrid; ++i)
       for (int k = 0; k < kGrid; ++k) {
-        const gp_Pnt2d uv(u0 + (i + 0.5) / kGrid * (u1 - u0), v0 + (k + 0.5) / kGrid * (v1 - v0));
+        const gp_Pnt2d uv(box.lo.x + (i + 0.5) / kGrid * extent.x, box.lo.y + (k + 0.5) / kGrid * extent.y);
         if (classifier.Perform(uv) != TopAbs_IN) continue;
         FaceSample sample;
         sample.xyz = point_at(surface, uv.X(), uv.Y(), sample.normal);

@@ -176,7 +176,7 @@ class CrossingSearch {
     auto& [surface, grid] = surfaces_[f];
     const double* b = &t_.face_uv_bounds[4 * static_cast<std::size_t>(f)];
     if (!surface)
-      surface = make_surface(BRep_Tool::Surface(TopoDS::Face(model_.faces(f + 1))), {b[0], b[1], b[2], b[3]});
+      surface = make_surface(BRep_Tool::Surface(TopoDS::Face(model_.faces(f + 1))), {{b[0], b[2]}, {b[1], b[3]}});
     return ThroughSearch(BRepAdaptor_Curve(TopoDS::Edge(edges_(e + 1))), *surface, grid, tolerance_).may_go_through();
   }
 

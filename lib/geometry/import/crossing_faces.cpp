@@ -50,7 +50,7 @@ struct Section {
 
 struct Place {
   Vec3 xyz;
-  double size;
+  double size;  // extent of what is there, or how far it is from the common edge
 };
 
 Vec3 normal_of(const Handle(Geom_Surface) & surface, Vec2 uv) {
@@ -64,7 +64,7 @@ Vec3 normal_of(const Handle(Geom_Surface) & surface, Vec2 uv) {
 /// Where an offset surface runs against its basis: the offset is larger than the radius there. The middle and extent of
 /// what was found; nullopt for other surfaces.
 template <class IsInside>
-std::optional<Place> find_fold(const TopoDS_Face& face, const UvBounds& b, const IsInside& is_inside) {
+std::optional<Place> find_fold(const TopoDS_Face& face, const Box2& b, const IsInside& is_inside) {
   constexpr int kLines = 64;  // in u and in v
   Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   if (const auto trimmed = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface)) surface = trimmed->BasisSurface();
@@ -73,7 +73,7 @@ std::optional<Place> find_fold(const TopoDS_Face& face, const UvBounds& b, const
   Box3 folded;
   for (int i = 1; i < kLines; ++i)
     for (int j = 1; j < kLines; ++j) try {
-        const Vec2 uv{b.u_min + (b.u_max - b.u_min) * i / kLines, b.v_min + (b.v_max - b.v_min) * j / kLines};
+        const Vec2 uv{b.lo.x + (b.hi.x - b.lo.x) * i / kLines, b.lo.y + (b.hi.y - b.lo.y) * j / kLines};
         if (dot(normal_of(offset, uv), normal_of(offset->BasisSurface(), uv)) < 0 && is_inside(uv))
           folded.add(vec(offset->Value(uv.x, uv.y)));
       } catch (const Standard_Failure&) {  // no normal at a singular point
@@ -117,10 +117,6 @@ class CrossingFaces {
   struct Domain {
     FaceDomain face;
     LoopPolygons loops;
-  };
-  struct Place {
-    Vec3 xyz;
-    double size;  // distance from the common edge
   };
 
   /// An edge between two faces.

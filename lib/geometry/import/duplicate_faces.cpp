@@ -68,7 +68,7 @@ bool all_near(const std::vector<Vec3>& a, const std::vector<Vec3>& b, double tol
 }
 
 bool same_surface(const FaceDomain& a, const TopoDS_Face& b, double tolerance) {
-  const Vec3 p = a.surface->point({0.5 * (a.bounds.u_min + a.bounds.u_max), 0.5 * (a.bounds.v_min + a.bounds.v_max)});
+  const Vec3 p = a.surface->point({0.5 * (a.bounds.lo.x + a.bounds.hi.x), 0.5 * (a.bounds.lo.y + a.bounds.hi.y)});
   GeomAPI_ProjectPointOnSurf projection(gp_Pnt(p.x, p.y, p.z), BRep_Tool::Surface(b));
   return projection.NbPoints() > 0 && projection.LowerDistance() <= tolerance;
 }
@@ -106,7 +106,7 @@ std::vector<std::vector<int>> faces_of_same_edges(const ImportedShape& model) {
 
 /// Normals of the surfaces, not of the faces. Precondition: they lie on each other.
 bool same_side(const FaceDomain& a, const TopoDS_Face& b) {
-  const Vec2 middle = {0.5 * (a.bounds.u_min + a.bounds.u_max), 0.5 * (a.bounds.v_min + a.bounds.v_max)};
+  const Vec2 middle = {0.5 * (a.bounds.lo.x + a.bounds.hi.x), 0.5 * (a.bounds.lo.y + a.bounds.hi.y)};
   const SurfacePoint at = a.surface->evaluate(middle);
   const Vec3 n = cross(at.du, at.dv);
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(b);

@@ -1,6 +1,5 @@
 #include "geometry/import/edge_spurs.h"
 
-#include <BRepTools.hxx>
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -20,6 +19,7 @@
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 #include "geometry/brep/wire_walk.h"
 #include "geometry/shape/projection.h"
 
@@ -118,9 +118,7 @@ std::vector<TopoDS_Edge> without_spur(std::vector<TopoDS_Edge> loop, const EdgeS
 bool add_pcurve(const TopoDS_Edge& edge, const TopoDS_Face& face, double within) {
   double t0, t1;
   if (!BRep_Tool::CurveOnSurface(edge, face, t0, t1).IsNull()) return true;
-  UvBounds bounds{};
-  BRepTools::UVBounds(face, bounds.u_min, bounds.u_max, bounds.v_min, bounds.v_max);
-  const auto surface = make_surface(BRep_Tool::Surface(face), bounds);
+  const auto surface = make_surface(BRep_Tool::Surface(face), uv_box(face));
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
   const double tolerance = BRep_Tool::Tolerance(edge);
   const Handle(Geom2d_Curve) pcurve = fit_pcurve(

@@ -26,7 +26,7 @@ constexpr int kMostCells = 64;     // along u and v
 std::vector<Vec3> line_of(const FaceDomain& d, double v, int n_u) {
   std::vector<Vec3> line;
   for (int i = 0; i <= n_u; ++i)
-    line.push_back(d.surface->point({d.bounds.u_min + (d.bounds.u_max - d.bounds.u_min) * i / n_u, v}));
+    line.push_back(d.surface->point({d.bounds.lo.x + (d.bounds.hi.x - d.bounds.lo.x) * i / n_u, v}));
   return line;
 }
 
@@ -34,9 +34,9 @@ std::vector<Vec3> line_of(const FaceDomain& d, double v, int n_u) {
 double sampled_area(const FaceDomain& d) {
   const int n_u = std::min(d.n_u, kMostCells), n_v = std::min(d.n_v, kMostCells);
   double area = 0;
-  std::vector<Vec3> before = line_of(d, d.bounds.v_min, n_u);
+  std::vector<Vec3> before = line_of(d, d.bounds.lo.y, n_u);
   for (int j = 1; j <= n_v; ++j) {
-    const std::vector<Vec3> line = line_of(d, d.bounds.v_min + (d.bounds.v_max - d.bounds.v_min) * j / n_v, n_u);
+    const std::vector<Vec3> line = line_of(d, d.bounds.lo.y + (d.bounds.hi.y - d.bounds.lo.y) * j / n_v, n_u);
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
       area += 0.5 * (norm(cross(line[i] - before[i], before[i + 1] - before[i])) +
                      norm(cross(line[i] - line[i + 1], before[i + 1] - line[i + 1])));
@@ -71,7 +71,7 @@ Outline outline_of(const FaceDomain& d) {
 
 /// Whether the loops enclose nothing in (u,v): they may be wrong, and later be repaired.
 bool encloses_nothing(const FaceDomain& d) {
-  const double range = std::max(d.bounds.u_max - d.bounds.u_min, d.bounds.v_max - d.bounds.v_min);
+  const double range = std::max(d.bounds.hi.x - d.bounds.lo.x, d.bounds.hi.y - d.bounds.lo.y);
   return d.loops.empty() || std::fabs(d.loops[0].area) <= kNoLoop * range * range;
 }
 

@@ -59,12 +59,11 @@ std::optional<double> FaceProbe::distance_of(const std::vector<Vec3>& points) {
 }
 
 std::vector<Vec3> FaceProbe::samples() {
-  const UvBounds& b = domain_.bounds;
+  const Box2& b = domain_.bounds;
   std::vector<Vec3> points;
   for (int i = 0; i < kRows; ++i)
     for (int k = 0; k < kRows; ++k) {
-      const Vec2 uv = {b.u_min + (b.u_max - b.u_min) * (i + 0.5) / kRows,
-                       b.v_min + (b.v_max - b.v_min) * (k + 0.5) / kRows};
+      const Vec2 uv = {b.lo.x + (b.hi.x - b.lo.x) * (i + 0.5) / kRows, b.lo.y + (b.hi.y - b.lo.y) * (k + 0.5) / kRows};
       if (classifier_.Perform(gp_Pnt2d(uv.x, uv.y)) == TopAbs_IN) points.push_back(domain_.surface->point(uv));
     }
   return points;
@@ -86,10 +85,10 @@ double FaceProbe::distance_to(Vec3 p) {
 
 std::vector<Vec2> FaceProbe::nearest_places(Vec3 p) {
   if (places_.empty()) {
-    const UvBounds& b = domain_.bounds;
+    const Box2& b = domain_.bounds;
     for (int i = 0; i <= kFineRows; ++i)
       for (int k = 0; k <= kFineRows; ++k) {
-        const Vec2 uv = {b.u_min + (b.u_max - b.u_min) * i / kFineRows, b.v_min + (b.v_max - b.v_min) * k / kFineRows};
+        const Vec2 uv = {b.lo.x + (b.hi.x - b.lo.x) * i / kFineRows, b.lo.y + (b.hi.y - b.lo.y) * k / kFineRows};
         places_.emplace_back(uv, domain_.surface->point(uv));
       }
   }

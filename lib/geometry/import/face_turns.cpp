@@ -2,7 +2,6 @@
 
 #include <BRepBuilderAPI_Copy.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Tool.hxx>
 #include <GeomAdaptor_Surface.hxx>
 #include <Poly_Triangulation.hxx>
@@ -15,6 +14,7 @@
 
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 
 namespace st::occt {
 namespace {
@@ -27,10 +27,9 @@ constexpr double kFilled = 0.02;        // of the area: what facets may lack
 bool has_turns(const TopoDS_Face& face) {
   const GeomAdaptor_Surface surface(BRep_Tool::Surface(face));
   if (!surface.IsUPeriodic() && !surface.IsVPeriodic()) return false;
-  double u0, u1, v0, v1;
-  BRepTools::UVBounds(face, u0, u1, v0, v1);
-  return (surface.IsUPeriodic() && u1 - u0 > kMoreThanOnce * surface.UPeriod()) ||
-         (surface.IsVPeriodic() && v1 - v0 > kMoreThanOnce * surface.VPeriod());
+  const Vec2 extent = uv_box(face).size();
+  return (surface.IsUPeriodic() && extent.x > kMoreThanOnce * surface.UPeriod()) ||
+         (surface.IsVPeriodic() && extent.y > kMoreThanOnce * surface.VPeriod());
 }
 
 /// Part of a triangle where `height`, linear in it, is above 0.

@@ -1,6 +1,5 @@
 #include "geometry/import/folded_slivers.h"
 
-#include <BRepTools.hxx>
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
@@ -24,6 +23,7 @@
 #include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 #include "geometry/brep/wire_walk.h"
 #include "geometry/import/edge_spurs.h"
 #include "geometry/model/cad_tolerance.h"
@@ -114,9 +114,7 @@ class SliverMerger {
   std::optional<Merge> merge(FaceId sliver, FaceId neighbour) const {
     const TopoDS_Face a = forward(sliver), b = forward(neighbour);
     const double on = kOn * std::max({least_, cad_tolerance(t_, sliver), cad_tolerance(t_, neighbour)});
-    UvBounds bounds{};
-    BRepTools::UVBounds(b, bounds.u_min, bounds.u_max, bounds.v_min, bounds.v_max);
-    const auto surface = make_surface(BRep_Tool::Surface(b), bounds);
+    const auto surface = make_surface(BRep_Tool::Surface(b), uv_box(b));
     if (!lies_on(a, *surface, on)) return std::nullopt;
     std::vector<Chain> own = chains_of(b), slivers = chains_of(a);
     if (own.empty() || slivers.size() != 1) return std::nullopt;
@@ -190,10 +188,10 @@ class SliverMerger {
       for (std::size_t k = 0; k < p.size(); ++k) sides.push_back({p[k], p[(k + 1) % p.size()]});
     }
     const LoopPolygons loops(std::move(sides));
-    const UvBounds& b = d.bounds;
+    const Box2& b = d.bounds;
     for (int i = 1; i < kAcross; ++i)
       for (int j = 1; j < kAcross; ++j) {
-        const Vec2 uv{b.u_min + (b.u_max - b.u_min) * i / kAcross, b.v_min + (b.v_max - b.v_min) * j / kAcross};
+        const Vec2 uv{b.lo.x + (b.hi.x - b.lo.x) * i / kAcross, b.lo.y + (b.hi.y - b.lo.y) * j / kAcross};
         if (loops.contains(uv) && !is_on(d.surface->point(uv))) return false;
       }
     return true;

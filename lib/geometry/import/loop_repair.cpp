@@ -214,22 +214,22 @@ void add_to(Box2& box, const LoopOfUses& loop) {
     for (const Vec2& p : use.uv) box.add(p);
 }
 
-UvBounds natural_bounds(const Face& f, double extent) {
-  UvBounds b{};
-  f.surface->Bounds(b.u_min, b.u_max, b.v_min, b.v_max);
+Box2 natural_bounds(const Face& f, double extent) {
+  Box2 b;
+  f.surface->Bounds(b.lo.x, b.hi.x, b.lo.y, b.hi.y);
   const auto limit = [&](double x) { return std::clamp(x, -extent, extent); };
-  return {limit(b.u_min), limit(b.u_max), limit(b.v_min), limit(b.v_max)};
+  return {{limit(b.lo.x), limit(b.lo.y)}, {limit(b.hi.x), limit(b.hi.y)}};
 }
 
 /// Puts the holes into the period of the outer loop, all of them near the surface's own bounds. False when no loop is
 /// the outer one.
-bool place_loops(Face& f, const UvBounds& bounds) {
+bool place_loops(Face& f, const Box2& bounds) {
   std::size_t n_outer = 0;
   Box2 outer;
   for (const LoopOfUses& loop : f.loops)
     if (signed_area(loop) > 0) ++n_outer, add_to(outer, loop);
   if (n_outer != 1) return false;
-  const Vec2 middle{0.5 * (bounds.u_min + bounds.u_max), 0.5 * (bounds.v_min + bounds.v_max)};
+  const Vec2 middle{0.5 * (bounds.lo.x + bounds.hi.x), 0.5 * (bounds.lo.y + bounds.hi.y)};
   const Vec2 target = outer.center() + periods_to(outer.center(), middle, f.period);
   for (LoopOfUses& loop : f.loops) {
     Box2 box;
@@ -245,7 +245,7 @@ bool place_loops(Face& f, const UvBounds& bounds) {
 bool fit(Face& f, double tolerance) {
   Box2 box;
   for (const LoopOfUses& loop : f.loops) add_to(box, loop);
-  const auto surface = make_surface(f.surface, {box.lo.x, box.hi.x, box.lo.y, box.hi.y});
+  const auto surface = make_surface(f.surface, box);
   for (LoopOfUses& loop : f.loops)
     for (Use& use : loop) {
       const auto guess = [&](double t) {
@@ -268,14 +268,14 @@ std::optional<Face> rebuilt(const TopoDS_Face& face, double harmless, double ext
   const GeomAdaptor_Surface adaptor(f.surface);
   f.period = {adaptor.IsUPeriodic() ? adaptor.UPeriod() : 0.0, adaptor.IsVPeriodic() ? adaptor.VPeriod() : 0.0};
   if (!collect_loops(f)) return std::nullopt;
-  const UvBounds bounds = natural_bounds(f, extent);
+  const Box2 bounds = natural_bounds(f, extent);
   const auto surface = make_surface(f.surface, bounds);
   const double tolerance = std::max(10 * harmless, 100 * kAccurate);
   const double tolerance_uv = 1e-3 * std::max(f.period.x, f.period.y);
   for (LoopOfUses& loop : f.loops) {
     for (Use& use : loop)
       if (!project(use, *surface, f.period, tolerance)) return std::nullopt;
-    if (!join(loop, f.period, tolerance_uv > 0 ? tolerance_uv : 1e-3 * (bounds.u_max - bounds.u_min)))
+    if (!join(loop, f.period, tolerance_uv > 0 ? tolerance_uv : 1e-3 * (bounds.hi.x - bounds.lo.x)))
       return std::nullopt;
   }
   if (!place_loops(f, bounds) || !fit(f, tolerance)) return std::nullopt;

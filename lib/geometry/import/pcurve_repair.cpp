@@ -1,6 +1,5 @@
 #include "geometry/import/pcurve_repair.h"
 
-#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
@@ -25,6 +24,7 @@
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/pcurve_fit.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 #include "geometry/import/import.h"
 #include "geometry/model/sameness.h"
 
@@ -84,8 +84,7 @@ Handle(Geom2d_Curve)
     in_place(const Use& use, const Handle(Geom2d_Curve) & old, const Handle(Geom2d_Curve) & candidate) {
   constexpr double kMaxShift = 0.01;  // of the face's range
   if (candidate.IsNull()) return {};
-  UvBounds b{};
-  BRepTools::UVBounds(use.face, b.u_min, b.u_max, b.v_min, b.v_max);
+  const Box2 b = uv_box(use.face);
   const GeomAdaptor_Surface s(use.surface);
   const double middle = 0.5 * (use.t0 + use.t1);
   const gp_Pnt2d from = candidate->Value(middle), to = old->Value(middle);
@@ -94,8 +93,8 @@ Handle(Geom2d_Curve)
   const Handle(Geom2d_Curve) moved = Handle(Geom2d_Curve)::DownCast(candidate->Translated(gp_Vec2d(u, v)));
   for (const double t : {use.t0, use.t1}) {
     const gp_Pnt2d p = moved->Value(t), q = old->Value(t);
-    if (std::abs(p.X() - q.X()) > kMaxShift * (b.u_max - b.u_min) ||
-        std::abs(p.Y() - q.Y()) > kMaxShift * (b.v_max - b.v_min))
+    if (std::abs(p.X() - q.X()) > kMaxShift * (b.hi.x - b.lo.x) ||
+        std::abs(p.Y() - q.Y()) > kMaxShift * (b.hi.y - b.lo.y))
       return {};
   }
   return moved;
@@ -117,13 +116,11 @@ Handle(Geom2d_Curve) projected(const Use& use) {
 
 /// Projected point by point from the old curve, which is near; null when a point has no projection there.
 Handle(Geom2d_Curve) resampled(const Use& use, const Handle(Geom2d_Curve) & old, double target) {
-  UvBounds bounds{};
-  BRepTools::UVBounds(use.face, bounds.u_min, bounds.u_max, bounds.v_min, bounds.v_max);
   const auto guess = [&](double t) {
     const gp_Pnt2d uv = old->Value(t);
     return Vec2{uv.X(), uv.Y()};
   };
-  return fit_pcurve({use.curve, use.t0, use.t1}, *make_surface(use.surface, bounds), guess, target);
+  return fit_pcurve({use.curve, use.t0, use.t1}, *make_surface(use.surface, uv_box(use.face)), guess, target);
 }
 
 std::string entity(int edge, int face) { return "edge " + std::to_string(edge) + " in face " + std::to_string(face); }

@@ -208,7 +208,7 @@ class FaceContacts {
   bool is_plane(FaceId f) const { return t_.face_type[f] == SurfaceType::kPlane; }
   std::unique_ptr<Surface> surface_of(const TopoDS_Face& face, FaceId f) const {
     const double* b = &t_.face_uv_bounds[4 * static_cast<std::size_t>(f)];
-    return make_surface(BRep_Tool::Surface(face), {b[0], b[1], b[2], b[3]});
+    return make_surface(BRep_Tool::Surface(face), {{b[0], b[2]}, {b[1], b[3]}});
   }
 
   const ImportedShape& model_;

@@ -1,7 +1,6 @@
 #include "geometry/import/space_curves.h"
 
 #include <Adaptor3d_CurveOnSurface.hxx>
-#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2dAdaptor_Curve.hxx>
@@ -27,6 +26,7 @@
 
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 #include "geometry/model/sameness.h"
 #include "geometry/shape/projection.h"
 
@@ -104,10 +104,9 @@ double local_distance_off(const Handle(Geom_Curve) & curve, double t0, double t1
     if (d > largest) largest = d, at = s;
   }
   if (largest < kWild * extent_of(tracks[0]) || !agree(tracks, std::max(harmless, kAgree * largest))) return 0;
-  UvBounds b{};
-  BRepTools::UVBounds(tracks[0].face, b.u_min, b.u_max, b.v_min, b.v_max);
   const Vec3 p = vec(curve->Value(t0 + (t1 - t0) * at));
-  return closest_point(*make_surface(tracks[0].surface, b), p).distance > 0.1 * largest ? largest : 0;
+  return closest_point(*make_surface(tracks[0].surface, uv_box(tracks[0].face)), p).distance > 0.1 * largest ? largest
+                                                                                                             : 0;
 }
 
 /// How far the space curve is off at least, where it is off everywhere and the faces agree; else how far it is off
@@ -203,9 +202,7 @@ double distance_to_others(const Track& track, const std::vector<Track>& tracks, 
   double distance = 0;
   for (const Track& other : tracks) {
     if (other.face.IsSame(track.face) || distance_at_equal_parameters(track, other) <= harmless) continue;
-    UvBounds b{};
-    BRepTools::UVBounds(other.face, b.u_min, b.u_max, b.v_min, b.v_max);
-    const std::unique_ptr<Surface> surface = make_surface(other.surface, b);
+    const std::unique_ptr<Surface> surface = make_surface(other.surface, uv_box(other.face));
     for (int k = 0; k < kFewest; ++k)
       distance =
           std::max(distance, closest_point(*surface, vec(track.at(static_cast<double>(k) / (kFewest - 1)))).distance);

@@ -56,8 +56,8 @@ class Lines {
 
   std::vector<double> kinks() {
     const std::vector<double> knots = inner_knots();
-    const double lo = is_u_ ? domain_.bounds.u_min : domain_.bounds.v_min;
-    const double hi = is_u_ ? domain_.bounds.u_max : domain_.bounds.v_max;
+    const double lo = is_u_ ? domain_.bounds.lo.x : domain_.bounds.lo.y;
+    const double hi = is_u_ ? domain_.bounds.hi.x : domain_.bounds.hi.y;
     std::vector<double> result;
     for (std::size_t k = 0; k < knots.size(); ++k) {
       const double before = k > 0 ? knots[k - 1] : lo, after = k + 1 < knots.size() ? knots[k + 1] : hi;
@@ -72,8 +72,8 @@ class Lines {
   /// Breaks inside the bounds, in each period.
   std::vector<double> inner_knots() const {
     const Surface& s = *domain_.surface;
-    const UvBounds& b = domain_.bounds;
-    const double lo = is_u_ ? b.u_min : b.v_min, hi = is_u_ ? b.u_max : b.v_max;
+    const Box2& b = domain_.bounds;
+    const double lo = is_u_ ? b.lo.x : b.lo.y, hi = is_u_ ? b.hi.x : b.hi.y;
     const double period = is_u_ ? s.u_period() : s.v_period(), room = 1e-9 * (hi - lo);
     std::vector<double> knots;
     for (const double t : is_u_ ? s.u_breaks() : s.v_breaks()) {

@@ -243,7 +243,7 @@ std::unique_ptr<Surface> Model::surface(FaceId face) const {
       return composite == kNone ? impl_->cad->surface(face) : impl_->composite(composite, tables_.face_type[face], b);
     }
     if (!facets_.empty()) return surface_of(facets_, tables_, face);
-    return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {b[0], b[1], b[2], b[3]});
+    return occt::make_surface(BRep_Tool::Surface(TopoDS::Face(impl_->faces(face + 1))), {{b[0], b[2]}, {b[1], b[3]}});
   });
 }
 

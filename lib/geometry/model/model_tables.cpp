@@ -28,7 +28,7 @@ struct FaceMeasure {
     EdgeId edge;
     bool is_reversed;
   };
-  UvBounds bounds;
+  Box2 bounds;
   double area = 0, width = 0, cone_volume = 0;
   Box3 box;
   std::optional<LoopCrossing> crossing;
@@ -140,7 +140,7 @@ class TableWriter {
     for (int i = 0; i < model_.faces.Extent(); ++i) {
       const FaceMeasure& m = measures[static_cast<std::size_t>(i)];
       const TopoDS_Face f = TopoDS::Face(model_.faces(i + 1));
-      for (double b : {m.bounds.u_min, m.bounds.u_max, m.bounds.v_min, m.bounds.v_max}) t.face_uv_bounds.push_back(b);
+      for (double b : {m.bounds.lo.x, m.bounds.hi.x, m.bounds.lo.y, m.bounds.hi.y}) t.face_uv_bounds.push_back(b);
       t.face_is_reversed.push_back(orientation[i] == TopAbs_REVERSED);
       t.face_type.push_back(surface_type(BRep_Tool::Surface(f)));
       t.face_tolerance.push_back(BRep_Tool::Tolerance(f));

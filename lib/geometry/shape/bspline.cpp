@@ -149,7 +149,7 @@ CurvePoint BsplineCurve::evaluate(double t) const {
 }
 
 BsplineSurface::BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational,
-                               Bounds bounds)
+                               const Box2& bounds)
     : BsplineSurface(std::make_shared<const Data>(std::move(u), std::move(v), std::move(poles)), n_v, is_rational,
                      bounds) {}
 
@@ -163,13 +163,13 @@ BsplineSurface::Data::~Data() {
   for (const auto& p : patch) delete[] p.load(std::memory_order_relaxed);
 }
 
-std::unique_ptr<Surface> BsplineSurface::copy() const { return within({u_min_, u_max_, v_min_, v_max_}); }
+std::unique_ptr<Surface> BsplineSurface::copy() const { return within({{u_min_, v_min_}, {u_max_, v_max_}}); }
 
-std::unique_ptr<BsplineSurface> BsplineSurface::within(Bounds bounds) const {
+std::unique_ptr<BsplineSurface> BsplineSurface::within(const Box2& bounds) const {
   return std::unique_ptr<BsplineSurface>(new BsplineSurface(data_, n_v_, is_rational_, bounds));
 }
 
-BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, Bounds bounds)
+BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, const Box2& bounds)
     : data_(std::move(data)),
       u_(data_->u),
       v_(data_->v),
@@ -183,10 +183,10 @@ BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool i
   ST_ASSERT(n_v_ >= v_.first_pole(v_.n_spans() - 1) + v_.degree() + 1);
   ST_ASSERT(poles_.size() >= static_cast<std::size_t>(n_v_) * (u_.first_pole(u_.n_spans() - 1) + u_.degree() + 1));
   type_ = SurfaceType::kBspline;
-  u_min_ = bounds.u_min;
-  u_max_ = bounds.u_max;
-  v_min_ = bounds.v_min;
-  v_max_ = bounds.v_max;
+  u_min_ = bounds.lo.x;
+  u_max_ = bounds.hi.x;
+  v_min_ = bounds.lo.y;
+  v_max_ = bounds.hi.y;
   u_period_ = u_.period();
   v_period_ = v_.period();
   u_breaks_ = u_.c0_knots();

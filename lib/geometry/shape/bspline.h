@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/boxes.h"
 #include "geometry/shape/curve.h"
 #include "geometry/shape/patch_kernels.h"
 #include "geometry/shape/surface.h"
@@ -102,15 +103,12 @@ class BsplineCurve : public Curve {
 
 class BsplineSurface : public Surface {
  public:
-  struct Bounds {
-    double u_min, u_max, v_min, v_max;
-  };
   /// `poles` [n_u][n_v], v fastest.
-  BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational, Bounds bounds);
+  BsplineSurface(KnotSpans u, KnotSpans v, std::vector<Pole> poles, int n_v, bool is_rational, const Box2& bounds);
   /// Shares the spans that are converted, on any thread.
   std::unique_ptr<Surface> copy() const override;
   /// The same within other bounds.
-  std::unique_ptr<BsplineSurface> within(Bounds bounds) const;
+  std::unique_ptr<BsplineSurface> within(const Box2& bounds) const;
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
   SurfacePoint2 evaluate2(Vec2 uv) const override;
@@ -156,7 +154,7 @@ class BsplineSurface : public Surface {
     Data(const Data&) = delete;
     ~Data();
   };
-  BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, Bounds bounds);
+  BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, const Box2& bounds);
 
   std::shared_ptr<const Data> data_;
   const KnotSpans &u_, &v_;

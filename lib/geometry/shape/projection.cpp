@@ -31,14 +31,12 @@ void keep_closest(std::vector<Start>& starts) {
   if (starts.size() > kStarts) starts.resize(kStarts);
 }
 
-struct Bounds {
-  Vec2 lo, hi;
-  Vec2 clamp(Vec2 p) const { return {std::clamp(p.x, lo.x, hi.x), std::clamp(p.y, lo.y, hi.y)}; }
-};
+/// The nearest place of a box that is not empty.
+Vec2 nearest_in(const Box2& b, Vec2 p) { return {std::clamp(p.x, b.lo.x, b.hi.x), std::clamp(p.y, b.lo.y, b.hi.y)}; }
 
 /// Newton step of half the squared distance, in the directions that are free: a parameter at its bound stays there when
 /// the distance falls outwards. Where the distance is not convex the Gauss-Newton step, which always descends.
-Vec2 free_step(const SurfacePoint2& p, Vec3 r, Vec2 uv, const Bounds& b) {
+Vec2 free_step(const SurfacePoint2& p, Vec3 r, Vec2 uv, const Box2& b) {
   const Eigen::Vector2d slope = along_tangents(p.du, p.dv, r);
   const bool u_free = !(uv.x <= b.lo.x && slope.x() >= 0) && !(uv.x >= b.hi.x && slope.x() <= 0);
   const bool v_free = !(uv.y <= b.lo.y && slope.y() >= 0) && !(uv.y >= b.hi.y && slope.y() <= 0);
@@ -56,7 +54,7 @@ Vec2 free_step(const SurfacePoint2& p, Vec3 r, Vec2 uv, const Bounds& b) {
   return {along(0), along(1)};  // singular: each by itself
 }
 
-SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Bounds& b) {
+SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Box2& b) {
   SurfacePoint2 p = surface.evaluate2(uv);
   double distance2 = norm2(p.x - target);
   const Vec2 range = b.hi - b.lo;
@@ -64,7 +62,7 @@ SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Bounds& 
     Vec2 move = free_step(p, p.x - target, uv, b);
     bool is_closer = false;
     for (int halving = 0; halving < kMaxHalvings && !is_closer; ++halving, move = 0.5 * move) {
-      const Vec2 next = b.clamp(uv + move);
+      const Vec2 next = nearest_in(b, uv + move);
       const SurfacePoint2 q = surface.evaluate2(next);
       is_closer = norm2(q.x - target) < distance2;
       if (!is_closer && std::abs(move.x) <= kSmallMove * range.x && std::abs(move.y) <= kSmallMove * range.y) break;
@@ -80,7 +78,7 @@ SurfaceFoot descend(const Surface& surface, Vec3 target, Vec2 uv, const Bounds& 
   return {uv, p.x, std::sqrt(distance2)};
 }
 
-void sample(const Surface& surface, const Bounds& b, SurfaceGrid& grid) {
+void sample(const Surface& surface, const Box2& b, SurfaceGrid& grid) {
   grid.u = sample_parameters(b.lo.x, b.hi.x, surface.u_knots());
   grid.v = sample_parameters(b.lo.y, b.hi.y, surface.v_knots());
   grid.x.resize(grid.u.size() * grid.v.size());
@@ -113,7 +111,7 @@ std::vector<Start> surface_starts(const SurfaceGrid& grid, Vec3 target) {
   return starts;
 }
 
-Bounds bounds_of(const Surface& s) { return {{s.u_min(), s.v_min()}, {s.u_max(), s.v_max()}}; }
+Box2 bounds_of(const Surface& s) { return {{s.u_min(), s.v_min()}, {s.u_max(), s.v_max()}}; }
 
 }  // namespace
 
@@ -122,18 +120,18 @@ SurfaceFoot descend_from(const Surface& surface, Vec3 target, Vec2 guess) {
     const Vec3 x = surface.point(*own);
     return {*own, x, distance(x, target)};
   }
-  const Bounds b = bounds_of(surface);
-  return descend(surface, target, b.clamp(guess), b);
+  const Box2 b = bounds_of(surface);
+  return descend(surface, target, nearest_in(b, guess), b);
 }
 
 std::optional<PointAbove> point_above(const Surface& surface, Vec3 p, Vec2 guess, double aside) {
   constexpr int kSteps = 3;          // each divides the way aside by ten and more
   constexpr double kRegular = 1e-4;  // squared sine between du and dv
   constexpr double kPole = 1e-12;    // squared, of the derivatives over the whole range
-  const Bounds b = bounds_of(surface);
+  const Box2 b = bounds_of(surface);
   const Vec2 range = b.hi - b.lo;
   Vec2 uv = guess;
-  for (int step = 0; step < kSteps && b.clamp(uv) == uv; ++step) {
+  for (int step = 0; step < kSteps && nearest_in(b, uv) == uv; ++step) {
     const SurfacePoint s = surface.evaluate(uv);
     const Vec3 normal = cross(s.du, s.dv), way = p - s.x;
     const double n2 = norm2(normal), along = dot(way, normal);
@@ -154,8 +152,8 @@ SurfaceFoot closest_point(const Surface& surface, Vec3 target) {
 }
 
 SurfaceFoot closest_point(const Surface& surface, Vec3 target, SurfaceGrid& grid) {
-  const Bounds b = bounds_of(surface);
-  if (const auto exact = surface.exact_foot(target); exact && b.clamp(*exact) == *exact) {
+  const Box2 b = bounds_of(surface);
+  if (const auto exact = surface.exact_foot(target); exact && nearest_in(b, *exact) == *exact) {
     const Vec3 x = surface.point(*exact);
     return {*exact, x, distance(x, target)};
   }

@@ -183,7 +183,7 @@ TEST(BsplineSurface, copies_live_on_their_own) {
   auto surface = std::make_unique<BsplineSurface>(
       KnotSpans(1, {0, 0, 1, 1}, 0), KnotSpans(1, {0, 0, 1, 1}, 0),
       std::vector<Pole>{{{0, 0, 0, 1}}, {{0, 1, 2, 1}}, {{1, 0, 3, 1}}, {{1, 1, 0, 1}}}, 2, false,
-      BsplineSurface::Bounds{0.1, 0.9, 0.2, 0.8});
+      Box2{{0.1, 0.2}, {0.9, 0.8}});
   const std::unique_ptr<Surface> copy = surface->copy();
   const SurfacePoint2 at = surface->evaluate2({0.3, 0.7});
   surface.reset();

@@ -37,7 +37,7 @@ TEST(KeptSurfaces, answer_as_a_surface_that_is_made_anew) {
   const Handle(Geom_BSplineSurface) original = bent_patch();
   const auto anew = make_surface(original);
   const KeptSurfaces kept;
-  const auto first = make_surface(original), second = make_surface(original, {0.25, 0.5, 0, 1});
+  const auto first = make_surface(original), second = make_surface(original, {{0.25, 0}, {0.5, 1}});
   expect_same(*first, *anew);
   expect_same(*second, *anew);
   EXPECT_EQ(first->u_max(), 1);
