@@ -70,7 +70,7 @@ std::string write_failed_faces(const std::string& patches, const ArtifactHeader&
     remove_failures(path);
     return "";
   }
-  write_failures(path, {header, r.failures, r.failed_faces, t.labels.face_name});
+  write_failures(path, {header, r.failures, r.attempts, t.labels.face_name});
   return path;
 }
 

@@ -40,7 +40,7 @@ struct Grid {
     loop.push_back(of_loop + 1);
     edge.push_back(on_edge + 1);
   }
-  void add(const FailedFace& f) {
+  void add(const FaceAttempt& f) {
     const std::int64_t first = static_cast<std::int64_t>(points.size());
     const FacePatch& p = f.patch;
     for (std::size_t i = 0; i < p.inner_xyz.size(); ++i) add_point(p.inner_xyz[i], p.inner_uv[i], p.inner_size[i]);
@@ -105,7 +105,7 @@ std::string write_failures(const std::string& path, const FailureArtifact& a) {
   header.schema = "failures";
   header.schema_version = kFailuresVersion;
   Grid grid;
-  for (const FailedFace& f : a.faces) grid.add(f);
+  for (const FaceAttempt& f : a.attempts) grid.add(f);
   Hdf5Writer w(path, header);
   write_grid(w, grid);
   write_table(w, a);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/hdf5/artifact.h"
-#include "mesh/failed_face.h"
+#include "mesh/face_attempt.h"
 
 namespace st {
 
@@ -14,7 +14,7 @@ inline constexpr int kFailuresVersion = 1;
 struct FailureArtifact {
   ArtifactHeader header;
   std::vector<FaceFailure> failures;   ///< by face
-  std::vector<FailedFace> faces;       ///< boundary and partial state of each, in the same order
+  std::vector<FaceAttempt> attempts;   ///< how far each came, in the same order
   std::vector<std::string> face_name;  ///< [n_faces] of the whole model
 };
 

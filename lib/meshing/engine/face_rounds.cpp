@@ -15,14 +15,14 @@
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/share.h"
-#include "meshing/engine/closed_faces.h"
+#include "meshing/engine/close_failed.h"
 #include "meshing/engine/dirty_parts.h"
 #include "meshing/engine/last_resorts.h"
 #include "meshing/engine/refinement_trials.h"
 #include "meshing/engine/region_tasks.h"
 #include "meshing/engine/stretch_easing.h"
+#include "meshing/face/face_attempt.h"
 #include "meshing/face/face_patch.h"
-#include "meshing/face/failed_face.h"
 #include "meshing/face/fold_repair.h"
 
 namespace st {
@@ -93,8 +93,7 @@ bool FaceRounds::is_worth_loosening() const {
 /// Collective.
 void FaceRounds::mesh_dirty_faces() {
   ++version_;
-  wanted_.assign(tables().n_faces(), {});
-  std::map<FaceId, FaceReport> parted;
+  std::map<FaceId, MadeFace> parted;
   RegionTasks({.cut = "cut",
                .whole = "face",
                .tile = "tile",
@@ -121,9 +120,10 @@ std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   give_up(false);
   const bool folds_stay = gives_up_folds();
   std::vector<RefinementPoint> all;
-  for (FaceId f = 0; f < tables().n_faces(); ++f)
-    if (!(folds_stay || hopeless_.contains(f)) || faces_.outcome(f).cause != FailureCause::kNone)
-      all.insert(all.end(), wanted_[f].begin(), wanted_[f].end());
+  for (const FaceId f : paired_.meshed_of(dirty_faces_))
+    if (const FaceOutcome& o = faces_.outcome(f);
+        !(folds_stay || hopeless_.contains(f)) || o.cause != FailureCause::kNone)
+      all.insert(all.end(), o.wanted.begin(), o.wanted.end());
   return paired_.with_images(std::move(all));
 }
 
@@ -172,18 +172,18 @@ std::string FaceRounds::made_from() const {
 }
 
 /// Local, on any rank: the patch, or its last section, stays here.
-FaceRounds::FaceReport FaceRounds::keep(FaceResult&& result) {
-  PatchPlace& place = result.report.place;
+FaceRounds::MadeFace FaceRounds::keep(FaceResult&& result) {
+  PatchPlace& place = result.made.place;
   place = faces_.keep(std::move(result.patch), place.section, version_);
-  return std::move(result.report);
+  return std::move(result.made);
 }
 
 /// Local, on the rank of the patch: a FaceResult.
 Bytes FaceRounds::record_whole(const Bytes& bytes) const {
-  FaceReport report;
-  unpack(bytes, report);
-  if (!report.place.is_there()) return packed(FacePatch(), report);
-  return packed(*faces_.store().get(report.place), report);
+  MadeFace made;
+  unpack(bytes, made);
+  if (!made.place.is_there()) return packed(FacePatch(), made);
+  return packed(*faces_.store().get(made.place), made);
 }
 
 Bytes FaceRounds::restore_whole(Bytes&& whole) {
@@ -193,18 +193,17 @@ Bytes FaceRounds::restore_whole(Bytes&& whole) {
 }
 
 void FaceRounds::take_whole(FaceId f, const Bytes& bytes) {
-  FaceReport report;
-  unpack(bytes, report);
-  FacePlace place = place_of(report.place);
-  take_face(f, std::move(report), std::move(place));
+  MadeFace made;
+  unpack(bytes, made);
+  take_face(f, std::move(made.outcome), place_of(made.place));
 }
 
 /// Local, on rank 0. False where a tile failed or tiles do not fit; `parted`: patches that have more sections.
-bool FaceRounds::take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, FaceReport>& parted) {
-  FaceReport report;
-  unpack(bytes, report);
-  if (report.cause != FailureCause::kNone) return false;
-  report.is_parted ? void(parted[f] = std::move(report)) : take_whole(f, bytes);
+bool FaceRounds::take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, MadeFace>& parted) {
+  MadeFace made;
+  unpack(bytes, made);
+  if (made.outcome.cause != FailureCause::kNone) return false;
+  made.is_parted ? void(parted[f] = std::move(made)) : take_whole(f, bytes);
   return true;
 }
 
@@ -218,23 +217,23 @@ FaceRounds::FaceResult FaceRounds::mesh_seams_of(FaceId f, TiledRegions& tiled) 
     return is_parted ? std::move(seams.mesh) : tiled.join(f, boundary, std::move(seams), executor_);
   };
   FaceResult result = make_face(f, make_mesh);
-  if (!is_parted || result.report.cause != FailureCause::kNone) return result;
-  result.report.is_parted = true;
-  result.report.place.section = tiled.n_sections_of(f);
+  if (!is_parted || result.made.outcome.cause != FailureCause::kNone) return result;
+  result.made.is_parted = true;
+  result.made.place.section = tiled.n_sections_of(f);
   result.patch.owner = std::move(seams.owner);
   return result;
 }
 
 /// Collective. What is left of tiles and groups are sections of the patches of these faces (rank 0's), where they are.
 /// Returns those with numbers that are none, of which none is part of the mesh: as wholes they say what is wrong.
-std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted) {
+std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<FaceId, MadeFace>&& parted) {
   std::vector<std::int32_t> sections;
   for (std::int32_t s = 0; s < tiled.n_sections(); ++s)
     if (parted.contains(tiled.section(s).region)) sections.push_back(s);
   share(executor_, sections);
   std::map<FaceId, std::vector<PatchPlace>> places;
   std::set<FaceId> unsound;
-  for (auto& [f, report] : parted) places[f].resize(tiled.n_sections_of(f));
+  for (auto& [f, made] : parted) places[f].resize(tiled.n_sections_of(f));
   NamedTasks tasks;
   for (const std::int32_t s : sections) tasks.home.push_back(tiled.rank_of(s));
   tasks.order.resize(sections.size());
@@ -257,10 +256,10 @@ std::vector<FaceId> FaceRounds::store_sections(TiledRegions& tiled, std::map<Fac
         unpack(bytes, is_sound, places[f][index]);
         if (!is_sound) unsound.insert(f);
       });
-  for (auto& [f, report] : parted) {
+  for (auto& [f, made] : parted) {
     if (unsound.contains(f)) continue;
-    places[f].push_back(report.place);
-    take_face(f, std::move(report), place_of(std::move(places[f])));
+    places[f].push_back(made.place);
+    take_face(f, std::move(made.outcome), place_of(std::move(places[f])));
   }
   return {unsound.begin(), unsound.end()};
 }
@@ -277,7 +276,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
   const CurrentWork at_face("face", f + 1, time_limit(expected_.empty() ? 0 : expected_[f]));
   FaceMesh mesh;
   FaceResult result;
-  FaceReport& report = result.report;
+  FaceOutcome& outcome = result.made.outcome;
   FaceBoundary boundary;
   result.patch.face = f;
   try {
@@ -297,30 +296,22 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
     }
   } catch (const Error& e) {
     mesh.cause = FailureCause::kError;
-    report.error = e.what();
+    outcome.error = e.what();
   }
-  if (mesh.cause != FailureCause::kNone) report.failed = describe_failure(faces_.numbering(), f, boundary, mesh);
-  report.cause = mesh.cause;
-  report.wanted = std::move(mesh.refinement);
-  report.n_folds = mesh.n_folds;
+  if (mesh.cause != FailureCause::kNone) outcome.attempt = describe_attempt(faces_.numbering(), f, boundary, mesh);
+  outcome.cause = mesh.cause;
+  outcome.wanted = std::move(mesh.refinement);
+  outcome.n_folds = mesh.n_folds;
   return result;
 }
 
 /// Local, on rank 0.
-void FaceRounds::take_face(FaceId f, FaceReport&& report, FacePlace&& place) {
+void FaceRounds::take_face(FaceId f, FaceOutcome&& outcome, FacePlace&& place) {
   const std::int64_t n_triangles = n_triangles_of(place);
   require_countable(static_cast<std::uint64_t>(n_triangles), "triangles of a face", kMaxTriangles);
   n_meshed_ += static_cast<std::uint64_t>(n_triangles);
   hopeless_.add_meshed(f, n_triangles);
-  FaceOutcome o{.cause = report.cause,
-                .error = std::move(report.error),
-                .cause_xyz = report.wanted.empty() ? tables().face_box[f].center() : report.wanted[0].x,
-                .n_folds = report.n_folds,
-                .failed = std::move(report.failed)};
-  if (report.n_folds > 0) o.fold_places = report.wanted;
-  if (report.cause != FailureCause::kNone) o.failed_places = report.wanted;
-  faces_.set(f, std::move(place), std::move(o));
-  wanted_[f] = std::move(report.wanted);
+  faces_.set(f, std::move(place), std::move(outcome));
 }
 
 /// Where refining made a face fail for good: the mesh before it. A fold or a crossing is better than a hole. Where a

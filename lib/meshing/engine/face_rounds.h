@@ -45,24 +45,18 @@ class FaceRounds : public MeshRounds {
   bool mend_crossings() override;
   void choose_again(std::size_t first_refinement) override;
 
-  struct FaceReport {
+  struct MadeFace {
     PatchPlace place;        // of the whole patch, or of its last section
     bool is_parted = false;  // it has more
-    FailureCause cause = FailureCause::kNone;
-    std::string error;
-    std::vector<RefinementPoint> wanted;
-    int n_folds = 0;
-    FailedFace failed;
+    FaceOutcome outcome;
 
-    static auto fields(auto& x) {
-      return std::tie(x.place, x.is_parted, x.cause, x.error, x.wanted, x.n_folds, x.failed);
-    }
+    static auto fields(auto& x) { return std::tie(x.place, x.is_parted, x.outcome); }
   };
   struct FaceResult {
     FacePatch patch;  // or the last section of it
-    FaceReport report;
+    MadeFace made;
 
-    static auto fields(auto& x) { return std::tie(x.patch, x.report); }
+    static auto fields(auto& x) { return std::tie(x.patch, x.made); }
   };
   using MakeMesh = std::function<FaceMesh(const Surface&, const FaceBoundary&, const SizeField&)>;
   FaceResult make_face(FaceId f, const MakeMesh& make_mesh) const;
@@ -73,15 +67,15 @@ class FaceRounds : public MeshRounds {
   bool is_worth_loosening() const;
   void give_up(bool by_crossings);
   bool gives_up_folds();
-  FaceReport keep(FaceResult&& result);
-  Bytes record_whole(const Bytes& report) const;
+  MadeFace keep(FaceResult&& result);
+  Bytes record_whole(const Bytes& made) const;
   Bytes restore_whole(Bytes&& whole);
   void take_whole(FaceId f, const Bytes& bytes);
-  bool take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, FaceReport>& parted);
+  bool take_seams(FaceId f, const Bytes& bytes, std::map<FaceId, MadeFace>& parted);
   FaceResult mesh_seams_of(FaceId f, TiledRegions& tiled) const;
-  std::vector<FaceId> store_sections(TiledRegions& tiled, std::map<FaceId, FaceReport>&& parted);
+  std::vector<FaceId> store_sections(TiledRegions& tiled, std::map<FaceId, MadeFace>&& parted);
   Regions faces_as_regions() const;
-  void take_face(FaceId f, FaceReport&& report, FacePlace&& place);
+  void take_face(FaceId f, FaceOutcome&& outcome, FacePlace&& place);
   void close_holes();
   void remember_whole();
   void drop_replaced();
@@ -95,8 +89,7 @@ class FaceRounds : public MeshRounds {
   std::vector<double> expected_;     // [n_faces] triangles, by the weights of the plan; empty: it has none
   std::vector<EdgeId> dirty_edges_;  // to be meshed in this round
   std::vector<FaceId> dirty_faces_;
-  std::vector<std::vector<RefinementPoint>> wanted_;  // by face, of this round, on rank 0
-  std::optional<WholeMesh> whole_;                    // the last one, on rank 0
+  std::optional<WholeMesh> whole_;  // the last one, on rank 0
   bool is_restored_ = false;
   std::int64_t version_ = 0;  // of patches made in this round
   EdgeMesher edge_mesher_;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/current_work.h"
-#include "mesh/failed_face.h"
+#include "mesh/face_attempt.h"
 #include "mesh/surface_mesh.h"
 #include "meshing/engine/patch_store.h"
 #include "meshing/face/face_mesher.h"
@@ -59,9 +59,9 @@ struct MeshResult {
   std::vector<FacePlace> places;       ///< then: of all, by face
   SurfaceMesh mesh;                    ///< the whole, where holes of one were filled and it was asked for
   std::vector<FaceFailure> failures;   ///< by face
-  std::vector<FailedFace> failed_faces;  ///< likewise: boundary and partial state of each
-  std::vector<RefinementPoint> folds;    ///< places where a triangle is still turned against the surface
-  std::vector<FaceId> bad_faces;  ///< that failed, or have a triangle that is folded or crosses another; ascending
+  std::vector<FaceAttempt> attempts;   ///< likewise: how far each came
+  std::vector<RefinementPoint> folds;  ///< places where a triangle is still turned against the surface
+  std::vector<FaceId> bad_faces;       ///< that failed, or have a triangle that is folded or crosses another; ascending
   int n_rounds = 0, n_refinements = 0;
   int n_crossing_pairs = 0;  ///< that are left; where holes were filled: of which one triangle at least is new
   int n_grown = 0;           ///< holes that had to grow

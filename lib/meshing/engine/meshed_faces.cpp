@@ -82,7 +82,7 @@ std::vector<FaceId> MeshedFaces::sound_faces() const {
 std::vector<FaceId> MeshedFaces::suspects() const {
   std::vector<FaceId> faces = crossings_.crossing_faces(crossings_.n_pairs() <= Policy::kFewPairs);
   for (FaceId f = 0; f < tables_.n_faces(); ++f)
-    if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) faces.push_back(f);
+    if (!outcomes_[f].wanted.empty() || outcomes_[f].is_closed) faces.push_back(f);
   sort_once(faces);
   return faces;
 }
@@ -91,7 +91,7 @@ MeshedFaces::BadTriangles MeshedFaces::bad_triangles(const Patches& patches) con
   BadTriangles bad;
   for (const auto& [f, patch] : patches) {
     std::vector<std::size_t> own = crossings_.crossing_in(f, crossings_.n_pairs() <= Policy::kFewPairs);
-    if (!outcomes_[f].fold_places.empty() || outcomes_[f].is_closed) {
+    if (!outcomes_[f].wanted.empty() || outcomes_[f].is_closed) {
       const std::vector<std::size_t> flawed = find_flawed(nodes_of(patch), patch);
       own.insert(own.end(), flawed.begin(), flawed.end());
     }
@@ -115,8 +115,7 @@ MeshedFaces::Patches MeshedFaces::bring(const std::vector<FaceId>& faces) const 
 std::vector<Vec3> MeshedFaces::bad_places() const {
   std::vector<Vec3> places;
   for (const FaceOutcome& o : outcomes_)
-    for (const auto* some : {&o.fold_places, &o.failed_places})
-      for (const RefinementPoint& p : *some) places.push_back(p.x);
+    for (const RefinementPoint& p : o.wanted) places.push_back(p.x);
   for (const auto& [f, patch] : bring(crossings_.crossing_faces(true))) {
     const std::vector<Vec3> xyz = nodes_of(patch);
     for (const std::size_t t : crossings_.crossing_in(f, true)) {
@@ -158,11 +157,12 @@ void MeshedFaces::report(MeshResult& result) const {
   for (FaceId f = 0; f < tables_.n_faces(); ++f) {
     const FaceOutcome& o = outcomes_[f];
     if (!std::ranges::binary_search(sound, f)) result.bad_faces.push_back(f);
-    result.folds.insert(result.folds.end(), o.fold_places.begin(), o.fold_places.end());
+    if (o.n_folds > 0) result.folds.insert(result.folds.end(), o.wanted.begin(), o.wanted.end());
     if (o.cause == FailureCause::kNone) continue;
-    result.failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause), o.cause_xyz,
-                               o.is_closed, o.is_near, o.deviation});
-    result.failed_faces.push_back(o.failed);
+    result.failures.push_back({f, o.error.empty() ? text_of(o.cause) : o.error, remedy_of(o.cause),
+                               o.wanted.empty() ? tables_.face_box[f].center() : o.wanted[0].x, o.is_closed, o.is_near,
+                               o.deviation});
+    result.attempts.push_back(o.attempt);
   }
 }
 

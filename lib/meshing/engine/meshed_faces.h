@@ -18,17 +18,18 @@ namespace st {
 /// What came of meshing a face.
 struct FaceOutcome {
   FailureCause cause = FailureCause::kNone;
-  std::string error;  ///< what was thrown, for kError
-  Vec3 cause_xyz;
-  std::vector<RefinementPoint> fold_places = {};
-  std::vector<RefinementPoint> failed_places = {};
+  std::string error;                    ///< what was thrown, for kError
+  std::vector<RefinementPoint> wanted;  ///< where it failed or folds
   int n_folds = 0;
-  FailedFace failed;       ///< where it failed
+  FaceAttempt attempt;     ///< where it failed
   bool is_closed = false;  ///< it failed, and its loops were closed; then:
   bool is_near = false;    ///< the triangles are near the surface
   double deviation = 0;
 
   bool is_hole() const { return cause != FailureCause::kNone && !is_closed; }
+  static auto fields(auto& o) {
+    return std::tie(o.cause, o.error, o.wanted, o.n_folds, o.attempt, o.is_closed, o.is_near, o.deviation);
+  }
 };
 
 /// The present nodes of edges, and for each face its patch, what came of it and where it crosses others. Patches stay

@@ -107,18 +107,18 @@ class ImageMaker {
       f.xyz = mirror_.image_of(f.xyz);
       result_.failures.push_back(std::move(f));
     }
-    for (std::size_t i = 0, n = result_.failed_faces.size(); i < n; ++i) {
-      FailedFace f = result_.failed_faces[i];
+    for (std::size_t i = 0, n = result_.attempts.size(); i < n; ++i) {
+      FaceAttempt f = result_.attempts[i];
       FaceId& face = f.patch.face;
       if (mirror_.face[face] == face) continue;
       face = mirror_.face[face];
       for (std::vector<Vec3>* points : {&f.patch.inner_xyz, &f.places})
         for (Vec3& x : *points) x = mirror_.image_of(x);
       for (EdgeId& e : f.segment_edge) e = mirror_.edge[e];
-      result_.failed_faces.push_back(std::move(f));
+      result_.attempts.push_back(std::move(f));
     }
     std::ranges::stable_sort(result_.failures, {}, &FaceFailure::face);
-    std::ranges::stable_sort(result_.failed_faces, {}, &FailedFace::face);
+    std::ranges::stable_sort(result_.attempts, {}, &FaceAttempt::face);
     for (std::size_t i = 0, n = result_.folds.size(); i < n; ++i) {
       result_.folds.push_back(result_.folds[i]);
       result_.folds.back().x = mirror_.image_of(result_.folds[i].x);

@@ -9,8 +9,8 @@
 #include "base/error.h"
 #include "base/share.h"
 #include "base/threads.h"
+#include "meshing/face/face_attempt.h"
 #include "meshing/face/face_patch.h"
-#include "meshing/face/failed_face.h"
 #include "meshing/face/patch_image.h"
 #include "meshing/face/patch_parameters.h"
 #include "meshing/face/refinements.h"
@@ -103,14 +103,13 @@ void PairedFaces::take(std::size_t pair, PairImage&& image) {
     return;
   }
   FaceOutcome o;
-  o.cause_xyz = tables_.face_box[f].center();
   if (image.error.empty()) {
     faces_.set(f, {}, std::move(o));
     return faces_.put(f, std::move(image.patch));
   }
   o.cause = FailureCause::kError;
   o.error = std::move(image.error);
-  o.failed = describe_failure(faces_.numbering(), f, {}, {});
+  o.attempt = describe_attempt(faces_.numbering(), f, {}, {});
   faces_.set(f, {}, std::move(o));
 }
 

@@ -29,8 +29,8 @@ TEST(FailureArtifact, holds_the_loops_the_triangles_so_far_and_the_places_as_cel
 TEST(FailureArtifact, numbers_the_points_of_a_second_face_after_those_of_the_first) {
   TemporaryDirectory dir;
   FailureArtifact a = sample_failures();
-  a.faces.push_back(a.faces[0]);
-  a.faces[1].patch.face = 0;
+  a.attempts.push_back(a.attempts[0]);
+  a.attempts[1].patch.face = 0;
   write_failures(dir / "f.hdf", a);
   const Hdf5Reader r(dir / "f.hdf", "failures");
   const auto nodes = r.read<std::int64_t>("/VTKHDF/Connectivity");

@@ -27,7 +27,7 @@ TEST(FullDisk, ends_what_is_written_at_once_and_leaves_nothing) {
   write_raster(dir / "raster.hdf", sample_raster());
   write_sizing(dir / "sizing.hdf", sample_sizing());
   FailureArtifact failures = sample_failures();
-  failures.faces[0].places.resize(200);
+  failures.attempts[0].places.resize(200);
   write_failures(dir / "failures.hdf", failures);
   const std::vector<std::pair<const char*, std::function<void(const std::string& path)>>> outputs = {
       {"octree.vtu", [&](const auto& path) { export_octree(dir / "raster.hdf", path); }},

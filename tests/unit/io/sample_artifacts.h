@@ -157,7 +157,7 @@ inline MeshArtifact sample_mesh() {
 inline FailureArtifact sample_failures() {
   FailureArtifact a;
   a.header = sample_header();
-  FailedFace f;
+  FaceAttempt f;
   f.patch.face = 1;
   f.patch.inner_xyz = {{0, 0, 3}, {2, 0, 3}, {0, 2, 3}, {2, 2, 3}, {1, 0.5, 3}};
   for (const Vec3 x : f.patch.inner_xyz)
@@ -168,7 +168,7 @@ inline FailureArtifact sample_failures() {
   f.patch.triangles = {{{0, 1, 4}}, {{2, 4, 3}}};
   f.places = {{1, 1, 3}};
   a.failures = {{1, "its loops cross", "repair it", {1, 1, 3}}};
-  a.faces = {f};
+  a.attempts = {f};
   a.face_name = {"top", "Flügel"};
   return a;
 }

@@ -38,9 +38,9 @@ TEST(FaceRounds, name_a_face_that_failed_with_its_cause_and_mesh_the_others) {
   const FaceId top = r.failures[0].face;
   EXPECT_GT(box.tables().face_box[top].lo.z, 19.99);
   EXPECT_FALSE(r.failures[0].cause.empty() || r.failures[0].remedy.empty());
-  ASSERT_EQ(r.failed_faces.size(), 1u);
-  EXPECT_EQ(r.failed_faces[0].face(), top);
-  EXPECT_FALSE(r.failed_faces[0].patch.inner_xyz.empty());
+  ASSERT_EQ(r.attempts.size(), 1u);
+  EXPECT_EQ(r.attempts[0].face(), top);
+  EXPECT_FALSE(r.attempts[0].patch.inner_xyz.empty());
   for (FaceId f = 0; f < 6; ++f) EXPECT_EQ(r.patches[f].triangles.empty(), f == top) << f;
 }
 
@@ -61,8 +61,8 @@ TEST(FaceRounds, close_a_face_whose_loop_crosses_itself) {
   ASSERT_EQ(r.failures.size(), 1u);
   EXPECT_TRUE(r.failures[0].is_closed);
   EXPECT_FALSE(r.failures[0].is_near) << "half of it is turned over";
-  ASSERT_EQ(r.failed_faces.size(), 1u);
-  EXPECT_EQ(r.failed_faces[0].face(), r.failures[0].face);
+  ASSERT_EQ(r.attempts.size(), 1u);
+  EXPECT_EQ(r.attempts[0].face(), r.failures[0].face);
   for (const FacePatch& p : r.patches) EXPECT_FALSE(p.triangles.empty());
 }
 

@@ -32,7 +32,7 @@ struct Box : test::PutFaces {
     node += 1.5 * (patch.inner_xyz[it->n[1] - patch.n_boundary] - node);
     FaceOutcome outcome;
     outcome.n_folds = n_counted;
-    outcome.fold_places = {RefinementPoint{}};
+    outcome.wanted = {RefinementPoint{}};
     faces.set(kFace, FacePlace(), outcome);
     faces.put(kFace, std::move(patch));
   }

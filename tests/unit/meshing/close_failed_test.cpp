@@ -1,4 +1,4 @@
-#include "meshing/engine/closed_faces.h"
+#include "meshing/engine/close_failed.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ struct Holes : test::PutFaces {
   }
 };
 
-TEST(ClosedFaces, are_closed_as_they_were_by_their_loops) {
+TEST(CloseFailed, closes_faces_as_they_were_by_their_loops) {
   Holes holes;
   ASSERT_TRUE(holes.faces.has_holes());
   holes.close();
@@ -37,7 +37,7 @@ TEST(ClosedFaces, are_closed_as_they_were_by_their_loops) {
   }
 }
 
-TEST(ClosedFaces, are_the_same_on_more_threads) {
+TEST(CloseFailed, is_the_same_on_more_threads) {
   Holes one, four;
   one.close();
   set_thread_count(4);
@@ -47,7 +47,7 @@ TEST(ClosedFaces, are_the_same_on_more_threads) {
     EXPECT_EQ(packed(one.faces.bring({f}).at(f)), packed(four.faces.bring({f}).at(f)));
 }
 
-TEST(ClosedFaces, stay_holes_where_they_are_left_out) {
+TEST(CloseFailed, leaves_holes_where_faces_are_left_out) {
   Holes holes;
   holes.left_out[Holes::kOther] = "meshing it ended an earlier run";
   holes.close();

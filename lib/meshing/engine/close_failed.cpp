@@ -1,4 +1,4 @@
-#include "meshing/engine/closed_faces.h"
+#include "meshing/engine/close_failed.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // What is kept of a face that could not be meshed.
-#include "meshing/face/failed_face.h"
+#include "meshing/face/face_attempt.h"
 
 #include <gtest/gtest.h>
 
@@ -19,17 +19,17 @@ struct Edges : test::Meshed {
   explicit Edges(const std::string& shape) : test::Meshed(shape, 2), numbering(topology, result.edges) {}
 };
 
-double length_of(const FailedFace& f) {
+double length_of(const FaceAttempt& f) {
   double length = 0;
   for (std::size_t s = 0; s < f.segment_loop.size(); ++s)
     length += distance(f.patch.inner_xyz[f.segment_nodes[2 * s]], f.patch.inner_xyz[f.segment_nodes[2 * s + 1]]);
   return length;
 }
 
-TEST(FailedFace, has_every_segment_of_its_loops_with_loop_and_edge) {
+TEST(FaceAttempt, has_every_segment_of_its_loops_with_loop_and_edge) {
   const Edges m("plate_with_hole");
   const auto surface = m.model.surface(0);
-  const FailedFace f = describe_failure(m.numbering, 0, make_face_boundary(m.model, *surface, 0, m.numbering), {});
+  const FaceAttempt f = describe_attempt(m.numbering, 0, make_face_boundary(m.model, *surface, 0, m.numbering), {});
   EXPECT_NEAR(length_of(f), 200 + 16 * kPi, 1) << "the rectangle and the hole";
   EXPECT_EQ(std::set<std::int32_t>(f.segment_loop.begin(), f.segment_loop.end()), (std::set<std::int32_t>{0, 1}));
   EXPECT_EQ(std::set<EdgeId>(f.segment_edge.begin(), f.segment_edge.end()).size(), 5u);
@@ -42,26 +42,26 @@ TEST(FailedFace, has_every_segment_of_its_loops_with_loop_and_edge) {
     EXPECT_LT(distance(surface->point(f.patch.inner_uv[i]), f.patch.inner_xyz[i]), 1e-6);
 }
 
-TEST(FailedFace, has_a_seam_twice) {
+TEST(FaceAttempt, has_a_seam_twice) {
   const Edges m("cylinder");
   for (FaceId face = 0; face < 3; ++face) {
     const auto surface = m.model.surface(face);
     if (surface->type() != SurfaceType::kCylinder) continue;
-    const FailedFace f =
-        describe_failure(m.numbering, face, make_face_boundary(m.model, *surface, face, m.numbering), {});
+    const FaceAttempt f =
+        describe_attempt(m.numbering, face, make_face_boundary(m.model, *surface, face, m.numbering), {});
     EXPECT_NEAR(length_of(f), 2 * 30 + 2 * 20 * kPi, 2);
   }
 }
 
-TEST(FailedFace, without_trimming_curves_has_the_nodes_of_its_edges_and_no_uv) {
+TEST(FaceAttempt, without_trimming_curves_has_the_nodes_of_its_edges_and_no_uv) {
   const Edges m("plate_with_hole");
-  const FailedFace f = describe_failure(m.numbering, 0, {}, {});
+  const FaceAttempt f = describe_attempt(m.numbering, 0, {}, {});
   EXPECT_NEAR(length_of(f), 200 + 16 * kPi, 1);
   for (const Vec2 uv : f.patch.inner_uv) EXPECT_TRUE(std::isnan(uv.x) && std::isnan(uv.y));
   EXPECT_EQ(f.patch.inner_uv.size(), f.patch.inner_xyz.size());
 }
 
-TEST(FailedFace, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) {
+TEST(FaceAttempt, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) {
   const Edges m("square");
   const auto surface = m.model.surface(0);
   const FaceBoundary boundary = make_face_boundary(m.model, *surface, 0, m.numbering);
@@ -69,7 +69,7 @@ TEST(FailedFace, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) 
   const std::size_t n_triangles = mesh.corners.size() / 3;
   mesh.corners.insert(mesh.corners.end(), {0, 1, kNone});
   mesh.refinement.push_back({{1, 2, 3}, 1});
-  const FailedFace f = describe_failure(m.numbering, 0, boundary, mesh);
+  const FaceAttempt f = describe_attempt(m.numbering, 0, boundary, mesh);
   ASSERT_EQ(f.patch.triangles.size(), n_triangles);
   double area = 0;
   for (const Triangle& t : f.patch.triangles)
@@ -80,14 +80,14 @@ TEST(FailedFace, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) 
   EXPECT_TRUE(f.places[0] == (Vec3{1, 2, 3}));
 }
 
-TEST(FailedFace, survives_the_way_between_ranks) {
+TEST(FaceAttempt, survives_the_way_between_ranks) {
   const Edges m("plate_with_hole");
   const auto surface = m.model.surface(0);
   const FaceBoundary boundary = make_face_boundary(m.model, *surface, 0, m.numbering);
-  const FailedFace f = describe_failure(m.numbering, 0, boundary, mesh_face(*surface, boundary, m.field, {}));
+  const FaceAttempt f = describe_attempt(m.numbering, 0, boundary, mesh_face(*surface, boundary, m.field, {}));
   const Bytes bytes = packed(f);
   Unpacker unpacker(bytes);
-  FailedFace g;
+  FaceAttempt g;
   unpacker.get(g);
   EXPECT_TRUE(unpacker.is_empty());
   EXPECT_EQ(g.segment_nodes, f.segment_nodes);

@@ -11,7 +11,7 @@ namespace st {
 
 /// The boundary of a face as it was given to the mesher, the triangles it had made when it gave up, and the places that
 /// stopped it.
-struct FailedFace {
+struct FaceAttempt {
   FacePatch patch;  ///< all its nodes are inner ones: first those of the boundary (a seam's twice); (u,v) NaN where the
                     ///< face has no usable trimming curves. Triangles so far, counter-clockwise in (u,v), need not fit
                     ///< together; no corner has a (u,v) of its own

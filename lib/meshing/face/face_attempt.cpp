@@ -1,4 +1,4 @@
-#include "meshing/face/failed_face.h"
+#include "meshing/face/face_attempt.h"
 
 #include <algorithm>
 
@@ -41,7 +41,7 @@ void add_node(const FaceNode& n, FacePatch& patch) {
   patch.inner_size.push_back(n.h);
 }
 
-void add_boundary(const BoundaryNumbering& numbering, const FaceBoundary& boundary, FailedFace& f) {
+void add_boundary(const BoundaryNumbering& numbering, const FaceBoundary& boundary, FaceAttempt& f) {
   const std::vector<LoopEdge> edges = loop_edges(numbering.tables, f.face());
   for (const FaceNode& n : boundary.nodes) add_node(n, f.patch);
   for (const auto& [a, b] : boundary.segments) {
@@ -62,9 +62,9 @@ void add_triangles(const FaceMesh& mesh, FacePatch& patch) {
 
 }  // namespace
 
-FailedFace describe_failure(const BoundaryNumbering& numbering, FaceId face, const FaceBoundary& boundary,
-                            const FaceMesh& mesh) {
-  FailedFace f;
+FaceAttempt describe_attempt(const BoundaryNumbering& numbering, FaceId face, const FaceBoundary& boundary,
+                             const FaceMesh& mesh) {
+  FaceAttempt f;
   f.patch.face = face;
   const bool has_uv = !boundary.nodes.empty();
   add_boundary(numbering, has_uv ? boundary : make_boundary_in_space(face, numbering), f);
