@@ -156,7 +156,7 @@ struct Chain {
 struct ChainSurfaces {
   std::vector<LiftingSurface> surfaces;
   std::vector<Rest> rest;
-  std::vector<CutEnd> ends;  // of cuts through the facets
+  std::vector<CutPlace> ends;  // of cuts through the facets
 
   static auto fields(auto& f) { return std::tie(f.surfaces, f.rest, f.ends); }
 };
@@ -943,7 +943,7 @@ class SurfaceFinder {
 
   /// All of the model; `found`: along all chains. `ends`: gets those of all cuts.
   std::vector<LiftingSurface> run(ChainSurfaces&& found, std::span<const WingEdge> small, Noseless noseless,
-                                  std::vector<UnusedTrailing>* unused, std::vector<CutEnd>& ends) {
+                                  std::vector<UnusedTrailing>* unused, std::vector<CutPlace>& ends) {
     surfaces_ = std::move(found.surfaces);
     rest_ = std::move(found.rest);
     ends_ = std::move(found.ends);
@@ -1424,7 +1424,7 @@ class SurfaceFinder {
   std::span<const WingEdge> edges_;
   const Facets& facets_;
   FinderMemory& memory_;
-  std::vector<CutEnd> ends_;                // of cuts through the facets
+  std::vector<CutPlace> ends_;              // of cuts through the facets
   std::map<FaceId, Facets> whole_;          // by symmetry plane
   std::map<FaceId, ProfileCutter> cutter_;  // of these; kNone: of the facets themselves
   EdgeFaces faces_at_;
@@ -1558,7 +1558,7 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
     const Facets& facets = share_facets(executor, has_all ? roles.own.facets : own.facets(), elsewhere);
     const auto make_finder = [&] { return SurfaceFinder(model, roles, all, facets, memory); };
     ChainSurfaces found = find_along_chains(chains, make_finder, executor);
-    std::vector<CutEnd> ends;
+    std::vector<CutPlace> ends;
     std::vector<LiftingSurface> surfaces;
     std::vector<UnusedTrailing> rest;
     if (executor.is_root())

@@ -118,7 +118,7 @@ std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const
   return is_inside && distance(x, profile.nose) <= reach ? std::optional(x) : std::nullopt;
 }
 
-ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutEnd>* ends) : facets_(facets), ends_(ends) {
+ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutPlace>* ends) : facets_(facets), ends_(ends) {
   std::vector<Box3> block((facets.triangle.size() + kFacetsPerBlock - 1) / kFacetsPerBlock);
   node_begin_.resize(facets.xyz.size() + 1, 0);
   for (std::size_t i = 0; i < facets.triangle.size(); ++i)
@@ -188,7 +188,7 @@ void ProfileCutter::search(std::size_t level, std::size_t block, NearestCrossing
 }
 
 std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 normal, double reach,
-                                                           std::vector<CutEnd>* ends) const {
+                                                           std::vector<CutPlace>* ends) const {
   std::vector<Segment> part, todo;
   std::vector<bool> is_taken(facets_.triangle.size());
   const auto n_facets_at = [&](std::int32_t n) { return node_begin_[n + 1] - node_begin_[n]; };
@@ -217,11 +217,11 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
   return part;
 }
 
-ProfileCutter::End ProfileCutter::furthest_end(const std::vector<Segment>& part, Vec3 from) const {
-  End best{part.front().end[0], facets_.face[part.front().facet]};
+CutPlace ProfileCutter::furthest_end(const std::vector<Segment>& part, Vec3 from) const {
+  CutPlace best{facets_.face[part.front().facet], part.front().end[0]};
   for (const Segment& s : part)
     for (const Vec3& x : s.end)
-      if (distance(x, from) > distance(best.x, from)) best = {x, facets_.face[s.facet]};
+      if (distance(x, from) > distance(best.x, from)) best = {facets_.face[s.facet], x};
   return best;
 }
 
@@ -232,7 +232,7 @@ std::optional<Profile> ProfileCutter::cut(Vec3 trailing_edge, Vec3 normal, doubl
 
 std::optional<Profile> ProfileCutter::profile_of(const std::vector<Segment>& part, Vec3 trailing_edge,
                                                  Vec3 normal) const {
-  const End end_at_nose = furthest_end(part, trailing_edge);
+  const CutPlace end_at_nose = furthest_end(part, trailing_edge);
   Profile profile{.normal = normal,
                   .nose = end_at_nose.x,
                   .nose_face = end_at_nose.face,
@@ -278,7 +278,7 @@ std::optional<RoundProfile> ProfileCutter::round_profile(Vec3 at, Vec3 normal, d
   constexpr double kNear = 0.03;  // of the chord, from either end
   const std::vector<Segment> part = part_at(at, normal, reach);
   if (part.empty() || !is_closed(part)) return std::nullopt;
-  std::array<End, 2> end;
+  std::array<CutPlace, 2> end;
   end[0] = furthest_end(part, furthest_end(part, at).x);
   end[1] = furthest_end(part, end[0].x);
   const double chord = distance(end[0].x, end[1].x);
@@ -313,7 +313,7 @@ std::optional<WholeCut> ProfileCutter::whole_cut(Vec3 edge, Vec3 normal, double 
                                                  std::span<const std::uint8_t> is_own) const {
   const std::vector<Segment> part = part_at(edge, normal, reach);
   if (part.empty()) return std::nullopt;
-  const End end = furthest_end(part, edge);
+  const CutPlace end = furthest_end(part, edge);
   const double furthest = distance(end.x, edge);
   WholeCut cut{.is_own = is_own[end.face] != 0};
   cut.whole = cut.own_alone = furthest;

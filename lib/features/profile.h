@@ -15,7 +15,7 @@ namespace st {
 
 /// A point of a cut, on a facet.
 struct CutPlace {
-  FaceId face;
+  FaceId face = kNone;
   Vec3 x;  ///< model unit
 };
 
@@ -64,14 +64,11 @@ struct WholeCut {
   bool is_covered() const;
 };
 
-/// Where a cut ends: no further facet than one of this face is there.
-using CutEnd = CutPlace;
-
 /// Cuts a model's facets by planes and measures what is found.
 class ProfileCutter {
  public:
   /// `facets` must outlive the object. `ends` (may be null) gets the ends of all cuts that are not closed.
-  explicit ProfileCutter(const Facets& facets, std::vector<CutEnd>* ends = nullptr);
+  explicit ProfileCutter(const Facets& facets, std::vector<CutPlace>* ends = nullptr);
 
   /// The part of the cut by the plane through `trailing_edge` with this unit normal that hangs together with the point,
   /// if it is the profile of a lifting surface: two sides at every station along the chord, 1 to 35 per cent thick,
@@ -98,8 +95,8 @@ class ProfileCutter {
   FaceId nearest_face(Vec3 at, Vec3 normal, double reach) const;
 
   /// The ends of the same cut.
-  std::vector<CutEnd> ends_of(Vec3 edge, Vec3 normal, double reach) const {
-    std::vector<CutEnd> ends;
+  std::vector<CutPlace> ends_of(Vec3 edge, Vec3 normal, double reach) const {
+    std::vector<CutPlace> ends;
     part_at(edge, normal, reach, &ends);
     return ends;
   }
@@ -114,12 +111,8 @@ class ProfileCutter {
     std::int32_t facet;
   };
   /// A point of a cut, and the face on which it lies.
-  struct End {
-    Vec3 x;
-    FaceId face = kNone;
-  };
   /// The first of equally far ones. Precondition: the cut is not empty.
-  End furthest_end(const std::vector<Segment>& part, Vec3 from) const;
+  CutPlace furthest_end(const std::vector<Segment>& part, Vec3 from) const;
   static bool is_closed(const std::vector<Segment>& part);
   std::optional<Profile> profile_of(const std::vector<Segment>& part, Vec3 trailing_edge, Vec3 normal) const;
   /// Nothing where the plane does not cross it.
@@ -136,10 +129,10 @@ class ProfileCutter {
   std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach) const {
     return part_at(origin, normal, reach, ends_);
   }
-  std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach, std::vector<CutEnd>* ends) const;
+  std::vector<Segment> part_at(Vec3 origin, Vec3 normal, double reach, std::vector<CutPlace>* ends) const;
 
   const Facets& facets_;
-  std::vector<CutEnd>* const ends_;
+  std::vector<CutPlace>* const ends_;
   std::vector<std::vector<Box3>> blocks_;         ///< of so many facets each; then of so many of these, up to one
   std::vector<std::int32_t> node_begin_, facet_;  ///< facets of each node, ascending
 };

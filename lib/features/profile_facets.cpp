@@ -52,7 +52,7 @@ std::vector<std::uint8_t> ProfileFacets::walls_of_next(std::span<const Cut> cuts
                                                        std::size_t& n_done) {
   constexpr std::size_t kPerPiece = 4;
   const ProfileCutter cutter(facets_);
-  std::vector<std::vector<CutEnd>> ends(n_ahead);
+  std::vector<std::vector<CutPlace>> ends(n_ahead);
   while (n_done < cuts.size()) {
     const std::span<const Cut> next = cuts.subspan(n_done, std::min(ends.size(), cuts.size() - n_done));
     parallel_for(next.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
@@ -133,7 +133,7 @@ void ProfileFacets::walk(std::span<const WingEdge> edges, std::size_t n_ahead) {
   }
 }
 
-bool ProfileFacets::add_beyond(std::span<const CutEnd> ends, const Executor& executor) {
+bool ProfileFacets::add_beyond(std::span<const CutPlace> ends, const Executor& executor) {
   return add(walls_beyond(ends), executor);
 }
 
@@ -168,9 +168,9 @@ std::vector<ProfileFacets::Cut> ProfileFacets::cuts_at(std::span<const WingEdge>
   return cuts;
 }
 
-std::vector<std::uint8_t> ProfileFacets::walls_beyond(std::span<const CutEnd> ends) {
+std::vector<std::uint8_t> ProfileFacets::walls_beyond(std::span<const CutPlace> ends) {
   std::vector<std::uint8_t> taken(is_known_.size(), 0);
-  for (const CutEnd& end : ends)
+  for (const CutPlace& end : ends)
     for (const EdgeId e : model_.tables().edges_of(end.face)) take_walls_at(e, &end.x, taken);
   return taken;
 }

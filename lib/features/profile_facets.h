@@ -45,7 +45,7 @@ class ProfileFacets {
   void add_along(std::span<const WingEdge> edges, const Executor& executor);
 
   /// Those of the walls beyond the borders at which cuts end (of rank 0); false: there are none.
-  bool add_beyond(std::span<const CutEnd> ends, const Executor& executor);
+  bool add_beyond(std::span<const CutPlace> ends, const Executor& executor);
 
   /// Those of the walls at an edge, and of all that a cut through `x` meets which begins there.
   void add_cut(EdgeId e, Vec3 x, Vec3 normal, const Executor& executor);
@@ -71,7 +71,7 @@ class ProfileFacets {
   void add_bodies(std::span<const std::vector<WingEdge>> bodies, const Executor& executor);
   void walk(std::span<const WingEdge> edges, std::size_t n_ahead);
   bool is_at(FaceId f, Vec3 x) const;
-  std::vector<std::uint8_t> walls_beyond(std::span<const CutEnd> ends);
+  std::vector<std::uint8_t> walls_beyond(std::span<const CutPlace> ends);
   void take_walls_at(EdgeId e, const Vec3* x, std::vector<std::uint8_t>& taken);
   bool add(std::vector<std::uint8_t> wanted, const Executor& executor);
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/model/face_coedge.h"
+
 namespace st {
 namespace {
 
@@ -40,11 +42,6 @@ class RidgeFinder {
   }
 
  private:
-  struct Use {
-    FaceId face = kNone;
-    CoedgeId coedge = kNone;
-  };
-
   bool is_ridge(EdgeId e, double share) const {
     const auto curve = model_.curve(e);
     const double t = curve->t_min() + share * (curve->t_max() - curve->t_min());
@@ -55,7 +52,7 @@ class RidgeFinder {
   }
 
   /// Walks into the face at a right angle to the edge.
-  bool flattens_out(const Use& use, double t, Vec3 along, double edge_length) const {
+  bool flattens_out(const FaceCoedge& use, double t, Vec3 along, double edge_length) const {
     const auto surface = model_.surface(use.face);
     Vec2 uv = model_.pcurve(use.face, use.coedge)->point(t);
     SurfacePoint2 p = surface->evaluate2(uv);
@@ -79,7 +76,7 @@ class RidgeFinder {
 
   const Model& model_;
   const ModelTables& t_;
-  std::vector<Use> uses_;  // [2*n_edges]
+  std::vector<FaceCoedge> uses_;  // [2*n_edges]
 };
 
 }  // namespace

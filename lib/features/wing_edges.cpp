@@ -11,6 +11,7 @@
 #include "base/share.h"
 #include "features/edge_places.h"
 #include "features/strip.h"
+#include "geometry/model/face_coedge.h"
 
 namespace st {
 namespace {
@@ -196,28 +197,23 @@ class WingEdgeFinder {
         });
   }
 
-  struct Use {
-    FaceId face;
-    CoedgeId coedge;
-  };
-
   /// Between two walls, or a wall and a symmetry plane.
   bool is_candidate(EdgeId e) const {
     if (t_.edge_is_degenerate[e] || uses_[e].size() != 2) return false;
     const auto n_walls = std::count_if(uses_[e].begin(), uses_[e].end(),
-                                       [&](const Use& u) { return roles_.role[u.face] == FaceRole::kWall; });
+                                       [&](const FaceCoedge& u) { return roles_.role[u.face] == FaceRole::kWall; });
     return n_walls == 2 || (n_walls == 1 && mirror_of(e));
   }
 
   /// The use by the symmetry plane on which an edge lies; nullptr: on none.
-  const Use* mirror_of(EdgeId e) const {
-    const auto use = std::find_if(uses_[e].begin(), uses_[e].end(), [&](const Use& u) {
+  const FaceCoedge* mirror_of(EdgeId e) const {
+    const auto use = std::find_if(uses_[e].begin(), uses_[e].end(), [&](const FaceCoedge& u) {
       return roles_.role[u.face] == FaceRole::kSymmetry && t_.face_type[u.face] == SurfaceType::kPlane;
     });
     return use == uses_[e].end() ? nullptr : &*use;
   }
   FaceId mirror_face(EdgeId e) const {
-    const Use* mirror = mirror_of(e);
+    const FaceCoedge* mirror = mirror_of(e);
     return mirror ? mirror->face : kNone;
   }
 
@@ -226,7 +222,7 @@ class WingEdgeFinder {
     return {side.face, side.uv, turn(side.normal), turn(side.inward)};
   }
 
-  Side side_at(const Surface& surface, const Use& use, Vec2 uv, Vec3 tangent) const {
+  Side side_at(const Surface& surface, const FaceCoedge& use, Vec2 uv, Vec3 tangent) const {
     const Vec3 n = surface_normal(surface, uv);
     const Vec3 along = t_.coedge_is_reversed[use.coedge] ? -tangent : tangent;
     return {use.face, uv, (t_.face_is_reversed[use.face] != 0) != is_turned_ ? -n : n, normalized(cross(n, along))};
@@ -368,7 +364,7 @@ class WingEdgeFinder {
   /// Puts the mirror image of the other edge where one lies on a symmetry plane.
   void complete(const Strip& strip, Places& places) const {
     const std::size_t k = mirror_of(strip.edges[0]) ? 0 : 1;
-    const Use& plane = *mirror_of(strip.edges[k]);
+    const FaceCoedge& plane = *mirror_of(strip.edges[k]);
     const auto surface = model_.surface(plane.face);
     const Vec3 normal =
         surface_normal(*surface, model_.pcurve(plane.face, plane.coedge)->point(t_.edge_range[2 * strip.edges[k]]));
@@ -539,7 +535,7 @@ class WingEdgeFinder {
   const FaceRoles& roles_;
   std::span<const Strip> strips_;
   bool is_turned_ = false;  // normals point into the material
-  std::vector<std::vector<Use>> uses_;
+  std::vector<std::vector<FaceCoedge>> uses_;
   std::vector<WingEdge> small_;  // of the last search
   bool has_hollow_ = false;      // likewise
 };

@@ -33,7 +33,7 @@ bool WallsApart::are_apart(const TrianglePair& pair) {
   const FaceId a = mesh_.triangle_face[pair.a], b = mesh_.triangle_face[pair.b];
   const ModelTables& t = model_.tables();
   if (a == b || (t.face_type[a] == SurfaceType::kPlane && t.face_type[b] == SurfaceType::kPlane)) return false;
-  FacePair& known = known_[std::minmax(a, b)];
+  Tries& known = known_[std::minmax(a, b)];
   if (!known.is_apart && known.n_tried == kTried) return false;
   ++known.n_tried;
   const auto gap = measure_gap(*model_.surface(a), wall_of(mesh_, pair.a), *model_.surface(b), wall_of(mesh_, pair.b),

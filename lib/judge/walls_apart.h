@@ -28,11 +28,11 @@ class WallsApart {
 
  private:
   static constexpr int kTried = 32;
-  struct FacePair {
+  struct Tries {  // to find two faces apart
     int n_tried = 0;
     bool is_apart = false;  // at one place at least
   };
-  std::map<std::pair<FaceId, FaceId>, FacePair> known_;
+  std::map<std::pair<FaceId, FaceId>, Tries> known_;
 
   const Model& model_;
   const SurfaceMesh& mesh_;

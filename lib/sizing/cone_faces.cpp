@@ -9,6 +9,7 @@
 #include "base/limits.h"
 #include "base/parallel_reserve.h"
 #include "base/threads.h"
+#include "sizing/cone_site.h"
 
 namespace st {
 namespace {
@@ -24,10 +25,12 @@ class FaceAgreement {
 
   SiteSamples run() {
     constexpr std::size_t kSitesPerPiece = 2'048;
-    add_what(sites_.cell.size(), kSitesPerPiece, [this](std::size_t begin, std::size_t end, std::vector<Added>& found) {
-      FaceScratch scratch;
-      for (std::size_t site = begin; site < end; ++site) settle_faces(static_cast<std::int32_t>(site), scratch, found);
-    });
+    add_what(sites_.cell.size(), kSitesPerPiece,
+             [this](std::size_t begin, std::size_t end, std::vector<SiteSample>& found) {
+               FaceScratch scratch;
+               for (std::size_t site = begin; site < end; ++site)
+                 settle_faces(static_cast<std::int32_t>(site), scratch, found);
+             });
     pass_on();
     lowered_.resize(sites_.cell.size());
     std::iota(lowered_.begin(), lowered_.end(), 0);
@@ -40,9 +43,6 @@ class FaceAgreement {
 
  private:
   static constexpr std::int32_t kToSecond = 1, kToFirst = 2, kBothWays = kToSecond | kToFirst;
-  struct Added {
-    std::int32_t site, sample;
-  };
   struct More {
     std::int32_t last = kNone;  // of the samples that were added, into links_
     std::int32_t n = 0;
@@ -55,15 +55,15 @@ class FaceAgreement {
   /// Adds what find(begin, end, found) finds for pieces of [0, n), in their order.
   template <class F>
   void add_what(std::size_t n, std::size_t n_per_piece, const F& find) {
-    std::vector<std::vector<Added>> found((n + n_per_piece - 1) / n_per_piece);
+    std::vector<std::vector<SiteSample>> found((n + n_per_piece - 1) / n_per_piece);
     parallel_for(n, n_per_piece,
                  [&](std::size_t begin, std::size_t end) { find(begin, end, found[begin / n_per_piece]); });
-    for (const std::vector<Added>& piece : found)
-      for (const Added& a : piece)
+    for (const std::vector<SiteSample>& piece : found)
+      for (const SiteSample& a : piece)
         if (!has(a.site, a.sample)) add(a);
   }
 
-  void settle_faces(std::int32_t site, FaceScratch& scratch, std::vector<Added>& found) const {
+  void settle_faces(std::int32_t site, FaceScratch& scratch, std::vector<SiteSample>& found) const {
     for (const SiteBeside& b : sites_.beside_of(site)) {
       if (!is_looked_at(site, b.site)) continue;
       const bool is_both = sites_.leads(b.site, site);  // else lengths pass one way
@@ -110,7 +110,7 @@ class FaceAgreement {
   }
 
   void settle(std::int32_t a, std::int32_t b, std::int32_t ways, FaceScratch& scratch,
-              std::vector<Added>& found) const {
+              std::vector<SiteSample>& found) const {
     std::vector<FaceCone>& on_face = scratch.on_face;
     if (!gather(a, b, on_face)) return;
     const auto n = static_cast<std::int32_t>(on_face.size());
@@ -129,7 +129,7 @@ class FaceAgreement {
     }
   }
 
-  void add(const Added& a) {
+  void add(const SiteSample& a) {
     const auto [site, sample] = a;
     More& more = more_[site];
     links_.push_back({sample, more.last});
@@ -155,8 +155,8 @@ class FaceAgreement {
   void pass_on() {
     constexpr std::size_t kAddedPerPiece = 1'024;
     while (!added_.empty()) {
-      const std::vector<Added> all = std::exchange(added_, {});
-      add_what(all.size(), kAddedPerPiece, [&](std::size_t begin, std::size_t end, std::vector<Added>& found) {
+      const std::vector<SiteSample> all = std::exchange(added_, {});
+      add_what(all.size(), kAddedPerPiece, [&](std::size_t begin, std::size_t end, std::vector<SiteSample>& found) {
         for (std::size_t i = begin; i < end; ++i) {
           const auto [site, sample] = all[i];
           for (const SiteBeside& b : sites_.beside_of(site))
@@ -187,7 +187,7 @@ class FaceAgreement {
   void settle_centers() {
     constexpr std::size_t kLoweredPerPiece = 4'096;
     const std::vector<std::int32_t> lowered = std::exchange(lowered_, {});
-    add_what(lowered.size(), kLoweredPerPiece, [&](std::size_t begin, std::size_t end, std::vector<Added>& found) {
+    add_what(lowered.size(), kLoweredPerPiece, [&](std::size_t begin, std::size_t end, std::vector<SiteSample>& found) {
       for (std::size_t i = begin; i < end; ++i)
         if (const std::int32_t site = lowered[i]; samples_.at_center[site] != kNone)
           settle_centers_around(site, site, 1, found);
@@ -196,7 +196,8 @@ class FaceAgreement {
 
   /// Of the cells beside `at`, which is `site` or touches it. Those across edges and corners are found by ways that
   /// rise, each along the axes in order: `least` is the first side (see SiteBeside) by which the way may go on.
-  void settle_centers_around(std::int32_t site, std::int32_t at, std::int32_t least, std::vector<Added>& found) const {
+  void settle_centers_around(std::int32_t site, std::int32_t at, std::int32_t least,
+                             std::vector<SiteSample>& found) const {
     const std::int32_t sample = samples_.at_center[site];
     const float length = samples_.center_length[at];
     for (const SiteBeside& b : sites_.beside_of(at)) {
@@ -261,7 +262,7 @@ class FaceAgreement {
   SiteSamples samples_;
   std::vector<More> more_;  // [n_sites]
   std::vector<SampleLink> links_;
-  std::vector<Added> added_;
+  std::vector<SiteSample> added_;
   std::vector<std::int32_t> lowered_;  // sites whose length at the centre is lower than when it was looked at
 };
 

@@ -61,7 +61,9 @@ struct ConeEvent {
   std::int32_t site, sample;
   std::int32_t n;  ///< samples of the site with it; 0: it lies there and is not taken yet
 };
-struct ConeOffer {
+
+/// A sample, and a site in which it may tell the length, or does.
+struct SiteSample {
   std::int32_t site, sample;
 };
 
@@ -70,7 +72,7 @@ struct ConeOffer {
 struct ConePart {
   std::vector<std::vector<ConeEvent>> buckets;  ///< by length
   std::vector<ConeEvent> events, sorting;       ///< those at hand, by site
-  std::vector<std::vector<ConeOffer>> offers;   ///< to sites of each part
+  std::vector<std::vector<SiteSample>> offers;  ///< to sites of each part
   std::vector<SampleLink> entries;              ///< of sites with many samples
 
   /// Whether f(sample) is true for any sample of a site.

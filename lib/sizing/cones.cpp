@@ -33,7 +33,6 @@ class ConeSpread {
   using Site = ConeSite;
   using Part = ConePart;
   using Event = ConeEvent;
-  using Offer = ConeOffer;
 
  public:
   ConeSpread(const Neighbours& neighbours, std::span<const LengthSample> samples, std::span<const float> slope,
@@ -230,7 +229,7 @@ class ConeSpread {
     if (e.n != 0 && sites_[site].n != e.n && !sites_[site].is_winner(sample)) return;
     const auto [first, last] = sites_[site].beside;
     const std::int32_t ahead = sides_ahead(sites_[site], sample);
-    std::vector<Offer>* const to_part = part.offers.data();
+    std::vector<SiteSample>* const to_part = part.offers.data();
     for (const SiteBeside *b = beside_.data() + first, *end = beside_.data() + last; b < end; ++b)
       if ((b->towards & ahead) != 0)
         to_part[static_cast<std::size_t>(b->site) >> part_bits_].push_back({b->site, sample});
@@ -240,7 +239,7 @@ class ConeSpread {
   void take_offers(Part& part) {
     const auto own = static_cast<std::size_t>(&part - parts_.data());
     for (Part& from : parts_) {
-      std::vector<Offer>& offers = from.offers[own];
+      std::vector<SiteSample>& offers = from.offers[own];
       for (std::size_t i = 0; i < offers.size(); ++i) {
         if (i + kAhead < offers.size()) fetch(offers[i + kAhead].site, offers[i + kAhead].sample);
         const auto [site, sample] = offers[i];
@@ -310,7 +309,7 @@ class ConeSpread {
   }
 
   /// Takes the sample where it asks for clearly less than all so far; `least`: at the probes. `part`: of the site.
-  bool offer(Part& part, const Offer& o, const ConeShares& shares, float& least) {
+  bool offer(Part& part, const SiteSample& o, const ConeShares& shares, float& least) {
     Site& s = sites_[o.site];
     return !part.has(s, o.sample) && !is_any(s.refused == o.sample) && consider(part, s, o.sample, shares, least);
   }

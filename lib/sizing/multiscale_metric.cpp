@@ -60,15 +60,12 @@ bool MultiscaleMetric::add(std::span<const SymmetricTensor> hessian) {
   constexpr double kNothing = 1e-12;  // of the largest second derivative: as good as none
   const std::size_t n_nodes = hessian.size();
   const double p = options_.norm, d = is_volume() ? 3 : 2;
-  std::vector<Axes> axes(n_nodes);
+  std::vector<PrincipalAxes> axes(n_nodes);
   parallel_for(n_nodes, 4096, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t n = begin; n < end; ++n) {
-      const PrincipalAxes own = principal_axes(matrix_of(hessian[n]));
-      axes[n] = {own.value, own.axis};
-    }
+    for (std::size_t n = begin; n < end; ++n) axes[n] = principal_axes(matrix_of(hessian[n]));
   });
   double largest = 0;
-  for (const Axes& a : axes) largest = std::max({largest, std::abs(a.value[0]), std::abs(a.value[2])});
+  for (const PrincipalAxes& a : axes) largest = std::max({largest, std::abs(a.value[0]), std::abs(a.value[2])});
   if (!(largest > 0)) return false;
   std::vector<SymmetricTensor> metric(n_nodes);
   double own_complexity = 0;
@@ -125,7 +122,7 @@ double MultiscaleMetric::n_nodes() const { return nodes_per_complexity() * compl
 std::vector<SymmetricTensor> MultiscaleMetric::metrics() const {
   const double factor = factor_for_nodes();
   std::vector<SymmetricTensor> result;
-  for (const Axes& a : axes_) result.push_back(tensor_with(bounded(a.value, factor), a.axis));
+  for (const PrincipalAxes& a : axes_) result.push_back(tensor_with(bounded(a.value, factor), a.axis));
   return result;
 }
 

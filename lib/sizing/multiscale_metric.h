@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "base/eigen.h"
 #include "sizing/background.h"
 #include "sizing/field_hessian.h"
 
@@ -37,10 +38,6 @@ class MultiscaleMetric {
   double n_nodes() const;
 
  private:
-  struct Axes {
-    std::array<double, 3> value;  // ascending
-    std::array<Vec3, 3> axis;
-  };
   bool is_volume() const { return !mesh_.tets.empty(); }
   double density(const std::array<double, 3>& value) const;
   std::array<double, 3> bounded(const std::array<double, 3>& value, double factor) const;
@@ -52,7 +49,7 @@ class MultiscaleMetric {
   const MetricOptions options_;
   std::vector<double> measure_;          // [nodes] area or volume that each stands for
   std::vector<SymmetricTensor> metric_;  // [nodes] of all fields so far, of one factor; empty: none
-  std::vector<Axes> axes_;               // of metric_
+  std::vector<PrincipalAxes> axes_;      // of metric_
 };
 
 /// The smallest metric known to ask in each direction for no more than either: simultaneous reduction of both.

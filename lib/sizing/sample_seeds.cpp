@@ -11,6 +11,7 @@
 #include "base/parallel_reserve.h"
 #include "base/radix_sort.h"
 #include "base/threads.h"
+#include "sizing/cone_site.h"
 
 namespace st {
 namespace {
@@ -184,18 +185,15 @@ void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSampl
         visit(moved, octree.find_leaf(key));
       }
   };
-  struct Own {
-    std::int32_t site, sample;
-  };
-  std::vector<std::vector<Own>> found((samples.size() + kPerPiece - 1) / kPerPiece);
+  std::vector<std::vector<SiteSample>> found((samples.size() + kPerPiece - 1) / kPerPiece);
   parallel_for(samples.size(), kPerPiece, [&](std::size_t begin, std::size_t end) {
-    std::vector<Own>& own = found[begin / kPerPiece];
+    std::vector<SiteSample>& own = found[begin / kPerPiece];
     own.reserve(4 * (end - begin));
     for (std::size_t i = begin; i < end; ++i)
       for_each_site(samples[i], [&](std::int32_t site) { own.push_back({site, static_cast<std::int32_t>(i)}); });
   });
-  for (const std::vector<Own>& piece : found)
-    for (const Own& own : piece) f(own.site, own.sample);
+  for (const std::vector<SiteSample>& piece : found)
+    for (const SiteSample& own : piece) f(own.site, own.sample);
 }
 
 }  // namespace st

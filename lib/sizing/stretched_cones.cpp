@@ -14,6 +14,7 @@
 #include "base/parallel_reserve.h"
 #include "base/threads.h"
 #include "sizing/cone_cell.h"
+#include "sizing/cone_site.h"
 
 namespace st {
 namespace {
@@ -94,9 +95,6 @@ class StretchSpread {
     void make_room(std::size_t n_more) {
       if (found.size() < n + n_more) found.resize(2 * (n + n_more));
     }
-  };
-  struct Win {
-    std::int32_t site, sample;
   };
   /// A list of sites for each sample.
   struct SiteLists {
@@ -234,10 +232,10 @@ class StretchSpread {
     constexpr std::size_t kParts = 64;
     const std::size_t per_piece = std::clamp<std::size_t>(samples.size() / kParts, 1, 128);
     const std::size_t per_part = n_sites() / kParts + 1;
-    std::vector<std::array<std::vector<Win>, kParts>> won((samples.size() + per_piece - 1) / per_piece);
+    std::vector<std::array<std::vector<SiteSample>, kParts>> won((samples.size() + per_piece - 1) / per_piece);
     parallel_for(samples.size(), per_piece, [&](std::size_t begin, std::size_t end) {
       std::unique_ptr<Walk> walk = take_walk();
-      const auto note = [&](const Win& w) {
+      const auto note = [&](const SiteSample& w) {
         won[begin / per_piece][static_cast<std::size_t>(w.site) / per_part].push_back(w);
       };
       for (std::size_t i = begin; i < end; ++i) spread(samples[i], *walk, note);
@@ -299,7 +297,7 @@ class StretchSpread {
     kernels_.offer_along(along_cone(sample), sites_.data(), turns(), rest.data(),
                          static_cast<std::int32_t>(rest.size()), {kClearly, kNearly}, walk.gains.data());
     for (std::size_t i = 0; i < rest.size(); ++i) {
-      if (walk.gains[i] == kClearlyGains) note(Win{rest[i], sample});
+      if (walk.gains[i] == kClearlyGains) note(SiteSample{rest[i], sample});
       told(rest[i], walk.gains[i]);
     }
   }

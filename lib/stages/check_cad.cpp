@@ -168,13 +168,13 @@ std::vector<double> given_tolerances(const ModelTables& tables, double sewing) {
 }
 
 /// The tolerances of a face that may move its nodes: what was given, and the CAD's own up to what no CAD needs.
-struct NodeTolerance {
+struct FaceTolerance {
   double of_cad = 0, given = 0;  // model unit; given 0: none
   double most = 0;               // off by more is off, whatever the CAD's tolerance
   double allowed() const { return std::max(std::min(of_cad, most), given); }
 };
 
-NodeTolerance node_tolerance(const ModelTables& tables, const ChordError& chords, const std::vector<double>& given,
+FaceTolerance node_tolerance(const ModelTables& tables, const ChordError& chords, const std::vector<double>& given,
                              FaceId f, double diagonal) {
   constexpr double kOfDiagonal = 1e-3;
   constexpr double kOfSize = 0.05;
@@ -187,7 +187,7 @@ Check check_off_surface(const ModelTables& tables, const ChordError& chords, con
   Check c{"off-surface", "faces with nodes off the surface by more than their lengths allow", {}, true, ""};
   const double diagonal = tables.reference_diagonal();
   for (FaceId f = 0; f < tables.n_faces(); ++f) {
-    const NodeTolerance t = node_tolerance(tables, chords, given, f, diagonal);
+    const FaceTolerance t = node_tolerance(tables, chords, given, f, diagonal);
     if (chords.off_surface[f] > 2 * t.allowed())
       c.defects.add({chords.off_place[f], f, kNone});
     else if (chords.stray[f] > std::max(t.most, 2 * t.given))

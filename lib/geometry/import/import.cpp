@@ -275,7 +275,7 @@ void name_parts(const ImportedShape& model, ImportResult& result) {
   }
 }
 
-ImportResult run_import(const std::string& path, const ImportOptions& options) {
+ImportResult import_cad(const std::string& path, const ImportOptions& options) {
   refuse_numbers(options);
   const std::optional<occt::SymmetryPlane> mirror = occt::parse_air(options).mirror;  // checks all of them
   Progress progress("importing", 1);
@@ -339,7 +339,7 @@ ImportResult run_import(const std::string& path, const ImportOptions& options) {
 ImportResult import_model(const std::string& path, const ImportOptions& options) {
   try {
     const occt::KeptSurfaces kept;
-    return run_import(path, options);
+    return import_cad(path, options);
   } catch (const Standard_Failure& e) {
     throw Error(ExitCode::kGeometry,
                 path + ": OpenCASCADE failed on this model (" +

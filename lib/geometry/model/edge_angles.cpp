@@ -50,7 +50,7 @@ double EdgeAngles::measure(EdgeId e) const {
   constexpr double kUnknown = 180;
   const ModelTables& t = model_.tables();
   if (uses_[e].size() != 2 || t.edge_is_degenerate[e]) return kUnknown;
-  const Use first = uses_[e][0], second = uses_[e][1];
+  const FaceCoedge first = uses_[e][0], second = uses_[e][1];
   const EdgeSide a(model_, first.face, first.coedge), b(model_, second.face, second.coedge);
   const double t0 = t.edge_range[2 * e], t1 = t.edge_range[2 * e + 1];
   double largest = 0;

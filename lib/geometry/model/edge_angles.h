@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/model/face_coedge.h"
 #include "geometry/model/model.h"
 
 namespace st {
@@ -22,16 +23,12 @@ class EdgeAngles {
   double largest_deg(EdgeId e);
 
  private:
-  struct Use {
-    FaceId face;
-    CoedgeId coedge;
-  };
   double measure(EdgeId e) const;
 
   const Model& model_;
   double most_deg_;
-  std::vector<std::vector<Use>> uses_;  // [n_edges]
-  std::vector<double> largest_;         // [n_edges] below 0: not asked yet
+  std::vector<std::vector<FaceCoedge>> uses_;  // [n_edges]
+  std::vector<double> largest_;                // [n_edges] below 0: not asked yet
 };
 
 }  // namespace st

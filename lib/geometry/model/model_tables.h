@@ -17,6 +17,7 @@ struct FaceMeasures {
   std::vector<Box3> edge_box;                         ///< [n_edges] empty for poles
 };
 
+/// The model as it is in the import, and what its faces measure there.
 struct ModelOfFile {
   ModelTables tables;
   FaceMeasures measures;

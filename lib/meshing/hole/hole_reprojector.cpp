@@ -38,7 +38,7 @@ double stretched(double x, double from_lo, double from_hi, double to_lo, double 
 }
 
 /// (u,v) -> map (u,v) + offset.
-struct AffineMap {
+struct FittedMap {
   Eigen::Matrix2d map;
   Eigen::Vector2d offset;
 
@@ -47,7 +47,7 @@ struct AffineMap {
 };
 
 /// Closest to the places, by least squares. nullopt: they are on a line.
-std::optional<AffineMap> closest_map(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
+std::optional<FittedMap> closest_map(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
   const auto middle_of = [](const std::vector<Vec2>& all) {
     Vec2 sum;
     for (const Vec2 p : all) sum = sum + p;
@@ -63,7 +63,7 @@ std::optional<AffineMap> closest_map(const std::vector<Vec2>& from, const std::v
   }
   if (!(own.determinant() > 1e-12 * own.trace() * own.trace())) return std::nullopt;
   const Eigen::Matrix2d map = both * adjugate(own) / own.determinant();
-  return AffineMap{map, to_eigen(q0) - map * to_eigen(p0)};
+  return FittedMap{map, to_eigen(q0) - map * to_eigen(p0)};
 }
 
 class Mover {
@@ -261,7 +261,7 @@ class Mover {
   }
 
   /// Of the old (u,v) of a plane, whose axes in it are anyone's choice, by its boundary.
-  std::optional<AffineMap> map_of_plane(const Surface& plane, std::size_t begin, std::size_t end, Vec2 guess) const {
+  std::optional<FittedMap> map_of_plane(const Surface& plane, std::size_t begin, std::size_t end, Vec2 guess) const {
     std::vector<Vec2> from, to;
     for (std::size_t c = 3 * begin; c < 3 * end; ++c) {
       const NodeId n = old_.triangles[c / 3].n[c % 3];
@@ -303,7 +303,7 @@ class Mover {
       return Vec2{stretched(uv.x, from.lo.x, from.hi.x, to.lo.x, to.hi.x),
                   stretched(uv.y, from.lo.y, from.hi.y, to.lo.y, to.hi.y)};
     };
-    std::optional<AffineMap> turned;
+    std::optional<FittedMap> turned;
     if (t_.face_type[f] == SurfaceType::kPlane && !fits(*surface, begin, end, by_box))
       turned = map_of_plane(*surface, begin, end, 0.5 * (after.lo + after.hi));
     const auto map = [&](Vec2 uv) { return turned ? (*turned)(uv) : by_box(uv); };

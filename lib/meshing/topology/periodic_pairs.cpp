@@ -164,15 +164,9 @@ std::vector<PairFollower> leaders_of(const Links& links) {
   return found;
 }
 
-/// A way from a leader along a link and back, which must leave it where it is.
-struct Round {
-  std::int32_t leader;
-  Similarity motion;
-  bool is_opposed;
-};
-
-std::vector<Round> rounds_of(const Links& links, const std::vector<PairFollower>& found) {
-  std::vector<Round> rounds;
+/// Ways from a leader along a link and back, which must leave it where it is.
+std::vector<PairFollower> rounds_of(const Links& links, const std::vector<PairFollower>& found) {
+  std::vector<PairFollower> rounds;
   for (std::size_t i = 0; i < links.size(); ++i)
     for (const PairFollower& to : links[i]) {
       const PairFollower &from = found[i], &end = found[to.leader];
@@ -204,17 +198,17 @@ void PeriodicPairs::lead(const Model& model) {
   edges_ = leaders_of(edges);
   vertices_ = leaders_of(vertices);
   vertex_xyz_ = t.vertex_xyz;
-  const auto off = [](const Round& r, Vec3 x) { return distance(r.motion(x), x); };
-  const std::vector<Round> rounds = rounds_of(vertices, vertices_);
-  for (const Round& r : rounds) {
+  const auto off = [](const PairFollower& r, Vec3 x) { return distance(r.motion(x), x); };
+  const std::vector<PairFollower> rounds = rounds_of(vertices, vertices_);
+  for (const PairFollower& r : rounds) {
     Vec3& x = vertex_xyz_[r.leader];
     if (off(r, x) > same && distance(on_axis(r.motion, x), x) <= most) x = on_axis(r.motion, x);
   }
-  for (const Round& r : rounds)
+  for (const PairFollower& r : rounds)
     if (const double d = off(r, vertex_xyz_[r.leader]); d > same) fail_round(fmt::format("vertex {}", r.leader + 1), d);
   for (VertexId v = 0; v < t.n_vertices(); ++v)
     if (vertices_[v].leader != kNone) vertex_xyz_[v] = vertices_[v].motion(vertex_xyz_[vertices_[v].leader]);
-  for (const Round& r : rounds_of(edges, edges_)) {
+  for (const PairFollower& r : rounds_of(edges, edges_)) {
     const auto curve = model.curve(r.leader);
     const Vec3 x = curve->point(0.5 * (curve->t_min() + curve->t_max()));
     if (r.is_opposed || distance(on_axis(r.motion, x), x) > most) fail_round(t.edge_label(r.leader), off(r, x));

@@ -170,9 +170,9 @@ class StripMerger {
 
   /// Those of one face, all of them or none. `narrow` [by face] all strips that might be closed.
   bool may_close(std::span<const Strip> strips, const std::vector<Strip>& narrow) {
-    FacePair last = {kNone, kNone};
+    Sides last = {kNone, kNone};
     for (const Strip& strip : strips) {
-      const FacePair own = sides(strip);
+      const Sides own = sides(strip);
       if (own == last || !is_free(strip, narrow)) return false;
       last = own;
     }
@@ -181,10 +181,10 @@ class StripMerger {
   }
 
  private:
-  using FacePair = std::pair<FaceId, FaceId>;
-  using Contact = std::pair<VertexId, FacePair>;  // two faces that share an edge that ends here
+  using Sides = std::pair<FaceId, FaceId>;     // the faces along both edges of a strip
+  using Contact = std::pair<VertexId, Sides>;  // two faces that share an edge that ends here
 
-  FacePair sides(const Strip& strip) const {
+  Sides sides(const Strip& strip) const {
     return {faces_at_.beyond(strip.edges[0], strip.face), faces_at_.beyond(strip.edges[1], strip.face)};
   }
 
@@ -210,7 +210,7 @@ class StripMerger {
     }
   }
 
-  Contact contact(EdgeId e, int k, FacePair f) {
+  Contact contact(EdgeId e, int k, Sides f) {
     return {sets_.find(t_.edge_vertices[2 * e + k]), {std::min(f.first, f.second), std::max(f.first, f.second)}};
   }
 
