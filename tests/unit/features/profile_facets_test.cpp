@@ -157,7 +157,7 @@ TEST(ProfileFacets, go_on_where_another_cut_ends) {
   facets.add_along(c.edges, SerialExecutor());
   const ProfileCutter cutter(facets.facets());
   EXPECT_TRUE(cutter.ends_of({10, 0, 15}, {0, 0, 1}, kLimits.reach).empty());
-  const std::vector<CutEnd> ends = cutter.ends_of({10, 0, 15}, normalized(Vec3{0.02, 1, 0}), kLimits.reach);  // along
+  const std::vector<CutPlace> ends = cutter.ends_of({10, 0, 15}, normalized(Vec3{0.02, 1, 0}), kLimits.reach);  // along
                                                                                                               // the
                                                                                                               // span
   ASSERT_FALSE(ends.empty());

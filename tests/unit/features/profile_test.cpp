@@ -107,9 +107,9 @@ TEST(Profile, ends_where_the_next_face_has_no_facets) {
   ASSERT_TRUE(profile);
   wanted[static_cast<std::size_t>(profile->faces[0])] = 0;
   const Facets some = make_facets(model, wanted, {.deflection = 0.01});
-  const std::vector<CutEnd> ends = ProfileCutter(some).ends_of({10, 0, 15}, {0, 0, 1}, 0.02);
+  const std::vector<CutPlace> ends = ProfileCutter(some).ends_of({10, 0, 15}, {0, 0, 1}, 0.02);
   ASSERT_EQ(ends.size(), 2u) << "at the trailing edge and at the nose";
-  for (const CutEnd& end : ends) {
+  for (const CutPlace& end : ends) {
     EXPECT_EQ(end.face, profile->faces[1]);
     EXPECT_NEAR(std::abs(end.x.x - 5), 5, 0.01);
     EXPECT_NEAR(end.x.z, 15, 1e-9);

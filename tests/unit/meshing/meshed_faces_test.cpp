@@ -34,7 +34,7 @@ TEST(MeshedFaces, find_a_triangle_that_is_turned_over_in_a_face_under_suspicion)
   MeshedFaces& faces = put.faces;
   FaceOutcome outcome;
   outcome.n_folds = 1;
-  outcome.fold_places = {{put.meshed.model.tables().face_box[2].center(), 1, 0}};
+  outcome.wanted = {{put.meshed.model.tables().face_box[2].center(), 1, 0}};
   faces.set(2, faces.place(2), outcome);
   FacePatch turned = put.meshed.result.patches[2];
   std::swap(turned.triangles[0].n[0], turned.triangles[0].n[1]);
