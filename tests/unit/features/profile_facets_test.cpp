@@ -158,8 +158,8 @@ TEST(ProfileFacets, go_on_where_another_cut_ends) {
   const ProfileCutter cutter(facets.facets());
   EXPECT_TRUE(cutter.ends_of({10, 0, 15}, {0, 0, 1}, kLimits.reach).empty());
   const std::vector<CutPlace> ends = cutter.ends_of({10, 0, 15}, normalized(Vec3{0.02, 1, 0}), kLimits.reach);  // along
-                                                                                                              // the
-                                                                                                              // span
+                                                                                                                // the
+                                                                                                                // span
   ASSERT_FALSE(ends.empty());
   EXPECT_TRUE(facets.add_beyond(ends, SerialExecutor()));
   EXPECT_EQ(faces_with(facets.facets()).size(), 4u) << "the tips, too";
