@@ -380,8 +380,7 @@ StageSummary run_report(const ReportStageOptions& o) {
                                                         : files.geometry;
   std::optional<TemporaryFile> merged;
   if (files.mesh.empty() && !files.patches.empty()) {
-    merged.emplace(o.output + ".mesh");
-    files.mesh = merged->name();
+    files.mesh = merged.emplace(o.output + ".mesh").name();
     files.is_merged_here = true;
     merge_what_there_is(files.patches, files.mesh);
   }

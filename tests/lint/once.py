@@ -48,7 +48,7 @@ NEVER = [
     ("faces at edges by offsets", r"(?:\.|->)edge_faces\((?!offsets_, faces_\))", "use EdgeFaces"),
     ("tasks without the names of their fields", r"\brun_named_tasks\(\s*\{\s*[^.\s]", "write {.order = ...}"),
 ]
-LONG, MOST_LONG = 400, 11
+LONG, MOST_LONG = 400, 10
 LARGE, MOST_LARGE = 15, 8
 
 

@@ -25,8 +25,7 @@
 namespace st::occt {
 namespace {
 
-constexpr double kSameVolume = 1e-5;  // relative, of all solids
-constexpr double kCpuSeconds = 60;    // for one attempt
+constexpr double kCpuSeconds = 60;  // for one attempt
 constexpr int kAttempts = 3;
 
 /// Solids that have common edges with others in the file, or are instances of one, are not joined alone.
