@@ -11,7 +11,7 @@
 
 namespace st {
 
-/// Tells of one edge after the other, or of different ones at the same time. Local.
+/// Tells of one edge after the other, or of several at the same time. Local.
 class SmoothEdges {
  public:
   /// `model` outlives it.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <span>
@@ -12,6 +13,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text.h"
+#include "base/threads.h"
 #include "features/ridge_edges.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
@@ -80,13 +82,17 @@ class HarmFinder {
     for (FaceId f = 0; f < t_.n_faces(); ++f)
       for (const CoedgeId c : t_.coedges(f)) uses_.emplace_back(t_.coedge_edge[c], std::pair(f, c));
     std::ranges::sort(uses_);
-    for (FaceId f = 0; f < t_.n_faces(); ++f)
-      if (std::ranges::any_of(t_.edges_of(f), [&](EdgeId e) { return is_inside_[e] != 0; })) judge(f);
+    parallel_for(static_cast<std::size_t>(t_.n_faces()), kFacesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (auto f = static_cast<FaceId>(begin); f < static_cast<FaceId>(end); ++f)
+        if (std::ranges::any_of(t_.edges_of(f), [&](EdgeId e) { return is_inside_[e] != 0; })) judge(f);
+    });
   }
   /// [n_edges] above 0 where an edge may be joined and does harm.
   std::vector<double> take() { return std::move(harm_); }
 
  private:
+  static constexpr std::size_t kFacesPerPiece = 8;
+
   void judge(FaceId f) {
     for (const LoopId l : t_.loops(f)) {
       const IdRange loop = t_.loop_coedges(l);
@@ -99,6 +105,11 @@ class HarmFinder {
         judge_width(f, c);
       }
     }
+  }
+
+  /// Whole numbers: the sum does not depend on their order.
+  void add_harm(EdgeId e, double harm) {
+    if (harm > 0) std::atomic_ref(harm_[e]).fetch_add(harm, std::memory_order_relaxed);
   }
 
   bool may_join(EdgeId e) { return is_inside_[e] && is_smooth_(e); }
@@ -120,21 +131,23 @@ class HarmFinder {
     const EdgeId a = t_.coedge_edge[c], b = t_.coedge_edge[next];
     if (a == b || (!is_inside_[a] && !is_inside_[b])) return;
     if (angle_between(direction(c, true), direction(next, false)) < kSharpCorner)
-      for (const EdgeId e : {a, b}) harm_[e] += may_join(e) ? 1 : 0;
+      for (const EdgeId e : {a, b}) add_harm(e, may_join(e) ? 1 : 0);
     for (const auto& [own, other] : {std::pair{a, b}, std::pair{b, a}})
-      harm_[own] += is_short(t_.edge_length[other], own) ? 1 : 0;
+      add_harm(own, is_short(t_.edge_length[other], own) ? 1 : 0);
   }
 
   /// Beyond an edge across a narrow face it is as narrow.
   void judge_width(FaceId f, CoedgeId c) {
     const EdgeId e = t_.coedge_edge[c];
-    if (t_.edge_length[e] > kAcross * t_.face_width[f] && is_short(t_.face_width[f], e)) harm_[e] += 2;
+    if (t_.edge_length[e] > kAcross * t_.face_width[f] && is_short(t_.face_width[f], e)) add_harm(e, 2);
   }
 
   /// What st-raster would ask for at an edge by default, about.
   double length_at(EdgeId e) {
-    if (length_[e] > 0) return length_[e];
-    double length = longest_;
+    const std::atomic_ref known(length_[e]);  // two threads may measure one edge: they find the same
+    double length = known.load(std::memory_order_relaxed);
+    if (length > 0) return length;
+    length = longest_;
     constexpr int kPlaces = 3;
     const auto [first, last] = std::equal_range(uses_.begin(), uses_.end(), std::pair(e, std::pair(0, 0)),
                                                 [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -151,7 +164,8 @@ class HarmFinder {
         if (k > 0) length = std::min(length, 2 * std::sin(0.5 * radians(RasterStageOptions().alpha_deg)) / k);
       }
     }
-    return length_[e] = length;
+    known.store(length, std::memory_order_relaxed);
+    return length;
   }
 
   const Model& cad_;
@@ -171,9 +185,13 @@ void keep_smooth(const ModelTables& t, JoinRequest& request, SmoothEdges& is_smo
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (request.may_join[e] && request.urgency[e] > 0)
       for (const FaceId f : faces_at[e]) is_wanted[f] = 1;
-  for (EdgeId e = 0; e < t.n_edges(); ++e)
-    request.may_join[e] = request.may_join[e] &&
-                          std::ranges::all_of(faces_at[e], [&](FaceId f) { return is_wanted[f] != 0; }) && is_smooth(e);
+  constexpr std::size_t kEdgesPerPiece = 16;
+  parallel_for(request.may_join.size(), kEdgesPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (auto e = static_cast<EdgeId>(begin); e < static_cast<EdgeId>(end); ++e)
+      request.may_join[e] = request.may_join[e] &&
+                            std::ranges::all_of(faces_at[e], [&](FaceId f) { return is_wanted[f] != 0; }) &&
+                            is_smooth(e);
+  });
 }
 
 /// Narrow faces between edges that stay are apart: their widths ask for lengths, and those of a composite would not.

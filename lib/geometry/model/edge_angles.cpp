@@ -1,6 +1,7 @@
 #include "geometry/model/edge_angles.h"
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 
 #include "geometry/shape/surface.h"
@@ -40,9 +41,10 @@ EdgeAngles::EdgeAngles(const Model& model, double most_deg)
 }
 
 double EdgeAngles::largest_deg(EdgeId e) {
-  double& known = largest_[e];
-  if (known < 0) known = measure(e);
-  return known;
+  const std::atomic_ref known(largest_[e]);  // two threads may measure one edge: they find the same
+  double largest = known.load(std::memory_order_relaxed);
+  if (largest < 0) known.store(largest = measure(e), std::memory_order_relaxed);
+  return largest;
 }
 
 double EdgeAngles::measure(EdgeId e) const {

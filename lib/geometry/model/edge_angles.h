@@ -19,7 +19,7 @@ class EdgeAngles {
   explicit EdgeAngles(const Model& model, double most_deg = 180);
   /// Largest angle between the normals on both sides at nine places along it, degrees in [0, 180]; 180 where not
   /// exactly two coedges use the edge, it is degenerate, or a normal is missing at a place. Cost: up to 18 evaluations,
-  /// at the first call for each edge. For different edges at the same time.
+  /// at the first call for each edge. For any thread.
   double largest_deg(EdgeId e);
 
  private:
