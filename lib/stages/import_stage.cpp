@@ -14,6 +14,8 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "features/wing_edges.h"
+#include "geometry/facet/facet_repair.h"
+#include "geometry/facet/split_sides.h"
 #include "geometry/import/facet_import.h"
 #include "geometry/import/import.h"
 #include "geometry/model/joined_tables.h"
@@ -394,9 +396,18 @@ std::vector<std::int32_t> previous_faces(const std::vector<std::int32_t>& file_f
   return is_other ? previous : std::vector<std::int32_t>();
 }
 
-/// Where facets cross each other no size makes the mesh valid.
-void report_crossing(const std::string& path, const SurfaceMesh& mesh, const std::vector<TrianglePair>& pairs,
-                     bool was_ended, ImportResult& r) {
+/// Where facets cross each other no size makes the mesh valid. Those that end on a side of another one do not.
+void report_crossing(const std::string& path, const SurfaceMesh& mesh, std::vector<TrianglePair> pairs, bool was_ended,
+                     ImportResult& r) {
+  Box3 box;
+  for (const Vec3 x : mesh.node_xyz) box.add(x);
+  const auto corners = [&](TriangleId t) -> Corners {
+    const auto& n = mesh.triangles[t].n;
+    return {n[0], n[1], n[2]};
+  };
+  std::erase_if(pairs, [&](const TrianglePair& p) {
+    return ends_on_side(mesh.node_xyz, corners(p.a), corners(p.b), kFacetGap * box.diagonal());
+  });
   if (pairs.empty()) return;
   const Vec3 x = mesh.node_xyz[mesh.triangles[pairs[0].a].n[0]];
   const std::string n_pairs = fmt::format("{}{} pairs", pairs.size(), was_ended ? " or more" : "");
@@ -418,7 +429,7 @@ ImportResult import_triangles(const std::string& path, const ImportOptions& opti
   bool was_ended = false;
   run_jobs({[&] { r = import_facets(std::move(facets), options, path); },
             [&] { pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended); }});
-  report_crossing(path, mesh, pairs, was_ended, r);
+  report_crossing(path, mesh, std::move(pairs), was_ended, r);
   return r;
 }
 

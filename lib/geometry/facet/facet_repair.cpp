@@ -12,6 +12,7 @@
 #include "geometry/facet/facet_flaps.h"
 #include "geometry/facet/facets_of_nodes.h"
 #include "geometry/facet/short_sides.h"
+#include "geometry/facet/split_sides.h"
 
 namespace st {
 namespace {
@@ -21,7 +22,6 @@ constexpr double kCapOff = 5e-5;     // of the diagonal: what turning a side may
 constexpr double kAtCorner = 0.5;    // cosine between facets that lie on one surface, at least
 constexpr double kNoNormal = 1e-3;   // height over longest side: below, the normal is rounding
 constexpr int kCapPasses = 12;       // over all facets: caps may lie on caps
-constexpr double kGap = 1e-6;        // of the diagonal: single precision, and the rounding of decimals in text
 
 /// Numbers of elements by their keys, below n_keys; those of one key ascend.
 std::vector<std::int32_t> ordered_by_key(const std::vector<std::int32_t>& key, std::size_t n_keys,
@@ -75,6 +75,7 @@ class FacetRepair {
   std::vector<ImportFinding> run() {
     drop_duplicates();
     if (join_free_nodes()) drop_duplicates();
+    if (has_free_sides_) divide_at_nodes();
     join_short_sides();
     drop_unused_nodes();
     if (!has_area()) throw Error(ExitCode::kGeometry, "no facet has an area; export the model again");
@@ -131,7 +132,7 @@ class FacetRepair {
   bool join_free_nodes() {
     std::vector<std::uint8_t> is_free(in_.x.size(), 0);
     for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](const FacetSide* s, std::size_t n) {
-      if (n == 1) is_free[s->low] = is_free[s->high] = 1;
+      if (n == 1) is_free[s->low] = is_free[s->high] = 1, has_free_sides_ = true;
     });
     std::vector<std::int32_t> order, one(in_.x.size());
     std::iota(one.begin(), one.end(), 0);
@@ -139,7 +140,7 @@ class FacetRepair {
       if (is_free[n]) order.push_back(n);
     std::stable_sort(order.begin(), order.end(),
                      [&](std::int32_t a, std::int32_t b) { return in_.x[a].x < in_.x[b].x; });
-    const double gap = kGap * box_.diagonal();
+    const double gap = kFacetGap * box_.diagonal();
     std::size_t n_joined = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
       if (one[order[i]] != order[i]) continue;
@@ -157,9 +158,18 @@ class FacetRepair {
     return true;
   }
 
+  /// Where facets end on a side of another one.
+  void divide_at_nodes() {
+    const std::size_t n_before = in_.corners.size();
+    const std::size_t n = split_sides_at_nodes(in_, kFacetGap * box_.diagonal());
+    if (n == 0) return;
+    findings_.push_back({FindingKind::kOther, "", in_.x[in_.corners[n_before][1]], 0, true,
+                         fmt::format("facets with nodes of others on a side, divided there: {}", n)});
+  }
+
   /// As convex hulls have them: nodes that are one but for rounding, with needles between.
   void join_short_sides() {
-    const std::size_t n = join_ends_of_short_sides(in_, kGap * box_.diagonal());
+    const std::size_t n = join_ends_of_short_sides(in_, kFacetGap * box_.diagonal());
     if (n == 0) return;
     findings_.push_back({FindingKind::kOther, "", in_.x[in_.corners.empty() ? 0 : in_.corners[0][0]], 0, true,
                          fmt::format("sides of facets that are points but for rounding, removed: {}", n)});
@@ -369,6 +379,7 @@ class FacetRepair {
   std::vector<std::array<Link, 3>> links_;  // of each facet, those without another one last
   std::vector<std::uint8_t> is_open_;       // has a side that not exactly two facets have
   FacetsOfNodes facets_;                    // when a pass began
+  bool has_free_sides_ = false;             // before any nodes were joined
   Vec3 place_;
 };
 
