@@ -732,6 +732,7 @@ const std::map<std::string, Factory>& factories() {
       {"spindle_with_fin", [] { return with_fin(spindle(), -0.4); }},
       {"spindle_with_fin_beside", [] { return with_fin(spindle(), 0.4); }},
       {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},
+      {"lemon_with_fin_beside", [] { return with_fin(lemon(), 0.4); }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"ball_with_bore", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(10), bore_along_x(2)).Shape(); }},
       {"ring_with_ball",

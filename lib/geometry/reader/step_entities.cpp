@@ -1,8 +1,5 @@
 #include "geometry/reader/step_entities.h"
 
-#include <BRepBuilderAPI_Copy.hxx>
-#include <BRep_Tool.hxx>
-#include <Geom_ElementarySurface.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
@@ -14,11 +11,6 @@
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_OrientedEdge.hxx>
 #include <TCollection_HAsciiString.hxx>
-#include <TopExp.hxx>
-#include <TopExp_Explorer.hxx>
-#include <TopoDS.hxx>
-#include <TopoDS_Edge.hxx>
-#include <TopoDS_Face.hxx>
 #include <TransferBRep.hxx>
 #include <XSAlgo.hxx>
 #include <XSAlgo_AlgoContainer.hxx>
@@ -30,6 +22,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "geometry/import/meridians.h"
 #include "geometry/import/swapped_seams.h"
 #include "geometry/import/vertex_loops.h"
 
@@ -53,40 +46,19 @@ bool has_seam(const StepShape_FaceSurface& face) {
   return false;
 }
 
-/// Of spheres and tori mend_wrong_sides() brings back what healing loses.
-bool is_elementary(const TopoDS_Face& face) {
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
-  return surface.IsNull() || surface->IsKind(STANDARD_TYPE(Geom_ElementarySurface));
-}
-
-int count_seams(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces, seams;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const TopoDS_Face face = TopoDS::Face(faces(f));
-    for (TopExp_Explorer e(face, TopAbs_EDGE); e.More() && !is_elementary(face); e.Next())
-      if (BRep_Tool::IsClosed(TopoDS::Edge(e.Current()), face)) seams.Add(e.Current());
-  }
-  return seams.Extent();
-}
-
-/// OpenCASCADE's healing of what its readers make, once outer loops and seams are right. Where it loses a seam all the
-/// same, the shape stays as it was read: st-import's own repairs do without.
+/// OpenCASCADE's healing of what its readers make, once outer loops and seams are right.
 class HealingOfLoops : public XSAlgo_AlgoContainer {
  public:
   TopoDS_Shape ProcessShape(const TopoDS_Shape& shape, Standard_Real precision, Standard_Real tolerance,
                             Standard_CString resource, Standard_CString sequence, Handle(Standard_Transient) & info,
                             const Message_ProgressRange& progress, Standard_Boolean is_non_manifold) const override {
-    const bool is_step = std::string(sequence) == "read.step.sequence";
-    if (is_step) bound_whole_surfaces(shape);
-    const bool may_be_lost = is_step && swap_seams(shape) > 0;
-    TopoDS_Shape as_read;
-    if (may_be_lost) as_read = BRepBuilderAPI_Copy(shape, false).Shape();
-    const TopoDS_Shape healed = XSAlgo_AlgoContainer::ProcessShape(shape, precision, tolerance, resource, sequence,
-                                                                   info, progress, is_non_manifold);
-    if (!may_be_lost || count_seams(healed) >= count_seams(as_read)) return healed;
-    info.Nullify();  // what became of which entity: names of its faces are lost
-    return as_read;
+    if (std::string(sequence) == "read.step.sequence") {
+      trim_meridians(shape);
+      bound_whole_surfaces(shape);
+      swap_seams(shape);
+    }
+    return XSAlgo_AlgoContainer::ProcessShape(shape, precision, tolerance, resource, sequence, info, progress,
+                                              is_non_manifold);
   }
 };
 

@@ -74,7 +74,6 @@ TEST(SwappedSeams, others_stay) {
     EXPECT_EQ(occt::swap_seams(shape_of(name)), 0) << name;
 }
 
-/// Of a lemon OpenCASCADE's healing loses a seam all the same.
 class BodiesWithFins : public testing::TestWithParam<const char*> {};
 
 TEST_P(BodiesWithFins, are_whole_in_step_files) {

@@ -14,10 +14,12 @@
 namespace st {
 namespace {
 
-TEST(VertexLoops, a_hole_leaves_the_body_whole) {
+class BodiesWithHoles : public testing::TestWithParam<const char*> {};
+
+TEST_P(BodiesWithHoles, are_whole_in_step_files) {
   const TemporaryDirectory dir;
-  test::write_brep("spindle_with_fin_beside", dir / "a.brep");
-  test::write_step("spindle_with_fin_beside", dir / "a.step", "MM");
+  test::write_brep(GetParam(), dir / "a.brep");
+  test::write_step(GetParam(), dir / "a.step", "MM");
   std::ostringstream text;
   text << std::ifstream(dir / "a.step").rdbuf();
   EXPECT_NE(text.str().find("VERTEX_LOOP"), std::string::npos);
@@ -26,6 +28,9 @@ TEST(VertexLoops, a_hole_leaves_the_body_whole) {
   EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area);
   EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
 }
+
+INSTANTIATE_TEST_SUITE_P(, BodiesWithHoles, testing::Values("spindle_with_fin_beside", "lemon_with_fin_beside"),
+                         [](const auto& info) { return std::string(info.param); });
 
 TEST(VertexLoops, other_faces_stay) {
   for (const char* name : {"sphere", "torus", "cylinder", "cone", "two_balls", "ball_with_socket", "spindle_with_fin",

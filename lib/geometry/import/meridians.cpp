@@ -1,0 +1,144 @@
+#include "geometry/import/meridians.h"
+
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_SurfaceOfRevolution.hxx>
+#include <Geom_TrimmedCurve.hxx>
+#include <Precision.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace st::occt {
+namespace {
+
+constexpr int kPieces = 64;  // of a meridian, at most one crossing of the axis each
+using Range = std::pair<double, double>;
+
+/// Distance of a meridian from the axis, negative beyond it.
+class Distance {
+ public:
+  explicit Distance(const Geom_SurfaceOfRevolution& surface) : curve_(surface.BasisCurve()), axis_(surface.Axis()) {
+    double furthest = 0;
+    for (int k = 0; k <= kPieces; ++k) {
+      const gp_Vec off = off_axis(at(k));
+      if (off.Magnitude() <= furthest) continue;
+      furthest = off.Magnitude();
+      side_ = off.Normalized();
+    }
+  }
+  double at(int piece) const {
+    const double t0 = curve_->FirstParameter(), t1 = curve_->LastParameter();
+    return piece == kPieces ? t1 : t0 + piece * (t1 - t0) / kPieces;
+  }
+  double operator()(double t) const { return off_axis(t).Dot(side_); }
+  /// Whether the curve lies in a plane with the axis.
+  bool is_flat() const {
+    for (int k = 0; k <= kPieces; ++k)
+      if (off_axis(at(k)).Crossed(side_).Magnitude() > Precision::Confusion()) return false;
+    return true;
+  }
+
+ private:
+  gp_Vec off_axis(double t) const {
+    const gp_Vec to(axis_.Location(), curve_->Value(t));
+    return to - to.Dot(axis_.Direction()) * gp_Vec(axis_.Direction());
+  }
+
+  Handle(Geom_Curve) curve_;
+  gp_Ax1 axis_;
+  gp_Vec side_{1, 0, 0};
+};
+
+double root(const Distance& distance, double a, double b) {
+  const bool is_beyond = distance(a) < 0;
+  for (int k = 0; k < 100; ++k) {
+    const double middle = 0.5 * (a + b);
+    ((distance(middle) < 0) == is_beyond ? a : b) = middle;
+  }
+  return 0.5 * (a + b);
+}
+
+/// Where the meridian meets the axis, ascending.
+std::vector<double> tips_of(const Distance& distance) {
+  constexpr double kOnAxis = 1e-9;  // model unit: rounding
+  std::vector<double> tips;
+  for (int k = 0; k <= kPieces; ++k) {
+    const double t = distance.at(k), d = distance(t);
+    if (std::abs(d) < kOnAxis)
+      tips.push_back(t);
+    else if (k > 0 && std::abs(distance(distance.at(k - 1))) >= kOnAxis &&
+             (distance(distance.at(k - 1)) < 0) != (d < 0))
+      tips.push_back(root(distance, distance.at(k - 1), t));
+  }
+  return tips;
+}
+
+/// The tips between which a range lies, if the meridian goes on beyond one of them.
+std::optional<Range> tips_around(const Geom_SurfaceOfRevolution& surface, Range range) {
+  const Handle(Geom_Curve) curve = surface.BasisCurve();
+  const double t0 = curve->FirstParameter(), t1 = curve->LastParameter(), margin = 1e-6 * (t1 - t0);
+  if (Precision::IsInfinite(t0) || Precision::IsInfinite(t1)) return std::nullopt;
+  const Distance distance(surface);
+  if (!distance.is_flat()) return std::nullopt;
+  const std::vector<double> tips = tips_of(distance);
+  for (std::size_t k = 0; k + 1 < tips.size(); ++k)
+    if (tips[k] < range.first + margin && range.second < tips[k + 1] + margin)
+      return tips[k] > t0 + margin || tips[k + 1] < t1 - margin ? std::optional(Range{tips[k], tips[k + 1]})
+                                                                : std::nullopt;
+  return std::nullopt;
+}
+
+/// Adds where the edges of a face are on its surface; false where that is not known.
+bool extend(Range& range, const TopoDS_Face& face) {
+  constexpr int kPlaces = 8;
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+    if (BRep_Tool::Degenerated(edge)) continue;
+    double t0, t1;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+    if (curve.IsNull()) return false;
+    for (int k = 0; k <= kPlaces; ++k) {
+      const double v = curve->Value(t0 + k * (t1 - t0) / kPlaces).Y();
+      range = {std::min(range.first, v), std::max(range.second, v)};
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+int trim_meridians(const TopoDS_Shape& shape) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  std::map<Geom_SurfaceOfRevolution*, std::optional<Range>> ranges;  // of the faces on each; nullopt: unknown
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const TopoDS_Face face = TopoDS::Face(faces(f));
+    TopLoc_Location location;
+    const auto surface = Handle(Geom_SurfaceOfRevolution)::DownCast(BRep_Tool::Surface(face, location));
+    if (surface.IsNull()) continue;
+    std::optional<Range>& range = ranges.emplace(surface.get(), Range{1e300, -1e300}).first->second;
+    if (range && !extend(*range, face)) range.reset();
+  }
+  int n = 0;
+  for (const auto& [surface, range] : ranges) {
+    if (!range || range->first > range->second) continue;
+    const std::optional<Range> tips = tips_around(*surface, *range);
+    if (!tips) continue;
+    surface->SetBasisCurve(new Geom_TrimmedCurve(surface->BasisCurve(), tips->first, tips->second));
+    ++n;
+  }
+  return n;
+}
+
+}  // namespace st::occt
