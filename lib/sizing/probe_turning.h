@@ -14,14 +14,9 @@ namespace st {
 
 struct CurvatureProbe {
   Vec3 x;
-  Vec3 normal;                  // unit; zero at a singular point
-  double curvature = 0;         // largest absolute principal curvature; zero at a singular point
-  std::int32_t member = kNone;  // of a composite surface: on which of its faces
+  Vec3 normal;           // unit; zero at a singular point
+  double curvature = 0;  // largest absolute principal curvature; zero at a singular point
 };
-
-inline bool is_straddling(const Patch<CurvatureProbe>& patch) {
-  return std::ranges::any_of(patch.probe, [&](const CurvatureProbe& p) { return p.member != patch.probe[0].member; });
-}
 
 /// Pairs of a patch's probes: neighbours along rows, columns and both diagonals. Two that follow each other lie beside
 /// each other.
@@ -71,7 +66,6 @@ struct PairTurning {
     if (patch.n_inside < 9)
       for (std::size_t i = 0; i < n; ++i)
         if (!patch.is_inside[kPairs.first[i]] || !patch.is_inside[kPairs.second[i]]) angle[i] = rate[i] = 0;
-    if (is_straddling(patch)) leave_out_kinks(patch);
   }
   static double largest_at(std::size_t probe, const std::array<double, n>& of_pairs) {
     double largest = 0;
@@ -81,12 +75,6 @@ struct PairTurning {
   }
 
  private:
-  /// Where two members of a composite meet, the surface may turn by a small angle over no distance.
-  void leave_out_kinks(const Patch<CurvatureProbe>& patch) {
-    for (std::size_t i = 0; i < n; ++i)
-      if (patch.probe[kPairs.first[i]].member != patch.probe[kPairs.second[i]].member) angle[i] = rate[i] = 0;
-  }
-
   static constexpr double kSmall2 = 0.01;  // up to there the next term of the series is below rounding
 
   /// Squared distances between what `of` gives for both probes of each pair.

@@ -7,6 +7,7 @@
 
 #include "base/assert.h"
 #include "base/ids.h"
+#include "geometry/shape/bspline.h"
 #include "geometry/shape/composite_surface.h"
 #include "sizing/cell_limit.h"
 #include "sizing/line_stretch.h"
@@ -38,7 +39,6 @@ class FaceRaster {
   FaceRaster(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
              std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches, const ChordLimit* chord)
       : surface_(surface),
-        composite_(dynamic_cast<const CompositeSurface*>(&surface)),
         loops_(loops),
         limits_(limits),
         cause_(cause),
@@ -69,20 +69,13 @@ class FaceRaster {
 
   CurvatureProbe probe(Vec2 uv) {
     ++report_.n_evaluations;
-    if (!composite_) return probe_of(surface_.evaluate2(uv));
-    const CompositeSurface::MemberPlace at = composite_->place(uv);
-    CurvatureProbe probe = probe_of(composite_->evaluate2(at));
-    probe.member = at.member;
-    return probe;
-  }
-
-  CurvatureProbe probe_of(const SurfacePoint2& p) const {
+    const SurfacePoint2 p = surface_.evaluate2(uv);
     const Vec3 n = cross(p.du, p.dv);
     const double du2 = norm2(p.du), dv2 = norm2(p.dv), n2 = norm2(n);
     const double lu2 = du2 * range_u_ * range_u_, lv2 = dv2 * range_v_ * range_v_;
     if (!(n2 > kSingular2 * du2 * dv2) || lu2 < kCollapsed * kCollapsed * lv2 || lv2 < kCollapsed * kCollapsed * lu2)
-      return {p.x, {}, 0, kNone};
-    return {p.x, n / std::sqrt(n2), std::abs(principal_curvature(p).k1), kNone};
+      return {p.x, {}, 0};
+    return {p.x, n / std::sqrt(n2), std::abs(principal_curvature(p).k1)};
   }
 
   /// Never before its curvature is known: what is doubted there counts for its parts.
@@ -159,15 +152,6 @@ class FaceRaster {
     return std::max(length, limits_.min_length);
   }
 
-  /// Whether all neighbours of a probe are on the same member: otherwise its own curvature is believed.
-  static bool may_be_confirmed(const CurvaturePatch& patch, std::size_t probe) {
-    for (std::size_t i = 0; i < kPairs.n_of_probe[probe]; ++i) {
-      const std::size_t pair = kPairs.of_probe[probe][i];
-      if (patch.probe[kPairs.first[pair]].member != patch.probe[kPairs.second[pair]].member) return false;
-    }
-    return true;
-  }
-
   /// Largest curvature that the probes inside the loops show: the larger of curvature at a point and angle per distance
   /// between neighbours.
   double patch_curvature(const CurvaturePatch& patch, bool& is_doubtful) const {
@@ -179,8 +163,7 @@ class FaceRaster {
       double own = patch.probe[k].curvature;
       if (is_free_ && own * limits_.max_length > limits_.alpha) {
         const double confirmed = kConfirmed * PairTurning::largest_at(k, pairs.rate);
-        if (own > confirmed && PairTurning::largest_at(k, pairs.angle) < 0.5 * limits_.alpha &&
-            may_be_confirmed(patch, k)) {
+        if (own > confirmed && PairTurning::largest_at(k, pairs.angle) < 0.5 * limits_.alpha) {
           is_doubtful = true;
           own = confirmed;
         }
@@ -246,9 +229,7 @@ class FaceRaster {
     for (std::size_t i = 0; i < ProbePairs::n; ++i) {
       const std::size_t a = kPairs.first[i], b = kPairs.second[i];
       const CurvatureProbe &pa = patch.probe[a], &pb = patch.probe[b];
-      if (!patch.is_inside[a] || !patch.is_inside[b] || pa.normal == Vec3{} || pb.normal == Vec3{} ||
-          pa.member != pb.member)
-        continue;
+      if (!patch.is_inside[a] || !patch.is_inside[b] || pa.normal == Vec3{} || pb.normal == Vec3{}) continue;
       const Vec3 d = pb.x - pa.x;
       const double along = std::abs(dot(d, direction));
       if (along > kAligned * norm(d))
@@ -301,7 +282,6 @@ class FaceRaster {
   }
 
   const Surface& surface_;
-  const CompositeSurface* const composite_;  // the surface, if it is one
   const LoopPolygons& loops_;
   const SamplingLimits& limits_;
   const std::int32_t cause_;
@@ -315,12 +295,34 @@ class FaceRaster {
 
 }  // namespace
 
+std::unique_ptr<Surface> whole_spline(const Surface& part) {
+  const auto* spline = dynamic_cast<const BsplineSurface*>(&part);
+  return spline ? spline->whole() : nullptr;
+}
+
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
                              std::int32_t cause, std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches,
                              const ChordLimit* chord) {
   ST_ASSERT(0 < limits.min_length && limits.min_length <= limits.max_length);
   ST_ASSERT(0 < limits.alpha && limits.alpha <= kPi / 2 && limits.cell_per_length >= 1);
-  return FaceRaster(surface, loops, limits, cause, boxes, patches, chord).run();
+  const auto* composite = dynamic_cast<const CompositeSurface*>(&surface);
+  if (!composite) return FaceRaster(surface, loops, limits, cause, boxes, patches, chord).run();
+  FaceRasterReport report;
+  for (std::int32_t i = 0; i < composite->n_members(); ++i) {
+    const std::size_t n_boxes = boxes.size(), n_patches = patches ? patches->size() : 0;
+    const LoopPolygons rim(composite->rim_of_member(i));
+    const std::unique_ptr<Surface> whole = whole_spline(composite->member(i));
+    const FaceRasterReport own =
+        FaceRaster(whole ? *whole : composite->member(i), rim, limits, cause, boxes, patches, chord).run();
+    report.area += own.area;
+    report.n_patches += own.n_patches;
+    report.n_evaluations += own.n_evaluations;
+    if (!composite->is_member_turned(i)) continue;
+    for (RasterBox& box : std::span(boxes).subspan(n_boxes)) box.normal = box.normal.reversed();
+    if (patches)
+      for (GapPatch& patch : std::span(*patches).subspan(n_patches)) patch.shape.flip();
+  }
+  return report;
 }
 
 }  // namespace st

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "geometry/shape/loop_polygons.h"
@@ -32,8 +33,14 @@ struct FaceRasterReport {
 /// apart; halving patches covers the surface by construction.) `patches`, where wanted, gets one patch per box whose
 /// middle is no singular point; normals are along du x dv. `chord`, where given, is a second largest length that
 /// depends on the place. Throws TooManyCells beyond max_samples boxes.
+///
+/// Of a composite surface each member is halved by itself, in its own (u,v), as whole_spline(); `loops` are not asked.
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
                              std::int32_t cause, std::vector<RasterBox>& boxes,
                              std::vector<GapPatch>* patches = nullptr, const ChordLimit* chord = nullptr);
+
+/// The spline that a face is a part of: patches of it are where they would be without the cut. nullptr where the
+/// surface is none, or goes beyond its knots.
+std::unique_ptr<Surface> whole_spline(const Surface& part);
 
 }  // namespace st

@@ -127,8 +127,11 @@ class RasterTasks {
     SamplingLimits own = *limits;
     if (strip && strip->is_one_edge()) own.min_length = own.max_length;  // how it bends across tells nothing either
     const auto surface = model_.surface(f);
-    raster_face(*surface, loops_[f].emplace(loop_polygons(model_, f, limits_)), own, pack_cause(CauseKind::kFace, f),
-                boxes, limits_.wants_gaps ? &patches : nullptr, chord ? &*chord : nullptr);
+    const bool has_joined_faces = &model_.cad() != &model_;  // so cuts of others say nothing either
+    const auto whole = has_joined_faces ? whole_spline(*surface) : nullptr;
+    raster_face(whole ? *whole : *surface, loops_[f].emplace(loop_polygons(model_, f, limits_)), own,
+                pack_cause(CauseKind::kFace, f), boxes, limits_.wants_gaps ? &patches : nullptr,
+                chord ? &*chord : nullptr);
     if (is_reversed)
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
     for (GapPatch& patch : patches) {

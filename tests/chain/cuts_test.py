@@ -25,6 +25,9 @@ class Cuts(unittest.TestCase):
     def test_hardly_change_a_machine_part(self):
         self.expect_alike("mech_occt_linkrods.step", 93, 2)
 
+    def test_hardly_change_a_wing(self):
+        self.expect_alike("aero_tigl_simplewing.brep", 99, 1)
+
     def test_do_not_make_a_far_field_finer(self):
         self.expect_alike("aero_onera_m6_sharpte.brep", 99, 1)
 

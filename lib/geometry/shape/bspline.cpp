@@ -169,6 +169,12 @@ std::unique_ptr<BsplineSurface> BsplineSurface::within(const Box2& bounds) const
   return std::unique_ptr<BsplineSurface>(new BsplineSurface(data_, n_v_, is_rational_, bounds));
 }
 
+std::unique_ptr<BsplineSurface> BsplineSurface::whole() const {
+  const std::vector<double>&u = u_.distinct_knots(), &v = v_.distinct_knots();
+  const bool is_within = u.front() <= u_min_ && u_max_ <= u.back() && v.front() <= v_min_ && v_max_ <= v.back();
+  return is_within ? within({{u.front(), v.front()}, {u.back(), v.back()}}) : nullptr;
+}
+
 BsplineSurface::BsplineSurface(std::shared_ptr<const Data> data, int n_v, bool is_rational, const Box2& bounds)
     : data_(std::move(data)),
       u_(data_->u),

@@ -109,6 +109,8 @@ class BsplineSurface : public Surface {
   std::unique_ptr<Surface> copy() const override;
   /// The same within other bounds.
   std::unique_ptr<BsplineSurface> within(const Box2& bounds) const;
+  /// Between the first knots and the last ones; nullptr where these bounds are not within, as beyond a period.
+  std::unique_ptr<BsplineSurface> whole() const;
   Vec3 point(Vec2 uv) const override;
   SurfacePoint evaluate(Vec2 uv) const override;
   SurfacePoint2 evaluate2(Vec2 uv) const override;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "base/assert.h"
@@ -25,12 +26,14 @@ struct CompositeSurface::Data {
       map.emplace_back(std::array{c.uv[n[0]], c.uv[n[1]], c.uv[n[2]]}, corner_uv[t], support.pole[t]);
       largest_stretch = std::max(largest_stretch, stretch(c, n));
     }
+    pole = std::move(support.pole);
     chart = std::make_unique<ChartSurface>(std::move(c));
   }
 
   std::unique_ptr<ChartSurface> chart;
   std::vector<std::array<Vec2, 3>> corner_uv;
   std::vector<std::int32_t> member;
+  std::vector<std::int32_t> pole;
   std::vector<MemberMap> map;
   double largest_stretch = 0;
 };
@@ -142,6 +145,51 @@ std::optional<Vec2> CompositeSurface::exact_foot(Vec3 p) const { return refined(
 
 std::optional<Vec2> CompositeSurface::foot_near(Vec3 p, Vec2 guess) const {
   return refined(p, data_->chart->foot_near(p, guess));
+}
+
+namespace {
+
+/// What a triangle covers of the (u,v) of its member, in order; at a pole all of the way between two meridians.
+std::vector<Vec2> outline(const std::array<Vec2, 3>& uv, std::int32_t pole) {
+  if (pole == kNone) return {uv.begin(), uv.end()};
+  const PoleCorner at = PoleCorner::of_code(pole);
+  const Vec2 tip = uv[at.corner], a = uv[(at.corner + 1) % 3], b = uv[(at.corner + 2) % 3];
+  const auto beside = [&](Vec2 x) { return at.is_along_v ? Vec2{tip.x, x.y} : Vec2{x.x, tip.y}; };
+  return {beside(a), a, b, beside(b)};
+}
+
+}  // namespace
+
+std::vector<LoopSide> CompositeSurface::rim_of_member(std::int32_t i) const {
+  std::vector<LoopSide> sides;  // from the lower to the higher end
+  const auto is_before = [](Vec2 a, Vec2 b) { return std::tie(a.x, a.y) < std::tie(b.x, b.y); };
+  for (std::size_t t = 0; t < data_->member.size(); ++t) {
+    if (data_->member[t] != i) continue;
+    const std::vector<Vec2> corner = outline(data_->corner_uv[t], data_->pole[t]);
+    for (std::size_t k = 0; k < corner.size(); ++k) {
+      const Vec2 a = corner[k], b = corner[(k + 1) % corner.size()];
+      sides.push_back(is_before(a, b) ? LoopSide{a, b} : LoopSide{b, a});
+    }
+  }
+  const auto ends = [](const LoopSide& s) { return std::tie(s.a.x, s.a.y, s.b.x, s.b.y); };
+  std::sort(sides.begin(), sides.end(), [&](const auto& s, const auto& r) { return ends(s) < ends(r); });
+  std::vector<LoopSide> rim;
+  for (std::size_t k = 0; k < sides.size(); ++k)
+    if (k + 1 < sides.size() && ends(sides[k]) == ends(sides[k + 1]))
+      ++k;  // between two triangles
+    else
+      rim.push_back(sides[k]);
+  return rim;
+}
+
+bool CompositeSurface::is_member_turned(std::int32_t i) const {
+  double area = 0;  // in (u,v)
+  for (std::size_t t = 0; t < data_->member.size(); ++t) {
+    if (data_->member[t] != i) continue;
+    const std::vector<Vec2> corner = outline(data_->corner_uv[t], data_->pole[t]);
+    for (std::size_t k = 2; k < corner.size(); ++k) area += cross(corner[k - 1] - corner[0], corner[k] - corner[0]);
+  }
+  return area < 0;
 }
 
 bool is_turned(Vec3 a, Vec3 b, Vec3 c, Vec3 normal) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/shape/chart_surface.h"
+#include "geometry/shape/loop_polygons.h"
 #include "geometry/shape/member_map.h"
 #include "geometry/shape/surface.h"
 
@@ -49,6 +50,12 @@ class CompositeSurface final : public Surface {
   double largest_stretch() const;
   /// evaluate2() at a place that place() gave.
   SurfacePoint2 evaluate2(const MemberPlace& at) const;
+  std::int32_t n_members() const { return static_cast<std::int32_t>(members_.size()); }
+  const Surface& member(std::int32_t i) const { return *members_[i]; }
+  /// Around what the chart has of member i, in the (u,v) of that.
+  std::vector<LoopSide> rim_of_member(std::int32_t i) const;
+  /// Whether its normal is opposite to that of the chart, which is outward.
+  bool is_member_turned(std::int32_t i) const;
 
  private:
   struct Data;

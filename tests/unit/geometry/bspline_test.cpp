@@ -179,6 +179,20 @@ TEST(BsplineCurve, copies_are_the_same_curve) {
   for (const double t : {0.3, 1.0, 1.6}) EXPECT_EQ(copy->evaluate(t).d1, curve.evaluate(t).d1);
 }
 
+TEST(BsplineSurface, is_part_of_a_whole_one) {
+  const std::vector<double> knots{0, 0, 2, 2};
+  const std::vector<Pole> poles{{{0, 0, 0, 1}}, {{0, 1, 0, 1}}, {{1, 0, 0, 1}}, {{1, 1, 0, 1}}};
+  const auto part = [&](double u_min, double u_max) {
+    return BsplineSurface(KnotSpans(1, knots, 0), KnotSpans(1, knots, 0), poles, 2, false, {u_min, u_max, 0.5, 1});
+  };
+  const auto whole = part(0.25, 2).whole();
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(whole->u_min() + whole->v_min(), 0);
+  EXPECT_EQ(whole->u_max() + whole->v_max(), 4);
+  EXPECT_EQ(whole->point({0.5, 1}), part(0.25, 2).point({0.5, 1}));
+  EXPECT_FALSE(part(-0.25, 2).whole()) << "beyond a period a spline has no whole";
+}
+
 TEST(BsplineSurface, copies_live_on_their_own) {
   auto surface = std::make_unique<BsplineSurface>(
       KnotSpans(1, {0, 0, 1, 1}, 0), KnotSpans(1, {0, 0, 1, 1}, 0),

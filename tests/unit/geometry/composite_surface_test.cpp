@@ -91,6 +91,37 @@ TEST(CompositeSurface, has_the_curvature_of_the_cad_whatever_its_chart) {
   }
 }
 
+TEST(CompositeSurface, knows_what_it_has_of_each_member) {
+  for (const char* shape : {"wing_of_200", "melon"}) {
+    const test::Joined joined(shape);
+    const Model& cad = joined.model.cad();
+    const auto members = joined.composites.members(0);
+    const auto made = joined.model.surface(members[0]);
+    const auto& surface = dynamic_cast<const CompositeSurface&>(*made);
+    ASSERT_EQ(surface.n_members(), static_cast<std::int32_t>(members.size()));
+    const Chart chart = joined.composites.chart(0);
+    for (std::int32_t i = 0; i < surface.n_members(); ++i) {
+      const LoopPolygons rim(surface.rim_of_member(i));
+      const FaceId own = members[static_cast<std::size_t>(i)];
+      EXPECT_EQ(surface.is_member_turned(i), cad.tables().face_is_reversed[own] != 0);
+      for (const Corners& c : chart.corners) {
+        const auto at = surface.place(1 / 3.0 * (chart.uv[c[0]] + chart.uv[c[1]] + chart.uv[c[2]]));
+        EXPECT_TRUE(at.member != i || rim.contains(at.uv)) << shape << " " << i;
+      }
+      double area = 0;  // of a grid's cells in the rim, in space
+      const Surface& m = surface.member(i);
+      constexpr int kCells = 100;
+      const Vec2 cell{(m.u_max() - m.u_min()) / kCells, (m.v_max() - m.v_min()) / kCells};
+      for (int k = 0; k < kCells * kCells; ++k) {
+        const Vec2 uv{m.u_min() + (k % kCells + 0.5) * cell.x, m.v_min() + (k / kCells + 0.5) * cell.y};
+        const SurfacePoint p = m.evaluate(uv);
+        if (rim.contains(uv)) area += norm(cross(p.du, p.dv)) * cell.x * cell.y;
+      }
+      EXPECT_NEAR(area, cad.tables().face_area[own], 0.03 * cad.tables().face_area[own]) << shape << " " << i;
+    }
+  }
+}
+
 TEST(CompositeSurface, finds_the_feet_of_points_above_it) {
   const Skin skin;
   for (const Vec2 uv : skin.places()) {

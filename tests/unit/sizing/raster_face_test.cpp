@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <utility>
 
 #include "geometry/shape/analytic.h"
+#include "geometry/shape/bspline.h"
 #include "geometry/shape/chart_surface.h"
 #include "geometry/shape/composite_surface.h"
 #include "sizing/cones.h"
@@ -420,6 +422,65 @@ CompositeSurface kinked_composite(double kink, double jump) {
     support.pole.push_back(kNone);
   }
   return CompositeSurface(std::move(chart), std::move(support), std::move(members), {-1, 1 + kSide, 0, 1});
+}
+
+/// A wavy spline, cut at u = 0.37 as the two members of a composite, or not. The second member is turned: its (u,v) is
+/// that of another spline, with v the other way round.
+struct CutSpline {
+  static constexpr double kCut = 0.37;
+
+  static std::unique_ptr<BsplineSurface> spline(double u_min, double u_max, bool is_turned) {
+    constexpr int kPoles = 10;
+    std::vector<double> knots{0, 0, 0};
+    for (int i = 0; i <= kPoles - 3; ++i) knots.push_back(i / (kPoles - 3.0));
+    knots.insert(knots.end(), {1, 1, 1});
+    std::vector<Pole> poles;
+    for (int i = 0; i < kPoles; ++i)
+      for (const double v : {is_turned ? 2.0 : 0.0, is_turned ? 0.0 : 2.0})
+        poles.push_back({{3.0 * i / (kPoles - 1), v, 0.2 * std::sin(1.7 * i + v), 1}});
+    return std::make_unique<BsplineSurface>(KnotSpans(3, knots, 0), KnotSpans(1, {0, 0, 1, 1}, 0), poles, 2, false,
+                                            BsplineSurface::Bounds{u_min, u_max, 0, 1});
+  }
+
+  static CompositeSurface composite() {
+    std::vector<std::unique_ptr<Surface>> members;
+    members.push_back(spline(0, kCut, false));
+    members.push_back(spline(kCut, 1, true));
+    Chart chart;
+    chart.uv = {{0, 0}, {kCut, 0}, {kCut, 1}, {0, 1}, {1, 0}, {1, 1}};
+    for (const Vec2 p : chart.uv) chart.x.push_back(spline(0, 1, false)->point(p));
+    chart.normal.assign(chart.x.size(), Vec3{0, 0, 1});
+    chart.corners = {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}};
+    CompositeSupport support{{0, 0, 1, 1}, {}, std::vector<std::int32_t>(4, kNone)};
+    for (std::size_t t = 0; t < chart.corners.size(); ++t) {
+      std::array<Vec2, 3> uv;
+      for (std::size_t k = 0; k < 3; ++k) {
+        uv[k] = chart.uv[static_cast<std::size_t>(chart.corners[t][k])];
+        if (t >= 2) uv[k].y = 1 - uv[k].y;
+      }
+      support.corner_uv.push_back(uv);
+    }
+    return CompositeSurface(std::move(chart), std::move(support), std::move(members), {0, 1, 0, 1});
+  }
+};
+
+TEST(RasterFace, asks_for_the_same_lengths_where_a_cut_makes_two_members_of_a_spline) {
+  const auto whole = CutSpline::spline(0, 1, false);
+  const SamplingLimits limits{0.001, 1, radians(2), 2};
+  const Sampling one = sample(*whole, {}, limits), two = sample(CutSpline::composite(), {}, limits);
+  EXPECT_NEAR(one.report.area, two.report.area, 0.01 * one.report.area);
+  int n = 0, n_other = 0;  // others are near the cut
+  for_grid(*whole, 60, [&](Vec2 uv) {
+    const double length = one.length_at(whole->point(uv));
+    ++n;
+    n_other += std::abs(two.length_at(whole->point(uv)) / length - 1) > 1e-6;
+  });
+  EXPECT_LT(n_other, n / 10);
+}
+
+TEST(RasterFace, has_outward_normals_on_members_that_are_turned) {
+  const Sampling s = sample(CutSpline::composite());
+  for (const RasterBox& box : s.boxes) EXPECT_GT(Vec3(box.normal).z, 0) << box.center.x;
 }
 
 TEST(RasterFace, a_kink_between_members_of_a_composite_is_no_curvature) {
