@@ -111,8 +111,8 @@ bool are_of_cad_faces(const std::vector<double>& face_weight, const Composites& 
   return false;
 }
 
-void require_same_unions(const std::string& mesh, const MeshArtifact& old, const std::string& moved,
-                         const GeometryArtifact& geometry) {
+void require_same_composites(const std::string& mesh, const MeshArtifact& old, const std::string& moved,
+                             const GeometryArtifact& geometry) {
   std::vector<FaceId> whole(static_cast<std::size_t>(geometry.tables.n_faces()));
   std::iota(whole.begin(), whole.end(), 0);
   for (std::int32_t i = 0; i < geometry.composites.size(); ++i)

@@ -29,7 +29,7 @@ bool are_of_cad_faces(const std::vector<double>& face_weight, const Composites& 
 
 /// Faces that are one in the mesh must be one in the moved geometry, and no others. Throws Error(kMismatch), naming
 /// both files.
-void require_same_unions(const std::string& mesh, const MeshArtifact& old, const std::string& moved,
-                         const GeometryArtifact& geometry);
+void require_same_composites(const std::string& mesh, const MeshArtifact& old, const std::string& moved,
+                             const GeometryArtifact& geometry);
 
 }  // namespace st

@@ -236,7 +236,7 @@ RemeshInput read_input(const RemeshStageOptions& o, const Communicator& comm) {
   if (!o.moved) require_same_geometry(o.mesh, old.header, o.geometry, geometry.header);
   require_same_geometry(o.geometry, geometry.header, o.sizing, sizing.header);
   part_as_meshed(old, geometry);
-  if (o.moved) require_same_unions(o.mesh, old, o.geometry, geometry);
+  if (o.moved) require_same_composites(o.mesh, old, o.geometry, geometry);
   ArtifactHeader header = geometry.header;
   Composites composites = geometry.composites;
   RemeshInput in{std::move(old), std::move(header), stored_model(geometry, o.geometry), std::move(sizing)};
