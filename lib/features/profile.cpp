@@ -10,6 +10,7 @@
 #include "base/boxes.h"
 #include "base/sort_once.h"
 #include "features/edge_places.h"
+#include "geometry/shape/composite_surface.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -83,6 +84,13 @@ bool may_cross(const Box3& box, Vec3 origin, Vec3 normal) {
   return height <= across || height <= across + kRounding * (norm(way) + 2 * norm(half));
 }
 
+/// A patch in the plane ends within its bounds: beyond, its surface goes on as it may.
+bool is_on(const Surface& surface, Vec2 uv) {
+  if (const auto* composite = dynamic_cast<const CompositeSurface*>(&surface)) return composite->holds(uv);
+  if (const auto* chart = dynamic_cast<const ChartSurface*>(&surface)) return chart->holds(uv);
+  return uv.x >= surface.u_min() && uv.x <= surface.u_max() && uv.y >= surface.v_min() && uv.y <= surface.v_max();
+}
+
 }  // namespace
 
 std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const Profile& profile, double reach,
@@ -111,11 +119,9 @@ std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const
     uv = uv + *in_uv;
     if (norm(step) <= kDone * profile.chord) break;
   }
-  const bool is_inside =
-      uv.x >= surface.u_min() && uv.x <= surface.u_max() && uv.y >= surface.v_min() && uv.y <= surface.v_max();
   const Vec3 x = surface.point(uv);
   guess = uv;
-  return is_inside && distance(x, profile.nose) <= reach ? std::optional(x) : std::nullopt;
+  return is_on(surface, uv) && distance(x, profile.nose) <= reach ? std::optional(x) : std::nullopt;
 }
 
 ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutPlace>* ends) : facets_(facets), ends_(ends) {

@@ -270,6 +270,11 @@ SurfacePoint2 ChartSurface::evaluate2(Vec2 p) const {
       facet.x, du, dv, u.dot(bend * u) / sum * normal, u.dot(bend * v) / sum * normal, v.dot(bend * v) / sum * normal};
 }
 
+bool ChartSurface::holds(Vec2 uv) const {
+  constexpr double kRounding = 1e-9;  // of the bounds
+  return norm(*data_->uv_of(locate(uv)) - uv) <= kRounding * norm(data_->bounds.size());
+}
+
 std::optional<Vec2> ChartSurface::exact_foot(Vec3 p) const {
   return data_->uv_of(data_->closest(p, [](std::int32_t) { return true; }));
 }

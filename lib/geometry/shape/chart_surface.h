@@ -36,6 +36,8 @@ class ChartSurface final : public Surface {
   /// Of the whole patch.
   std::optional<Vec2> exact_foot(Vec3 p) const override;
   std::optional<Vec2> foot_near(Vec3 p, Vec2 guess) const override;
+  /// Whether (u,v) is in the patch, but for rounding.
+  bool holds(Vec2 uv) const;
   std::unique_ptr<Surface> copy() const override;
 
   /// The triangle that holds (u,v), or the nearest one, and the barycentric coordinates of its nearest point. Depends

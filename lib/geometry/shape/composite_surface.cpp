@@ -98,6 +98,8 @@ CompositeSurface::MemberPlace CompositeSurface::place(Vec2 p) const {
           beyond.along_v};
 }
 
+bool CompositeSurface::holds(Vec2 uv) const { return data_->chart->holds(uv); }
+
 double CompositeSurface::largest_stretch() const { return data_->largest_stretch; }
 
 Vec3 CompositeSurface::point(Vec2 uv) const {

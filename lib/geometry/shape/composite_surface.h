@@ -36,6 +36,8 @@ class CompositeSurface final : public Surface {
   /// Of the whole patch: from the nearest facet by steps in tangent planes.
   std::optional<Vec2> exact_foot(Vec3 p) const override;
   std::optional<Vec2> foot_near(Vec3 p, Vec2 guess) const override;
+  /// Whether (u,v) is in the chart, but for rounding.
+  bool holds(Vec2 uv) const;
   std::unique_ptr<Surface> copy() const override;
   /// The same chart on other evaluators of the same faces.
   std::unique_ptr<CompositeSurface> with_members(std::vector<std::unique_ptr<Surface>> members) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/shape/chart_surface.h"
 #include "support/shapes.h"
 
 namespace st {
@@ -59,6 +60,34 @@ TEST(Profile, has_its_nose_on_the_surface_itself) {
   ASSERT_TRUE(guess);
   EXPECT_LT(distance(surface->point(*guess), *nose), 1e-12 * radius);
   EXPECT_FALSE(exact_nose(*surface, tail, profile, 0.05 * radius, guess)) << "further away than the facets may be";
+}
+
+// Of a part of a cylinder whose rim runs across the nose: it ends before it at z = 0, behind it at z = 1.
+TEST(Profile, has_no_nose_beyond_the_rim_of_facets) {
+  constexpr int kAlong = 20, kAcross = 10;
+  Chart chart;
+  for (int j = 0; j <= kAcross; ++j)
+    for (int i = 0; i <= kAlong; ++i) {
+      const double v = 1.0 * j / kAcross, begin = 0.2 - 0.5 * v, u = begin + (1.2 - begin) * i / kAlong;
+      chart.normal.push_back({std::sin(u), -std::cos(u), 0});
+      chart.x.push_back(chart.normal.back() + Vec3{0, 0, v});
+      chart.uv.push_back({u, v});
+      if (i == 0 || j == 0) continue;
+      const std::int32_t d = j * (kAlong + 1) + i, c = d - 1, b = d - kAlong - 1, a = b - 1;
+      chart.corners.push_back({a, b, d});
+      chart.corners.push_back({a, d, c});
+    }
+  const ChartSurface surface(chart);
+  const auto nose_at = [&](double z, double beside) {
+    Profile profile{.normal = {0, 0, 1}, .chord = 6};
+    profile.nose = {std::sin(beside), -std::cos(beside), z};
+    std::optional<Vec2> guess;
+    return exact_nose(surface, {0, 5, z}, profile, 0.3, guess);
+  };
+  EXPECT_FALSE(nose_at(0.05, 0.2));
+  const auto nose = nose_at(0.9, 0.1);
+  ASSERT_TRUE(nose);
+  EXPECT_NEAR(nose->x, 0, 0.03);
 }
 
 /// Where the plane crosses two sides of a triangle.

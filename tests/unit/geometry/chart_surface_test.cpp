@@ -37,6 +37,13 @@ TEST_F(ChartOfSphere, is_on_its_facets) {
   }
 }
 
+TEST(ChartSurface, holds_what_is_in_its_patch) {
+  const ChartSurface surface(
+      {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector<Vec3>(3, {0, 0, 1}), {{0, 0}, {1, 0}, {0, 1}}, {{0, 1, 2}}});
+  for (const Vec2 uv : {Vec2{0.3, 0.3}, Vec2{0.5, 0.5}, Vec2{0, 1}}) EXPECT_TRUE(surface.holds(uv));
+  EXPECT_FALSE(surface.holds({0.9, 0.9})) << "within the bounds, beside the patch";
+}
+
 TEST_F(ChartOfSphere, has_a_triangle_for_what_is_no_place) {
   const double none = std::numeric_limits<double>::quiet_NaN();
   for (const Vec2 p : {Vec2{none, none}, Vec2{none, 0}, Vec2{1e300, -1e300}})

@@ -147,6 +147,8 @@ TEST(CompositeSurface, copies_are_the_same_and_go_on_beside_the_chart) {
     EXPECT_LE(distance(surface.point(uv), {1 + 0.5 * uv.x, 2 + 0.5 * uv.y, 3}), 1e-14);
     EXPECT_EQ(distance(copy->point(uv), surface.point(uv)), 0);
   }
+  EXPECT_TRUE(surface.holds({0.4, 0.4}));
+  EXPECT_FALSE(surface.holds({1.5, 1.5}));
   EXPECT_EQ(copy->u_max(), 2);
   std::vector<Vec3> lifted;
   for (const Vec3 p : x) lifted.push_back(p + Vec3{0, 0, 1});
