@@ -13,10 +13,10 @@ namespace st {
 namespace {
 
 /// A meshed model, so that its edges have nodes.
-struct Edges : test::Meshed {
+struct MeshedEdges : test::Meshed {
   BoundaryNumbering numbering;
 
-  explicit Edges(const std::string& shape) : test::Meshed(shape, 2), numbering(topology, result.edges) {}
+  explicit MeshedEdges(const std::string& shape) : test::Meshed(shape, 2), numbering(topology, result.edges) {}
 };
 
 double length_of(const FaceAttempt& f) {
@@ -27,7 +27,7 @@ double length_of(const FaceAttempt& f) {
 }
 
 TEST(FaceAttempt, has_every_segment_of_its_loops_with_loop_and_edge) {
-  const Edges m("plate_with_hole");
+  const MeshedEdges m("plate_with_hole");
   const auto surface = m.model.surface(0);
   const FaceAttempt f = describe_attempt(m.numbering, 0, make_face_boundary(m.model, *surface, 0, m.numbering), {});
   EXPECT_NEAR(length_of(f), 200 + 16 * kPi, 1) << "the rectangle and the hole";
@@ -43,7 +43,7 @@ TEST(FaceAttempt, has_every_segment_of_its_loops_with_loop_and_edge) {
 }
 
 TEST(FaceAttempt, has_a_seam_twice) {
-  const Edges m("cylinder");
+  const MeshedEdges m("cylinder");
   for (FaceId face = 0; face < 3; ++face) {
     const auto surface = m.model.surface(face);
     if (surface->type() != SurfaceType::kCylinder) continue;
@@ -54,7 +54,7 @@ TEST(FaceAttempt, has_a_seam_twice) {
 }
 
 TEST(FaceAttempt, without_trimming_curves_has_the_nodes_of_its_edges_and_no_uv) {
-  const Edges m("plate_with_hole");
+  const MeshedEdges m("plate_with_hole");
   const FaceAttempt f = describe_attempt(m.numbering, 0, {}, {});
   EXPECT_NEAR(length_of(f), 200 + 16 * kPi, 1);
   for (const Vec2 uv : f.patch.inner_uv) EXPECT_TRUE(std::isnan(uv.x) && std::isnan(uv.y));
@@ -62,7 +62,7 @@ TEST(FaceAttempt, without_trimming_curves_has_the_nodes_of_its_edges_and_no_uv) 
 }
 
 TEST(FaceAttempt, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere) {
-  const Edges m("square");
+  const MeshedEdges m("square");
   const auto surface = m.model.surface(0);
   const FaceBoundary boundary = make_face_boundary(m.model, *surface, 0, m.numbering);
   FaceMesh mesh = mesh_face(*surface, boundary, m.field, {});
@@ -81,7 +81,7 @@ TEST(FaceAttempt, keeps_the_triangles_so_far_and_drops_those_that_reach_nowhere)
 }
 
 TEST(FaceAttempt, survives_the_way_between_ranks) {
-  const Edges m("plate_with_hole");
+  const MeshedEdges m("plate_with_hole");
   const auto surface = m.model.surface(0);
   const FaceBoundary boundary = make_face_boundary(m.model, *surface, 0, m.numbering);
   const FaceAttempt f = describe_attempt(m.numbering, 0, boundary, mesh_face(*surface, boundary, m.field, {}));

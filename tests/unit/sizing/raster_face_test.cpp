@@ -439,7 +439,7 @@ struct CutSpline {
       for (const double v : {is_turned ? 2.0 : 0.0, is_turned ? 0.0 : 2.0})
         poles.push_back({{3.0 * i / (kPoles - 1), v, 0.2 * std::sin(1.7 * i + v), 1}});
     return std::make_unique<BsplineSurface>(KnotSpans(3, knots, 0), KnotSpans(1, {0, 0, 1, 1}, 0), poles, 2, false,
-                                            BsplineSurface::Bounds{u_min, u_max, 0, 1});
+                                            Box2{{u_min, 0}, {u_max, 1}});
   }
 
   static CompositeSurface composite() {
