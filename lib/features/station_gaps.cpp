@@ -140,6 +140,15 @@ bool is_along_chord(const LiftingSurface& surface, EdgeId edge, Vec3 x, Vec3 tan
   return nearest && std::abs(dot(tangent, normalized(nearest->nose - nearest->trailing))) > kAlongChord;
 }
 
+void hide_tip(const Model& model, const LiftingSurface& surface, ChordEdge& edge) {
+  const auto curve = model.curve(edge.edge);
+  const ArcTable arc(*curve);
+  for (ChordStation& s : edge.stations)
+    if (!s.is_measured && !s.is_hidden)
+      s.is_hidden =
+          is_along_chord(surface, edge.edge, s.trailing, normalized(curve->evaluate(arc.parameter_at(s.share)).d1));
+}
+
 void close_gaps(const GapSearch& search, const Vec3* axis, ChordEdge& edge) { GapCloser(search, axis, edge).run(); }
 
 std::vector<UncoveredStretch> uncovered_stretches(const LiftingSurface& surface) {

@@ -28,6 +28,10 @@ void close_gaps(const GapSearch& search, const Vec3* axis, ChordEdge& edge);
 /// there are any, as those of the edge itself may be oblique cuts. `tangent`: unit.
 bool is_along_chord(const LiftingSurface& surface, EdgeId edge, Vec3 x, Vec3 tangent);
 
+/// Where an edge without a profile runs along the chord of the nearest station that is measured, as around a tip, it
+/// has no nose of its own.
+void hide_tip(const Model& model, const LiftingSurface& surface, ChordEdge& edge);
+
 /// A stretch of a trailing edge before which no nose is seen though there is one.
 struct UncoveredStretch {
   EdgeId edge = kNone;

@@ -104,6 +104,24 @@ TEST(StationGaps, stay_gaps_where_cuts_say_nothing) {
   for (std::size_t i = 8; i < 12; ++i) EXPECT_FALSE(edge.stations[i].is_measured || edge.stations[i].is_hidden);
 }
 
+TEST(StationGaps, around_a_tip_run_along_the_chord) {
+  const GapModel m;
+  LiftingSurface surface = m.wings[0];
+  ChordEdge along_span = m.edge_without(8, 12);
+  hide_tip(m.model, surface, along_span);
+  EXPECT_FALSE(std::ranges::any_of(along_span.stations, &ChordStation::is_hidden));
+  EdgeId rim = kNone;  // of the tip, from nose to tail
+  for (const EdgeId e : m.model.tables().edges_of(m.wings[0].faces[0])) {
+    const auto curve = m.model.curve(e);
+    if (std::abs(curve->point(curve->t_max()).z - curve->point(curve->t_min()).z) < 1) rim = e;
+  }
+  ASSERT_NE(rim, kNone);
+  const auto curve = m.model.curve(rim);
+  ChordEdge tip{.edge = rim, .stations = {{0.5, curve->point(0.5 * (curve->t_min() + curve->t_max()))}}};
+  hide_tip(m.model, surface, tip);
+  EXPECT_TRUE(tip.stations[0].is_hidden);
+}
+
 TEST(StationGaps, are_told_by_edge_and_length) {
   LiftingSurface wing;
   wing.trailing.resize(1);
