@@ -231,8 +231,7 @@ double free_length(const TopoDS_Shape& shape) {
 
 /// The model with the smallest tolerance that closes it, else the one that leaves the fewest free edges; nothing when
 /// none helps. After sew_groups() one that leaves as many will do: it makes shells. Short edges become points where
-/// that closes the model. What is left free is sewn once more: of edges that all end at the same two points OpenCASCADE
-/// joins one pair at a time.
+/// that closes the model. So what is free is sewn again: of edges between the same points OCCT joins a pair at a time.
 std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const std::vector<double>& tolerances) {
   const int n_allowed = start.group_tolerance > 0 ? start.n_free : start.n_free - 1;
   std::optional<Sewn> best;
@@ -255,7 +254,8 @@ std::optional<Sewn> sew_all(const ImportedShape& model, const Sewn& start, const
       return best;
     best = before;
   }
-  if (best) is_closed_by(sew(*best, {best->shape}, best->tolerance), best->tolerance);  // halves of rims
+  const std::optional<Sewn> once = best;
+  if (once && !is_closed_by(sew(*once, {once->shape}, once->tolerance), once->tolerance)) best = once;
   return best;
 }
 
