@@ -35,6 +35,22 @@ bool is_concave(const EdgeSide& a, const EdgeSide& b) {
   return false;
 }
 
+/// Of all coedges of a face, its normals turned round where `is_turned`.
+void find_sides(const Model& model, FaceId f, bool is_turned, std::vector<EdgeSide>& side) {
+  const ModelTables& t = model.tables();
+  const auto surface = model.surface(f);
+  for (const CoedgeId c : t.coedges(f)) {
+    if (t.edge_is_degenerate[t.coedge_edge[c]]) continue;
+    const EdgePlaces places = places_on(*model.curve(t.coedge_edge[c]));
+    const auto pcurve = model.pcurve(f, c);
+    for (int i = 0; i < kPlaces; ++i) {
+      const Vec3 n = surface_normal(*surface, pcurve->point(places.t[i])), tangent = places.tangent[i];
+      side[c].normal[i] = is_turned ? -n : n;
+      side[c].inward[i] = normalized(cross(n, t.coedge_is_reversed[c] ? -tangent : tangent));
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> find_concave_edges(const Model& model, const FaceRoles& roles) {
@@ -43,20 +59,8 @@ std::vector<std::uint8_t> find_concave_edges(const Model& model, const FaceRoles
   const bool is_turned = is_material_ahead(t, roles);
   std::vector<EdgeSide> side(static_cast<std::size_t>(t.n_coedges()));
   parallel_for(static_cast<std::size_t>(t.n_faces()), kFacesPerPiece, [&](std::size_t begin, std::size_t end) {
-    for (auto f = static_cast<FaceId>(begin); f < static_cast<FaceId>(end); ++f) {
-      if (roles.role[f] != FaceRole::kWall) continue;
-      const auto surface = model.surface(f);
-      for (const CoedgeId c : t.coedges(f)) {
-        if (t.edge_is_degenerate[t.coedge_edge[c]]) continue;
-        const EdgePlaces places = places_on(*model.curve(t.coedge_edge[c]));
-        const auto pcurve = model.pcurve(f, c);
-        for (int i = 0; i < kPlaces; ++i) {
-          const Vec3 n = surface_normal(*surface, pcurve->point(places.t[i])), tangent = places.tangent[i];
-          side[c].normal[i] = (t.face_is_reversed[f] != 0) != is_turned ? -n : n;
-          side[c].inward[i] = normalized(cross(n, t.coedge_is_reversed[c] ? -tangent : tangent));
-        }
-      }
-    }
+    for (auto f = static_cast<FaceId>(begin); f < static_cast<FaceId>(end); ++f)
+      if (roles.role[f] == FaceRole::kWall) find_sides(model, f, (t.face_is_reversed[f] != 0) != is_turned, side);
   });
   std::vector<std::vector<CoedgeId>> of_edge(static_cast<std::size_t>(t.n_edges()));
   for (FaceId f = 0; f < t.n_faces(); ++f)

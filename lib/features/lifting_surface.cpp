@@ -979,12 +979,7 @@ class SurfaceFinder {
   void explain(Rest& rest) const {
     if (!rest.why.may_be_wing) return;
     const auto are_at_noses_of = [&](const std::vector<LiftingSurface>& surfaces) {
-      return std::ranges::all_of(rest.edges, [&](const WingEdge& w) {
-        return std::ranges::any_of(surfaces, [&](const LiftingSurface& s) {
-          const auto is_own = [&](FaceId f) { return std::ranges::binary_search(s.faces, f); };
-          return std::ranges::any_of(faces_at_[w.edge], is_own) && runs_along_nose(model_, w, s);
-        });
-      });
+      return std::ranges::all_of(rest.edges, [&](const WingEdge& w) { return is_at_nose_of(surfaces, w); });
     };
     if (are_at_noses_of(slivers_))
       rest.why = {kSliver, false};
@@ -992,6 +987,13 @@ class SurfaceFinder {
       rest.why = {"they are at the nose of a lifting surface", false};
     else if (std::ranges::all_of(rest.edges, [&](const WingEdge& w) { return is_rim_of_plate(w); }))
       rest.why = {kRimOfPlate, false};
+  }
+
+  bool is_at_nose_of(const std::vector<LiftingSurface>& surfaces, const WingEdge& w) const {
+    return std::ranges::any_of(surfaces, [&](const LiftingSurface& s) {
+      const auto is_own = [&](FaceId f) { return std::ranges::binary_search(s.faces, f); };
+      return std::ranges::any_of(faces_at_[w.edge], is_own) && runs_along_nose(model_, w, s);
+    });
   }
 
   /// Plane sides, parallel at all of its edges: what stands on a plate may make it look like a profile.

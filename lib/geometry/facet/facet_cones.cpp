@@ -95,7 +95,8 @@ class Cones {
       }
     std::int32_t best = kNone;
     for (const auto& [group, length] : common) {
-      const auto is_inside = [&](std::int32_t t) { return dot(normal_[t], axis_[group]) >= kScrapCone; };
+      const Vec3 axis = axis_[group];
+      const auto is_inside = [&](std::int32_t t) { return dot(normal_[t], axis) >= kScrapCone; };
       if ((best == kNone || length > common[best]) && std::ranges::all_of(members_[own], is_inside)) best = group;
     }
     return best;

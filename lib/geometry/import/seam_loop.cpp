@@ -97,7 +97,7 @@ bool is_closed(const Loop& loop, double tolerance) {
 /// Turns the chains between seams and puts them inside; whether the loop is sound then.
 bool turn_chains(Loop& loop, const Periods& periods) {
   const auto seam = std::ranges::find_if(loop, &LoopEdge::is_seam);
-  std::ranges::rotate(loop, seam);
+  std::rotate(loop.begin(), seam, loop.end());
   for (std::size_t first = 0; first < loop.size();) {
     std::size_t end = first;
     gp_XY middle(0, 0);
