@@ -243,10 +243,10 @@ class Before(ToolTest):
 class LongSteps(ToolTest):
     def test_are_said_in_a_log_and_not_when_quiet(self):
         arguments = [MODELS / "concept.step", "-o", self.folder / "g.hdf", "--unite"]
-        lines = run_fast("st-import", *arguments, seconds=0.02).stderr
+        lines = run_fast("st-import", *arguments, seconds=0.002).stderr
         self.assertRegex(lines, r"(?m)^importing: \S.* \d+ %")
         self.assertRegex(lines, r"(?m)^uniting bodies \d+ %, 0 s so far$")
-        self.assertNotIn("%", run_fast("st-import", *arguments, "-q", seconds=0.02).stderr)
+        self.assertNotIn("%", run_fast("st-import", *arguments, "-q", seconds=0.002).stderr)
         self.assertNotIn("so far", must("st-import", *arguments).err)
 
 
