@@ -1,6 +1,8 @@
 // Broken shapes through the import, and what it says of them.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <iterator>
 #include <string>
@@ -11,6 +13,7 @@
 #include "broken/narrow_shapes.h"
 #include "geometry/import/import.h"
 #include "geometry/model/model.h"
+#include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st::test {
@@ -57,6 +60,16 @@ inline double largest_gap(const Model& model, FaceId f) {
     }
   }
   return gap;
+}
+
+/// That a shape is closed and as large from a STEP file as from BREP; writes a.brep and a.step.
+inline void expect_whole_in_step(const std::string& shape, const TemporaryDirectory& dir) {
+  write_brep(shape, dir / "a.brep");
+  write_step(shape, dir / "a.step", "MM");
+  const ImportResult sound = import_model(dir / "a.brep", {}), r = import_model(dir / "a.step", {});
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area);
+  EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
 }
 
 }  // namespace st::test

@@ -18,15 +18,10 @@ class BodiesWithHoles : public testing::TestWithParam<const char*> {};
 
 TEST_P(BodiesWithHoles, are_whole_in_step_files) {
   const TemporaryDirectory dir;
-  test::write_brep(GetParam(), dir / "a.brep");
-  test::write_step(GetParam(), dir / "a.step", "MM");
+  test::expect_whole_in_step(GetParam(), dir);
   std::ostringstream text;
   text << std::ifstream(dir / "a.step").rdbuf();
   EXPECT_NE(text.str().find("VERTEX_LOOP"), std::string::npos);
-  const ImportResult sound = import_model(dir / "a.brep", {}), r = import_model(dir / "a.step", {});
-  EXPECT_TRUE(r.is_closed);
-  EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area);
-  EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
 }
 
 INSTANTIATE_TEST_SUITE_P(, BodiesWithHoles, testing::Values("spindle_with_fin_beside", "lemon_with_fin_beside"),
