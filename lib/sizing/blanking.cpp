@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "base/boxes.h"
+#include "base/disjoint_sets.h"
 #include "base/limits.h"
 #include "base/pieces.h"
 #include "base/predicates.h"
@@ -148,28 +150,61 @@ class Blanker {
 
   /// One ray for each region of uncut cells that hang together at faces, and its colour for all of them.
   void colour_the_rest() {
-    std::vector<std::int32_t> region(octree_.leaf_keys.size(), kNone), seeds, front;
-    for (std::int32_t seed = 0; seed < octree_.n_leaves(); ++seed) {
+    const std::size_t n = octree_.leaf_keys.size();
+    std::vector<std::int32_t> region(n, kNone);  // the lowest cell that hangs together with it in its piece
+    std::vector<std::vector<CellPair>> between((n + kCellsPerPiece - 1) / kCellsPerPiece);
+    parallel_for(n, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      flood(static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end), region, between[begin / kCellsPerPiece]);
+    });
+    DisjointSets regions(octree_.n_leaves());
+    for (const std::vector<CellPair>& pairs : between)
+      for (const auto& [seed, other] : pairs) regions.join(seed, region[other]);
+    colour_regions(region, regions);
+    parallel_for(n, kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t leaf = begin; leaf < end; ++leaf)
+        if (region[leaf] != kNone && region[leaf] != static_cast<std::int32_t>(leaf))
+          result_.colour[leaf] = result_.colour[region[leaf]];
+    });
+  }
+
+  using CellPair = std::pair<std::int32_t, std::int32_t>;
+
+  /// Regions of the cells of a piece, and what lies across faces in a piece ahead of it, by the region beside it.
+  void flood(std::int32_t begin, std::int32_t end, std::vector<std::int32_t>& region,
+             std::vector<CellPair>& between) const {
+    std::vector<std::int32_t> front;
+    for (std::int32_t seed = begin; seed < end; ++seed) {
       if (is_cut(seed) || region[seed] != kNone) continue;
-      const auto own = static_cast<std::int32_t>(seeds.size());
-      seeds.push_back(seed);
       front.assign(1, seed);
-      region[seed] = own;
+      region[seed] = seed;
       while (!front.empty()) {
         const std::int32_t leaf = front.back();
         front.pop_back();
         neighbours_.for_each_across_face(leaf, [&](std::int32_t other, const CellStep&) {
-          if (is_cut(other) || region[other] != kNone) return;
-          region[other] = own;
+          if (other >= end || is_cut(other)) return;
+          if (other < begin) return between.emplace_back(seed, other), void();
+          if (region[other] != kNone) return;
+          region[other] = seed;
           front.push_back(other);
         });
       }
     }
+  }
+
+  /// Of the first cell of each region in its piece.
+  void colour_regions(const std::vector<std::int32_t>& region, DisjointSets& regions) {
+    std::vector<std::int32_t> seeds, first;  // first: of all pieces, and of each
     std::vector<Vec3> centers;
-    for (const std::int32_t seed : seeds) centers.push_back(octree_.leaf_center(seed));
+    for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf) {
+      if (region[leaf] != leaf) continue;
+      first.push_back(leaf);
+      if (regions.find(leaf) != leaf) continue;
+      seeds.push_back(leaf);
+      centers.push_back(octree_.leaf_center(leaf));
+    }
     const std::vector<CellColour> colour = colours_at(centers);
-    for (std::size_t leaf = 0; leaf < region.size(); ++leaf)
-      if (region[leaf] != kNone) result_.colour[leaf] = colour[region[leaf]];
+    for (std::size_t i = 0; i < seeds.size(); ++i) result_.colour[seeds[i]] = colour[i];
+    for (const std::int32_t leaf : first) result_.colour[leaf] = result_.colour[regions.find(leaf)];
   }
 
   /// Boxes of the triangles: most are passed over by them.
@@ -538,34 +573,45 @@ class Blanker {
 
   // --- links ---
 
-  /// Rows of all sites that touch a cut cell or are cut.
+  /// Leaves that touch a cut cell or are cut, ascending.
+  std::vector<std::int32_t> near_leaves() const {
+    std::vector<std::uint8_t> is_near(octree_.leaf_keys.size(), 0);
+    const auto mark = [&](std::int32_t leaf) { std::atomic_ref(is_near[leaf]).store(1, std::memory_order_relaxed); };
+    parallel_for(cut_.leaf.size(), kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        mark(cut_.leaf[i]);
+        const auto mark_other = [&](std::int32_t other, const CellStep&) { mark(other); };
+        if (kind_ == LinkKind::kAll)
+          neighbours_.for_each(cut_.leaf[i], mark_other);
+        else
+          neighbours_.for_each_across_face(cut_.leaf[i], mark_other);
+      }
+    });
+    std::vector<std::int32_t> near;
+    for (std::int32_t leaf = 0; leaf < octree_.n_leaves(); ++leaf)
+      if (is_near[leaf]) near.push_back(leaf);
+    return near;
+  }
+
+  /// Rows of all sites that touch a cut cell or are cut; those of second parts follow all others.
   void link_sites() {
     const std::int32_t n = octree_.n_leaves(), n_split = static_cast<std::int32_t>(result_.split_leaf.size());
     require_countable(result_.colour.size() + result_.split_leaf.size(), "cells and parts of cells");
     result_.site_links.assign(static_cast<std::size_t>(n + n_split), kNone);
-    std::vector<std::uint8_t> is_near(octree_.leaf_keys.size(), 0);
-    for (const std::int32_t leaf : cut_.leaf) {
-      is_near[leaf] = 1;
-      const auto mark = [&](std::int32_t other, const CellStep&) { is_near[other] = 1; };
-      if (kind_ == LinkKind::kAll)
-        neighbours_.for_each(leaf, mark);
-      else
-        neighbours_.for_each_across_face(leaf, mark);
-    }
-    std::vector<std::int32_t> near;
-    for (std::int32_t leaf = 0; leaf < n; ++leaf)
-      if (is_near[leaf]) near.push_back(leaf);
-    const std::size_t n_rows = near.size() + static_cast<std::size_t>(n_split), n_per_piece = cut_cells_per_piece();
-    std::vector<LinkRows> pieces((n_rows + n_per_piece - 1) / n_per_piece);
-    parallel_for(n_rows, n_per_piece, [&](std::size_t begin, std::size_t end) {
+    const std::vector<std::int32_t> near = near_leaves();
+    const std::size_t n_per_piece = cut_cells_per_piece(), n_pieces = (near.size() + n_per_piece - 1) / n_per_piece;
+    std::vector<LinkRows> pieces(2 * n_pieces);
+    parallel_for(near.size(), n_per_piece, [&](std::size_t begin, std::size_t end) {
       Scratch scratch;
-      LinkRows& rows = pieces[begin / n_per_piece];
-      for (std::size_t i = begin; i < end; ++i)
-        if (i < near.size())
-          add_row(near[i], near[i], 0, scratch, rows);
-        else
-          add_row(n + static_cast<std::int32_t>(i - near.size()), result_.split_leaf[i - near.size()], 1, scratch,
-                  rows);
+      LinkRows &rows = pieces[begin / n_per_piece], &of_second = pieces[n_pieces + begin / n_per_piece];
+      std::int32_t split = static_cast<std::int32_t>(
+          std::lower_bound(result_.split_leaf.begin(), result_.split_leaf.end(), near[begin]) -
+          result_.split_leaf.begin());
+      for (std::size_t i = begin; i < end; ++i) {
+        add_row(near[i], near[i], 0, scratch, rows);
+        if (split < n_split && result_.split_leaf[split] == near[i])
+          add_row(n + split++, near[i], 1, scratch, of_second);
+      }
     });
     for (const LinkRows& rows : pieces)
       for (std::size_t i = 0; i < rows.site.size(); ++i) {
@@ -699,13 +745,20 @@ std::int32_t Blanking::find_split(std::int32_t leaf) const {
 }
 
 std::vector<Triangle> find_open_edges(const SurfaceView& surface) {
+  constexpr std::size_t kNodesPerPiece = 2'048;
+  const EdgeTable edges(surface.triangles, static_cast<std::int64_t>(surface.points.size()));
+  std::vector<std::vector<Triangle>> pieces((surface.points.size() + kNodesPerPiece - 1) / kNodesPerPiece);
+  parallel_for(surface.points.size(), kNodesPerPiece, [&](std::size_t begin, std::size_t end) {
+    edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
+                        [&](NodeId low, NodeId high, std::span<const SideId> sides) {
+                          std::ptrdiff_t balance = 0;
+                          for (const SideId side : sides)
+                            balance += side_start(surface.triangles, side) == low ? 1 : -1;
+                          if (balance != 0) pieces[begin / kNodesPerPiece].push_back({{low, high, high}});
+                        });
+  });
   std::vector<Triangle> open;
-  EdgeTable(surface.triangles, static_cast<std::int64_t>(surface.points.size()))
-      .for_each_edge([&](NodeId low, NodeId high, std::span<const SideId> sides) {
-        std::ptrdiff_t balance = 0;
-        for (const SideId side : sides) balance += side_start(surface.triangles, side) == low ? 1 : -1;
-        if (balance != 0) open.push_back({{low, high, high}});
-      });
+  for (const std::vector<Triangle>& piece : pieces) open.insert(open.end(), piece.begin(), piece.end());
   return open;
 }
 
