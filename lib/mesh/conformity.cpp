@@ -12,7 +12,7 @@ namespace st {
 
 namespace {
 
-constexpr std::size_t kPerPiece = 16'384;  // nodes
+constexpr std::size_t kPerPiece = 2'048;  // nodes
 
 /// The element of a list that grows as needed.
 template <class Stats>

@@ -43,7 +43,7 @@ class NodeSizes {
   }
 
  private:
-  static constexpr std::size_t kPerPiece = 16'384;
+  static constexpr std::size_t kPerPiece = 2'048;
   const std::vector<Vec3>& xyz_;
   RequestedSize requested_;
   RequestedLength along_;
