@@ -8,6 +8,7 @@
 
 #include "base/boxes.h"
 #include "base/predicates.h"
+#include "base/threads.h"
 #include "mesh/adjacency.h"
 
 namespace st {
@@ -20,13 +21,26 @@ FaceId count_faces(const SurfaceMesh& mesh) {
   return n;
 }
 
+constexpr std::size_t kNodesPerPiece = 2'048;
+
 std::vector<FaceLink> find_links(const SurfaceMesh& mesh, const EdgeTable& edges) {
-  std::vector<FaceLink> links;
-  edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
-    if (sides.size() != 2) return;
-    const auto [a, b] = std::minmax(mesh.triangle_face[sides[0] / 3], mesh.triangle_face[sides[1] / 3]);
-    if (a != b) links.push_back({a, b, run_alike(mesh.triangles, sides[0], sides[1]) ? -1 : 1});
+  const auto n = static_cast<std::size_t>(edges.n_nodes());
+  std::vector<std::vector<FaceLink>> pieces((n + kNodesPerPiece - 1) / kNodesPerPiece);
+  parallel_for(n, kNodesPerPiece, [&](std::size_t begin, std::size_t end) {
+    edges.for_each_edge(
+        static_cast<NodeId>(begin), static_cast<NodeId>(end), [&](NodeId, NodeId, std::span<const SideId> sides) {
+          if (sides.size() != 2) return;
+          const auto [a, b] = std::minmax(mesh.triangle_face[sides[0] / 3], mesh.triangle_face[sides[1] / 3]);
+          if (a == b) return;
+          const int agreement = run_alike(mesh.triangles, sides[0], sides[1]) ? -1 : 1;
+          pieces[begin / kNodesPerPiece].push_back({a, b, agreement});
+        });
   });
+  std::vector<FaceLink> links;
+  for (std::vector<FaceLink>& piece : pieces) {
+    unite_links(piece);
+    links.insert(links.end(), piece.begin(), piece.end());
+  }
   unite_links(links);
   return links;
 }
@@ -95,21 +109,37 @@ void turn_faces(SurfaceMesh& mesh, std::span<const std::uint8_t> is_turned) {
   }
 }
 
-/// Closed: along every edge, as many sides of the component run one way as the other, once the faces are turned.
+/// Whether as many sides of the component run one way as the other along an edge, once the faces are turned.
+bool is_balanced(const SurfaceMesh& mesh, std::span<const SideId> sides, NodeId low, std::int32_t component,
+                 std::span<const std::uint8_t> is_turned, std::span<const std::int32_t> face_component) {
+  std::int32_t balance = 0;
+  for (const SideId s : sides) {
+    const FaceId f = mesh.triangle_face[s / 3];
+    if (face_component[f] == component)
+      balance += (side_start(mesh.triangles, s) == low) != (is_turned[f] != 0) ? 1 : -1;
+  }
+  return balance == 0;
+}
+
+/// Components are closed where all their edges are balanced.
 void find_open(const SurfaceMesh& mesh, const EdgeTable& edges, std::span<const std::uint8_t> is_turned,
                std::span<const std::int32_t> face_component, std::vector<FaceComponent>& components) {
-  edges.for_each_edge([&](NodeId low, NodeId, std::span<const SideId> sides) {
-    for (const SideId s : sides) {
-      const std::int32_t c = face_component[mesh.triangle_face[s / 3]];
-      if (c == kNone || !components[c].is_closed) continue;
-      std::int32_t balance = 0;
-      for (const SideId r : sides) {
-        const FaceId f = mesh.triangle_face[r / 3];
-        if (face_component[f] == c) balance += (side_start(mesh.triangles, r) == low) != (is_turned[f] != 0) ? 1 : -1;
-      }
-      components[c].is_closed = balance == 0;
-    }
+  const auto n = static_cast<std::size_t>(edges.n_nodes());
+  std::vector<std::vector<std::uint8_t>> is_open((n + kNodesPerPiece - 1) / kNodesPerPiece);
+  parallel_for(n, kNodesPerPiece, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint8_t>& own = is_open[begin / kNodesPerPiece];
+    own.assign(components.size(), 0);
+    edges.for_each_edge(static_cast<NodeId>(begin), static_cast<NodeId>(end),
+                        [&](NodeId low, NodeId, std::span<const SideId> sides) {
+                          for (const SideId s : sides) {
+                            const std::int32_t c = face_component[mesh.triangle_face[s / 3]];
+                            if (c != kNone && !own[c])
+                              own[c] = !is_balanced(mesh, sides, low, c, is_turned, face_component);
+                          }
+                        });
   });
+  for (std::size_t c = 0; c < components.size(); ++c)
+    if (std::ranges::any_of(is_open, [c](const auto& own) { return own[c] != 0; })) components[c].is_closed = false;
 }
 
 /// Signed volumes about the centre of the model's box (less cancellation), and boxes.
