@@ -4,6 +4,7 @@
 #include <BRepMesh_EdgeDiscret.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRepMesh_MeshAlgoFactory.hxx>
+#include <BRepTools.hxx>
 #include <IMeshData_Edge.hxx>
 #include <IMeshData_Face.hxx>
 #include <IMeshData_Model.hxx>
@@ -11,11 +12,16 @@
 #include <IMeshTools_Parameters.hxx>
 #include <Standard_Failure.hxx>
 #include <cstddef>
+#include <gp_Torus.hxx>
 
 #include "base/threads.h"
 
 namespace st {
 namespace {
+
+// Length over width of strips of tori from which they are taken for free-form surfaces: BRepMesh puts a row of nodes
+// along a torus with at most five widths between two, so 200 here, and takes time with the square of their number.
+constexpr double kThinTorus = 1000;
 
 /// One edge of a model, for an algorithm that does all of them one after the other.
 class OneEdge : public IMeshData_Model {
@@ -66,8 +72,8 @@ class FaceFacets : public IMeshTools_ModelAlgo {
   static void put(const IMeshData::IFaceHandle& face, const IMeshTools_Parameters& parameters) {
     if (face->IsSet(IMeshData_Failure) || face->IsSet(IMeshData_Reused)) return;
     try {
-      const Handle(IMeshTools_MeshAlgo) algorithm =
-          BRepMesh_MeshAlgoFactory().GetAlgo(face->GetSurface()->GetType(), parameters);
+      const Handle(IMeshTools_MeshAlgo) algorithm = BRepMesh_MeshAlgoFactory().GetAlgo(
+          is_thin_torus(face) ? GeomAbs_OtherSurface : face->GetSurface()->GetType(), parameters);
       if (algorithm.IsNull())
         face->SetStatus(IMeshData_Failure);
       else
@@ -75,6 +81,15 @@ class FaceFacets : public IMeshTools_ModelAlgo {
     } catch (const Standard_Failure&) {
       face->SetStatus(IMeshData_Failure);
     }
+  }
+
+  static bool is_thin_torus(const IMeshData::IFaceHandle& face) {
+    if (face->GetSurface()->GetType() != GeomAbs_Torus) return false;
+    const gp_Torus torus = face->GetSurface()->Torus();
+    double u0 = 0, u1 = 0, v0 = 0, v1 = 0;
+    BRepTools::UVBounds(face->GetFace(), u0, u1, v0, v1);
+    const double length = (u1 - u0) * (torus.MajorRadius() + torus.MinorRadius());
+    return length > kThinTorus * (v1 - v0) * torus.MinorRadius();
   }
 };
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 #include <BRepBuilderAPI_Copy.hxx>
+#include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom_ToroidalSurface.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -72,6 +74,17 @@ TEST(BrepFacets, give_edges_their_polygons_only_where_asked) {
   const Model model = test::make_model("box");
   EXPECT_EQ(put(model, FacetsGo::kToAllEdges, 2).n_polygons, 24);
   EXPECT_EQ(put(model, FacetsGo::kToFaces, 2).n_polygons, 0);
+}
+
+TEST(BrepFacets, of_a_strip_of_a_torus_are_few) {
+  const Handle(Geom_ToroidalSurface) torus = new Geom_ToroidalSurface(gp_Ax3(), 1318.4, 3442);
+  const TopoDS_Face strip = BRepBuilderAPI_MakeFace(torus, 0, 3, 5.46888, 5.46888 + 1e-6, 1e-9);
+  put_facets(strip, {.deflection = 16}, FacetsGo::kToFaces);
+  TopLoc_Location at;
+  const Handle(Poly_Triangulation) mesh = BRep_Tool::Triangulation(strip, at);
+  ASSERT_FALSE(mesh.IsNull());
+  EXPECT_GT(mesh->NbTriangles(), 10);
+  EXPECT_LT(mesh->NbNodes(), 1000);
 }
 
 }  // namespace
