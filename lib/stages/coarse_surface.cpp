@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "base/boxes.h"
 #include "base/log.h"
 #include "base/share.h"
 #include "base/text.h"
@@ -37,6 +39,30 @@ void share_lengths(const Executor& executor, std::vector<CellLength>& cells) {
   for (const float length : lengths) cells.push_back({length, {0, 0, 0}, length});
 }
 
+/// The lengths of an octree, which grow beyond its box at the same slope: far fields may lie outside.
+class GrowingField : public SizeField {
+ public:
+  /// The reference outlives it. `largest`: length where nothing asks for less, before scale.
+  GrowingField(const OctreeField& octree, double largest)
+      : octree_(octree), largest_(largest * octree.data().scale), box_(box_of(octree.data().octree)) {}
+  using SizeField::size;
+  double size(Vec3 xyz, int& hint) const override {
+    const double length = octree_.size(xyz, hint), away2 = distance2(xyz, box_);
+    return away2 > 0 ? std::min(length + slope() * std::sqrt(away2), std::max(length, largest_)) : length;
+  }
+  double min_size() const override { return octree_.min_size(); }
+  double slope() const override { return octree_.slope(); }
+
+ private:
+  static Box3 box_of(const OctreeView& octree) {
+    return {octree.lo, octree.lo + Vec3{octree.edge, octree.edge, octree.edge}};
+  }
+
+  const OctreeField& octree_;
+  const double largest_;
+  const Box3 box_;
+};
+
 /// Places and triangles alone, turned outward.
 SurfaceMesh joined(const ModelTables& t, const MeshResult& result) {
   std::vector<const FacePatch*> patches;
@@ -65,7 +91,8 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   data.cells = cells;
   data.slope = kSlope;
   data.scale = kCoarser;
-  const OctreeField field(data, nullptr);
+  const OctreeField octree(data, nullptr);
+  const GrowingField field(octree, raster.numbers.far_length);
   MeshOptions options;
   options.enhance_rounds = 0;  // it only tells where the solid is
   options.time_limit = seconds;

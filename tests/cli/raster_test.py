@@ -56,12 +56,14 @@ class Rules(ToolTest):
 
     def test_a_far_field_of_200_spans_keeps_its_lengths_and_those_at_the_nose(self):
         geometry, output = self.folder / "g.hdf", self.folder / "r.hdf"
-        lengths = []
+        lengths, sizes = [], []
         for size in (5, 200):
             must("st-import", MODELS / "wing_with_flap.step", "--farfield", f"box:{size}", "-o", geometry)
             run = must("st-raster", geometry, "-o", output, "--edge-size", "0.02%chord", "--json")
             self.assertNotIn("warning", run.err)
             lengths.append(run.json())
+            sizes.append(output.stat().st_size)
+        self.assertLess(sizes[1], 1.1 * sizes[0])  # the coarse surface is coarse far away, too
         self.assertAlmostEqual(lengths[0]["lmin"] / lengths[1]["lmin"], 1, 3)
         self.assertEqual(lengths[1]["beyond_depth"]["samples"], 0)
         self.assertLess(lengths[1]["beyond_depth"]["smallest_cell"], 1.1 * lengths[0]["beyond_depth"]["smallest_cell"])
