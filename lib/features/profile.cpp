@@ -53,19 +53,55 @@ bool is_wedge(const std::array<double, kPlaces.size()>& thickness) {
   return true;
 }
 
-/// How far apart the two sides of a cut are at a distance from a point on it; nullopt: it has not two sides there.
-template <class Segments>
-std::optional<double> width_at(const Segments& segments, Vec3 from, double way) {
-  std::array<Vec3, 2> x;
-  std::size_t n = 0;
-  for (const auto& s : segments) {
-    const double a = distance(s.end[0], from) - way, b = distance(s.end[1], from) - way;
-    if ((a < 0) == (b < 0)) continue;
-    if (n == x.size()) return std::nullopt;
-    x[n++] = s.end[0] + a / (a - b) * (s.end[1] - s.end[0]);
+/// How far apart the two sides of a cut are at distances from a point on it.
+template <class Segment>
+class Widths {
+ public:
+  /// `segments` outlive the object.
+  Widths(const std::vector<Segment>& segments, Vec3 from) : segments_(segments) {
+    for (const Segment& s : segments) away_.push_back({distance(s.end[0], from), distance(s.end[1], from)});
   }
-  return n == x.size() ? std::optional(distance(x[0], x[1])) : std::nullopt;
-}
+
+  double furthest() const {
+    double most = 0;
+    for (const auto& [a, b] : away_) most = std::max({most, a, b});
+    return most;
+  }
+
+  /// At each of these distances, which ascend; nullopt: it has not two sides there.
+  std::vector<std::optional<double>> at(const std::vector<double>& ways) const {
+    std::vector<Sides> sides(ways.size());
+    for (std::size_t i = 0; i < away_.size(); ++i) {
+      const auto [least, most] = std::minmax(away_[i][0], away_[i][1]);
+      const auto first = std::upper_bound(ways.begin(), ways.end(), least);
+      for (auto way = first; way != ways.end() && *way <= most; ++way) add(sides[way - ways.begin()], i);
+    }
+    std::vector<std::optional<double>> widths(ways.size());
+    for (std::size_t k = 0; k < ways.size(); ++k)
+      if (sides[k].n == 2)
+        widths[k] = distance(place(sides[k].segment[0], ways[k]), place(sides[k].segment[1], ways[k]));
+    return widths;
+  }
+
+ private:
+  struct Sides {
+    std::size_t n = 0;
+    std::array<std::size_t, 2> segment{};
+  };
+
+  static void add(Sides& own, std::size_t segment) {
+    if (own.n < own.segment.size()) own.segment[own.n] = segment;
+    ++own.n;
+  }
+
+  Vec3 place(std::size_t i, double way) const {
+    const double a = away_[i][0] - way, b = away_[i][1] - way;
+    return segments_[i].end[0] + a / (a - b) * (segments_[i].end[1] - segments_[i].end[0]);
+  }
+
+  const std::vector<Segment>& segments_;
+  std::vector<std::array<double, 2>> away_;  // of their ends
+};
 
 /// Rounding counts as near.
 bool is_near(const Box3& box, Vec3 x, double reach) {
@@ -348,21 +384,22 @@ FaceId ProfileCutter::nearest_face(Vec3 at, Vec3 normal, double reach) const {
 
 std::optional<ThinPart> ProfileCutter::thin_part(Vec3 edge, Vec3 normal, double reach, double thickest) const {
   const std::vector<Segment> part = part_at(edge, normal, reach);
-  double furthest = 0;
-  for (const Segment& s : part)
-    for (const Vec3& x : s.end) furthest = std::max(furthest, distance(x, edge));
+  const Widths<Segment> widths(part, edge);
+  const double furthest = widths.furthest();
+  std::vector<double> ways;
+  for (double way = reach; way < furthest; way *= kThinStep) ways.push_back(way);
+  const std::vector<std::optional<double>> width = widths.at(ways);
   double begin = 0, end = 0;  // of the distances at which it is thin
-  for (double way = reach; way < furthest; way *= kThinStep) {
-    const std::optional<double> width = width_at(part, edge, way);
-    const bool is_thin = width && *width <= thickest * way;
-    if (is_thin && begin == 0) begin = way;
-    if (is_thin) end = way;
+  for (std::size_t k = 0; k < ways.size(); ++k) {
+    const bool is_thin = width[k] && *width[k] <= thickest * ways[k];
+    if (is_thin && begin == 0) begin = ways[k];
+    if (is_thin) end = ways[k];
     if (!is_thin && end >= kThinFor * begin && begin > 0) break;
     if (!is_thin) begin = end = 0;
   }
   if (begin == 0 || end < kThinFor * begin) return std::nullopt;
   if (end * kThinStep >= furthest) end = furthest;
-  const std::optional<double> middle = width_at(part, edge, 0.5 * end);
+  const std::optional<double> middle = widths.at({0.5 * end}).front();
   return ThinPart{end, middle.value_or(0)};
 }
 
