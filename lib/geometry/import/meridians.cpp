@@ -6,9 +6,7 @@
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_TrimmedCurve.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -118,12 +116,9 @@ bool extend(Range& range, const TopoDS_Face& face) {
 
 }  // namespace
 
-int trim_meridians(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+int trim_meridians(std::span<const TopoDS_Face> faces) {
   std::map<Geom_SurfaceOfRevolution*, std::optional<Range>> ranges;  // of the faces on each; nullopt: unknown
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const TopoDS_Face face = TopoDS::Face(faces(f));
+  for (const TopoDS_Face& face : faces) {
     TopLoc_Location location;
     const auto surface = Handle(Geom_SurfaceOfRevolution)::DownCast(BRep_Tool::Surface(face, location));
     if (surface.IsNull()) continue;

@@ -1,7 +1,8 @@
 // Surfaces of revolution whose meridian goes on beyond the axis.
 #pragma once
 
-#include <TopoDS_Shape.hxx>
+#include <TopoDS_Face.hxx>
+#include <span>
 
 namespace st::occt {
 
@@ -9,6 +10,6 @@ namespace st::occt {
 /// tips are no bounds of the surface, and OpenCASCADE's healing makes no poles there: faces lose what is beyond a hole.
 /// Such meridians end at the tips between which all faces on the surface lie, in the shape itself. Curves of edges on
 /// the surface stay as they are. Returns the number of surfaces changed.
-int trim_meridians(const TopoDS_Shape& shape);
+int trim_meridians(std::span<const TopoDS_Face> faces);
 
 }  // namespace st::occt

@@ -3,7 +3,6 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
-#include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
@@ -96,15 +95,11 @@ int swap_seams_of(const TopoDS_Face& face, const TopoDS_Wire& wire) {
 
 }  // namespace
 
-int swap_seams(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+int swap_seams(std::span<const TopoDS_Face> faces) {
   int n_swapped = 0;
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
+  for (const TopoDS_Face& face : faces)
     for (TopoDS_Iterator w(face); w.More(); w.Next())
       if (w.Value().ShapeType() == TopAbs_WIRE) n_swapped += swap_seams_of(face, TopoDS::Wire(w.Value()));
-  }
   return n_swapped;
 }
 

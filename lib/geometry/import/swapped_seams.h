@@ -1,7 +1,8 @@
 // Seams whose two trimming curves the reader of STEP has put the wrong way round.
 #pragma once
 
-#include <TopoDS_Shape.hxx>
+#include <TopoDS_Face.hxx>
+#include <span>
 
 namespace st::occt {
 
@@ -10,6 +11,6 @@ namespace st::occt {
 /// edge of the loop ends in (u,v), and would be with the other order. Its healing takes such a piece for a spur and
 /// removes it, with all of the face that lies beyond. Such curves change places, in the shape itself. Returns the
 /// number of edges changed.
-int swap_seams(const TopoDS_Shape& shape);
+int swap_seams(std::span<const TopoDS_Face> faces);
 
 }  // namespace st::occt

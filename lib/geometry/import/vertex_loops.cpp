@@ -7,8 +7,6 @@
 #include <Geom_ElementarySurface.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
-#include <TopExp.hxx>
-#include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -139,12 +137,8 @@ bool bound(const TopoDS_Face& face) {
 
 }  // namespace
 
-int bound_whole_surfaces(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  int n = 0;
-  for (int f = 1; f <= faces.Extent(); ++f) n += bound(TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD)));
-  return n;
+int bound_whole_surfaces(std::span<const TopoDS_Face> faces) {
+  return static_cast<int>(std::ranges::count_if(faces, bound));
 }
 
 }  // namespace st::occt

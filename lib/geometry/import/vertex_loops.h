@@ -1,7 +1,8 @@
 // Faces of STEP files that have a point for their outer loop.
 #pragma once
 
-#include <TopoDS_Shape.hxx>
+#include <TopoDS_Face.hxx>
+#include <span>
 
 namespace st::occt {
 
@@ -10,6 +11,6 @@ namespace st::occt {
 /// inside of each hole for the face, and the body is gone. Such faces get the bounds of their surface, in the shape
 /// itself, with a seam beside the holes. Only surfaces that are closed around, and from pole to pole or closed the
 /// other way, too. Returns the number of faces changed.
-int bound_whole_surfaces(const TopoDS_Shape& shape);
+int bound_whole_surfaces(std::span<const TopoDS_Face> faces);
 
 }  // namespace st::occt

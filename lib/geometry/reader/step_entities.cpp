@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "base/ids.h"
+#include "geometry/brep/faces_of.h"
 #include "geometry/import/meridians.h"
 #include "geometry/import/swapped_seams.h"
 #include "geometry/import/vertex_loops.h"
@@ -53,9 +54,10 @@ class HealingOfLoops : public XSAlgo_AlgoContainer {
                             Standard_CString resource, Standard_CString sequence, Handle(Standard_Transient) & info,
                             const Message_ProgressRange& progress, Standard_Boolean is_non_manifold) const override {
     if (std::string(sequence) == "read.step.sequence") {
-      trim_meridians(shape);
-      bound_whole_surfaces(shape);
-      swap_seams(shape);
+      const std::vector<TopoDS_Face> faces = faces_of(shape);
+      trim_meridians(faces);
+      bound_whole_surfaces(faces);
+      swap_seams(faces);
     }
     return XSAlgo_AlgoContainer::ProcessShape(shape, precision, tolerance, resource, sequence, info, progress,
                                               is_non_manifold);

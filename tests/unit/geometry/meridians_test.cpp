@@ -14,6 +14,7 @@
 #include <cmath>
 
 #include "base/vec.h"
+#include "geometry/brep/faces_of.h"
 
 namespace st {
 namespace {
@@ -39,16 +40,16 @@ TEST(Meridians, end_at_the_tips_around_the_face) {
   const double tip = std::acos(-0.5);  // of the outer part: from -tip to tip
   const TopoDS_Face inner = revolved(1, tip + 0.1, 2 * kPi - tip - 0.1);
   const gp_Pnt before = BRep_Tool::Surface(inner)->Value(0.5, 3);
-  EXPECT_EQ(occt::trim_meridians(inner), 1);
+  EXPECT_EQ(occt::trim_meridians(occt::faces_of(inner)), 1);
   EXPECT_NEAR(bounds_of(inner).v_min, tip, 1e-9);
   EXPECT_NEAR(bounds_of(inner).v_max, 2 * kPi - tip, 1e-9);
   EXPECT_LT(BRep_Tool::Surface(inner)->Value(0.5, 3).Distance(before), 1e-12);
-  EXPECT_EQ(occt::trim_meridians(inner), 0) << "it ends there now";
+  EXPECT_EQ(occt::trim_meridians(occt::faces_of(inner)), 0) << "it ends there now";
 }
 
 TEST(Meridians, that_do_not_cross_the_axis_stay) {
-  EXPECT_EQ(occt::trim_meridians(revolved(3, 1, 2)), 0) << "a ring";
-  EXPECT_EQ(occt::trim_meridians(revolved(1, 1, 4)), 0) << "a face across a tip";
+  EXPECT_EQ(occt::trim_meridians(occt::faces_of(revolved(3, 1, 2))), 0) << "a ring";
+  EXPECT_EQ(occt::trim_meridians(occt::faces_of(revolved(1, 1, 4))), 0) << "a face across a tip";
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/brep/faces_of.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
 
@@ -61,17 +62,17 @@ TEST(SwappedSeams, curves_that_changed_places_do_so_again) {
     const TopoDS_Edge forward = TopoDS::Edge(seam.edge.Oriented(TopAbs_FORWARD));
     BRep_Builder().UpdateEdge(forward, back, there, seam.face, 1e-7);
     EXPECT_EQ(seam.curve(TopAbs_FORWARD), back);
-    EXPECT_EQ(occt::swap_seams(shape), 1);
+    EXPECT_EQ(occt::swap_seams(occt::faces_of(shape)), 1);
     EXPECT_EQ(seam.curve(TopAbs_FORWARD), there);
     EXPECT_EQ(seam.curve(TopAbs_REVERSED), back);
-    EXPECT_EQ(occt::swap_seams(shape), 0);
+    EXPECT_EQ(occt::swap_seams(occt::faces_of(shape)), 0);
   }
 }
 
 TEST(SwappedSeams, others_stay) {
   for (const char* name : {"sphere", "torus", "cylinder", "cone", "drilled_cylinder", "ball_with_stem", "ball_with_bar",
                            "ball_with_socket", "spindle_with_fin", "periodic_tube", "closed_tube"})
-    EXPECT_EQ(occt::swap_seams(shape_of(name)), 0) << name;
+    EXPECT_EQ(occt::swap_seams(occt::faces_of(shape_of(name))), 0) << name;
 }
 
 class BodiesWithFins : public testing::TestWithParam<const char*> {};
