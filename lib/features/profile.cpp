@@ -160,14 +160,11 @@ std::optional<Vec3> exact_nose(const Surface& surface, Vec3 trailing_edge, const
   return is_on(surface, uv) && distance(x, profile.nose) <= reach ? std::optional(x) : std::nullopt;
 }
 
-ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutPlace>* ends) : facets_(facets), ends_(ends) {
+ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutPlace>* ends)
+    : facets_(facets), ends_(ends), facets_of_(cells_of_nodes(facets.triangle, facets.xyz.size())) {
   std::vector<Box3> block((facets.triangle.size() + kFacetsPerBlock - 1) / kFacetsPerBlock);
-  node_begin_.resize(facets.xyz.size() + 1, 0);
   for (std::size_t i = 0; i < facets.triangle.size(); ++i)
-    for (const std::int32_t n : facets.triangle[i]) {
-      block[i / kFacetsPerBlock].add(facets.xyz[n]);
-      ++node_begin_[n + 1];
-    }
+    for (const std::int32_t n : facets.triangle[i]) block[i / kFacetsPerBlock].add(facets.xyz[n]);
   while (block.size() > 1) {
     std::vector<Box3> next((block.size() + kBlocksPerBlock - 1) / kBlocksPerBlock);
     for (std::size_t i = 0; i < block.size(); ++i) {
@@ -177,11 +174,6 @@ ProfileCutter::ProfileCutter(const Facets& facets, std::vector<CutPlace>* ends) 
     blocks_.push_back(std::exchange(block, std::move(next)));
   }
   blocks_.push_back(std::move(block));
-  std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
-  facet_.resize(3 * facets.triangle.size());
-  std::vector<std::int32_t> next = node_begin_;
-  for (std::size_t i = 0; i < facets.triangle.size(); ++i)
-    for (const std::int32_t n : facets.triangle[i]) facet_[next[n]++] = static_cast<std::int32_t>(i);
 }
 
 std::optional<ProfileCutter::Segment> ProfileCutter::segment_of(std::int32_t facet, Vec3 origin, Vec3 normal) const {
@@ -233,7 +225,6 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
                                                            std::vector<CutPlace>* ends) const {
   std::vector<Segment> part, todo;
   std::vector<bool> is_taken(facets_.triangle.size());
-  const auto n_facets_at = [&](std::int32_t n) { return node_begin_[n + 1] - node_begin_[n]; };
   if (const std::optional<Segment> first = nearest_segment(origin, normal, reach)) {
     is_taken[first->facet] = true;
     todo.push_back(*first);
@@ -244,14 +235,15 @@ std::vector<ProfileCutter::Segment> ProfileCutter::part_at(Vec3 origin, Vec3 nor
     part.push_back(s);
     for (std::size_t k = 0; k < 2; ++k) {
       auto [a, b] = s.side[k];
-      if (n_facets_at(b) < n_facets_at(a)) std::swap(a, b);  // those of both are the same, in the same order
+      if (facets_of_[b].size() < facets_of_[a].size())
+        std::swap(a, b);  // those of both are the same, in the same order
       int n_facets = 0;
-      for (std::int32_t i = node_begin_[a]; i < node_begin_[a + 1]; ++i) {
-        if (std::ranges::count(facets_.triangle[facet_[i]], b) == 0) continue;
+      for (const std::int32_t facet : facets_of_[a]) {
+        if (std::ranges::count(facets_.triangle[facet], b) == 0) continue;
         ++n_facets;
-        if (is_taken[facet_[i]]) continue;
-        is_taken[facet_[i]] = true;
-        if (const std::optional<Segment> next = segment_of(facet_[i], origin, normal)) todo.push_back(*next);
+        if (is_taken[facet]) continue;
+        is_taken[facet] = true;
+        if (const std::optional<Segment> next = segment_of(facet, origin, normal)) todo.push_back(*next);
       }
       if (ends && n_facets == 1) ends->push_back({facets_.face[s.facet], s.end[k]});
     }

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "base/lists_by_key.h"
 #include "geometry/model/facets.h"
 #include "geometry/shape/projection.h"
 #include "geometry/shape/surface.h"
@@ -133,8 +134,8 @@ class ProfileCutter {
 
   const Facets& facets_;
   std::vector<CutPlace>* const ends_;
-  std::vector<std::vector<Box3>> blocks_;         ///< of so many facets each; then of so many of these, up to one
-  std::vector<std::int32_t> node_begin_, facet_;  ///< facets of each node, ascending
+  std::vector<std::vector<Box3>> blocks_;  ///< of so many facets each; then of so many of these, up to one
+  ListsByKey<> facets_of_;                 ///< by node
 };
 
 }  // namespace st

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/box_tree.h"
+#include "base/lists_by_key.h"
 #include "base/threads.h"
 
 namespace st {
@@ -57,9 +58,11 @@ class Segment {
 class LayersCheck {
  public:
   LayersCheck(const SurfaceMesh& mesh, std::span<const LayerRole> roles, const LayerOptions& options)
-      : mesh_(mesh), roles_(roles), options_(options), offsets_(static_cast<std::size_t>(mesh.n_nodes()) + 1, 0) {
+      : mesh_(mesh),
+        roles_(roles),
+        options_(options),
+        triangles_(cells_of_nodes(mesh.triangles, static_cast<std::size_t>(mesh.n_nodes()))) {
     find_normals();
-    find_triangles_of_nodes();
   }
 
   LayersReport run() {
@@ -98,16 +101,6 @@ class LayersCheck {
     report_.median = *middle;
   }
 
-  void find_triangles_of_nodes() {
-    for (const Triangle& t : mesh_.triangles)
-      for (const NodeId n : t.n) ++offsets_[static_cast<std::size_t>(n) + 1];
-    for (std::size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
-    triangles_.resize(3 * mesh_.triangles.size());
-    std::vector<std::int32_t> next(offsets_.begin(), offsets_.end() - 1);
-    for (TriangleId t = 0; t < mesh_.n_triangles(); ++t)
-      for (const NodeId n : mesh_.triangles[t].n) triangles_[next[n]++] = t;
-  }
-
   void check_edges() {
     is_sharp_.assign(static_cast<std::size_t>(mesh_.n_nodes()), 0);
     edges_of(mesh_).for_each_edge([&](NodeId low, NodeId high, std::span<const SideId> sides) {
@@ -137,8 +130,7 @@ class LayersCheck {
   NodeAnswer answer(NodeId node, std::vector<Vec3>& normals) const {
     normals.clear();
     std::array<Vec3, 2> planes = {};  // on the line between two planes: both, square to each other
-    for (std::int32_t i = offsets_[node]; i < offsets_[node + 1]; ++i) {
-      const TriangleId t = triangles_[i];
+    for (const TriangleId t : triangles_[node]) {
       const Vec3 n = normal_[t];
       if (role(t) == LayerRole::kWall && norm2(n) > 0) normals.push_back(n);
       if (role(t) != LayerRole::kPlane) continue;
@@ -175,7 +167,7 @@ class LayersCheck {
   void take(NodeId node, const NodeAnswer& own) {
     if (own.cosine > 1.5) return;
     ++report_.n_nodes;
-    const DefectPlace place{mesh_.node_xyz[node], mesh_.triangle_face[triangles_[offsets_[node]]], kNone};
+    const DefectPlace place{mesh_.node_xyz[node], mesh_.triangle_face[triangles_[node].front()], kNone};
     const double angle = std::acos(std::clamp(own.cosine, -1.0, 1.0));
     if (angle > report_.widest) {
       report_.widest = angle;
@@ -189,10 +181,9 @@ class LayersCheck {
   const SurfaceMesh& mesh_;
   std::span<const LayerRole> roles_;
   const LayerOptions options_;
+  const ListsByKey<> triangles_;  // by node
   LayersReport report_;
   std::vector<Vec3> normal_;            // [n_triangles] into the flow, unit
-  std::vector<std::int32_t> offsets_;   // [n_nodes+1] into triangles_
-  std::vector<TriangleId> triangles_;   // of nodes
   std::vector<std::uint8_t> is_sharp_;  // [n_nodes] 1: on a fan's or wedge's edge
   std::vector<TriangleId> walls_;
   std::vector<Box3> boxes_;

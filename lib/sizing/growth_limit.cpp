@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists_by_key.h"
 #include "base/threads.h"
 #include "sizing/mean_stretch.h"
 #include "sizing/multiscale_metric.h"
@@ -51,20 +52,6 @@ bool limit_tet(const std::array<Vec3, 4>& p, double slope, std::array<double, 4>
   return true;
 }
 
-/// Tetrahedra of each node, as CSR.
-struct NodeTets {
-  std::vector<std::int32_t> first, tet;
-
-  explicit NodeTets(const BackgroundMesh& mesh) : first(mesh.node_xyz.size() + 1, 0), tet(4 * mesh.tets.size()) {
-    for (const auto& t : mesh.tets)
-      for (const std::int32_t n : t) ++first[static_cast<std::size_t>(n) + 1];
-    for (std::size_t n = 1; n < first.size(); ++n) first[n] += first[n - 1];
-    std::vector<std::int32_t> next(first.begin(), first.end() - 1);
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-      for (const std::int32_t n : mesh.tets[t]) tet[next[n]++] = static_cast<std::int32_t>(t);
-  }
-};
-
 /// What an edge at a node may be along, so that no more than `value` is requested in direction `d`.
 double along_for(const LocalSize& size, Vec3 d, double value) {
   if (!(value > size.length)) return size.length;
@@ -76,7 +63,10 @@ double along_for(const LocalSize& size, Vec3 d, double value) {
 class GrowthLimiter {
  public:
   GrowthLimiter(double slope, BackgroundMesh& mesh)
-      : mesh_(mesh), tets_of_(mesh), slope_(slope), is_lowered_(mesh.node_xyz.size(), 0) {}
+      : mesh_(mesh),
+        tets_of_(cells_of_nodes(mesh.tets, mesh.node_xyz.size())),
+        slope_(slope),
+        is_lowered_(mesh.node_xyz.size(), 0) {}
 
   void limit_lengths() {
     lower_all([&](const std::array<std::int32_t, 4>& tet, const auto& lowered) {
@@ -169,8 +159,8 @@ class GrowthLimiter {
       if (is_waiting[t]) waiting.push_back(static_cast<std::int32_t>(t));
     const auto lowered = [&](std::int32_t node) {
       is_lowered_[node] = 1;
-      for (std::int32_t i = tets_of_.first[node]; i < tets_of_.first[node + 1]; ++i)
-        if (const std::int32_t other = tets_of_.tet[i]; !is_waiting[other]) {
+      for (const std::int32_t other : tets_of_[node])
+        if (!is_waiting[other]) {
           is_waiting[other] = 1;
           next.push_back(other);
         }
@@ -183,7 +173,7 @@ class GrowthLimiter {
   }
 
   BackgroundMesh& mesh_;
-  const NodeTets tets_of_;
+  const ListsByKey<> tets_of_;  // by node
   const double slope_;
   std::vector<std::uint8_t> is_lowered_;  // [nodes]
 };

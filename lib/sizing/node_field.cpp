@@ -34,23 +34,12 @@ NodeField::NodeField(const SurfaceMesh& mesh, std::vector<double> size, double s
     : mesh_(mesh), size_(std::move(size)), slope_(slope) {
   ST_ASSERT(size_.size() == mesh_.node_xyz.size() && slope_ > 0);
   ST_ASSERT(std::all_of(size_.begin(), size_.end(), [](double h) { return h > 0 && std::isfinite(h); }));
-  find_triangles();
+  triangles_of_ = cells_of_nodes(mesh_.triangles, size_.size());
   limit_growth();
   min_size_ = size_.empty() ? 0 : *std::min_element(size_.begin(), size_.end());
   tree_.resize(size_.size());
   std::iota(tree_.begin(), tree_.end(), 0);
   build_tree(0, tree_.size(), 0);
-}
-
-void NodeField::find_triangles() {
-  first_.assign(size_.size() + 1, 0);
-  for (const Triangle& t : mesh_.triangles)
-    for (NodeId n : t.n) ++first_[n + 1];
-  std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  triangle_.resize(3 * mesh_.triangles.size());
-  std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
-    for (NodeId n : mesh_.triangles[t].n) triangle_[next[n]++] = static_cast<TriangleId>(t);
 }
 
 /// The largest lengths below the given ones that grow no faster: from the smallest on.
@@ -62,8 +51,8 @@ void NodeField::limit_growth() {
     const auto [h, node] = queue.top();
     queue.pop();
     if (h > size_[node]) continue;
-    for (std::int32_t i = first_[node]; i < first_[node + 1]; ++i)
-      for (NodeId n : mesh_.triangles[triangle_[i]].n) {
+    for (const TriangleId t : triangles_of_[node])
+      for (NodeId n : mesh_.triangles[t].n) {
         const double allowed = h + slope_ * distance(mesh_.node_xyz[node], mesh_.node_xyz[n]);
         if (allowed < size_[n]) queue.push({size_[n] = allowed, n});
       }
@@ -99,8 +88,8 @@ double NodeField::size(Vec3 x, int& hint) const {
   find_nearest(x, 0, tree_.size(), 0, node, best2);
   hint = node;
   double length = size_[node], closest2 = best2;
-  for (std::int32_t i = first_[node]; i < first_[node + 1]; ++i) {
-    const Triangle& t = mesh_.triangles[triangle_[i]];
+  for (const TriangleId own : triangles_of_[node]) {
+    const Triangle& t = mesh_.triangles[own];
     Vec3 at{0, 0, 0}, c[3] = {mesh_.node_xyz[t.n[0]], mesh_.node_xyz[t.n[1]], mesh_.node_xyz[t.n[2]]};
     const Weights w = weights_at(x, c[0], c[1], c[2]);
     double h = 0;

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/lists_by_key.h"
 #include "mesh/surface_mesh.h"
 #include "sizing/size_field.h"
 
@@ -23,7 +24,6 @@ class NodeField : public SizeField {
   double slope() const override { return slope_; }
 
  private:
-  void find_triangles();
   void limit_growth();
   void build_tree(std::size_t begin, std::size_t end, int axis);
   void find_nearest(Vec3 x, std::size_t begin, std::size_t end, int axis, NodeId& best, double& best2) const;
@@ -31,9 +31,8 @@ class NodeField : public SizeField {
   const SurfaceMesh& mesh_;
   std::vector<double> size_;
   double slope_, min_size_ = 0;
-  std::vector<std::int32_t> first_;   // [n_nodes+1] into triangle_
-  std::vector<TriangleId> triangle_;  // of each node
-  std::vector<NodeId> tree_;          // nodes as a balanced tree: the middle of a range divides it along an axis
+  ListsByKey<> triangles_of_;  // by node
+  std::vector<NodeId> tree_;   // nodes as a balanced tree: the middle of a range divides it along an axis
 };
 
 }  // namespace st

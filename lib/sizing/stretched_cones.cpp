@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/limits.h"
+#include "base/lists_by_key.h"
 #include "base/parallel_reserve.h"
 #include "base/threads.h"
 #include "sizing/cone_cell.h"
@@ -97,14 +98,6 @@ class StretchSpread {
     }
   };
   /// A list of sites for each sample.
-  struct SiteLists {
-    std::vector<std::int32_t> first, sites;
-    std::span<const std::int32_t> operator[](std::int32_t i) const {
-      return std::span(sites).subspan(static_cast<std::size_t>(first[i]),
-                                      static_cast<std::size_t>(first[i + 1] - first[i]));
-    }
-  };
-
   /// Few samples come first, far from each other, then as many as there were before, and so on: so few sites are
   /// lowered again and again, as they are where sample after sample comes nearer.
   static std::uint32_t turn_of(std::int32_t sample) {
@@ -155,21 +148,13 @@ class StretchSpread {
 
   /// Where each sample tells a length.
   void find_starts() {
-    std::vector<std::int32_t>& first = starts_.first;
-    first.assign(samples_.size() + 1, 0);
-    for (const std::int32_t c : table_.of_site) ++first[table_.sample[c] + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    starts_.sites.resize(table_.of_site.size());
-    std::vector<std::int32_t> next(first.begin(), first.end() - 1);
-    for (std::size_t site = 0; site < n_sites(); ++site)
-      for (const std::int32_t c : cones_of(site))
-        starts_.sites[next[table_.sample[c]]++] = static_cast<std::int32_t>(site);
-    lies_in_.first.assign(samples_.size() + 1, 0);
-    for (const auto& [site, sample] : own_sites_) ++lies_in_.first[sample + 1];
-    std::partial_sum(lies_in_.first.begin(), lies_in_.first.end(), lies_in_.first.begin());
-    lies_in_.sites.resize(own_sites_.size());
-    next.assign(lies_in_.first.begin(), lies_in_.first.end() - 1);
-    for (const auto& [site, sample] : own_sites_) lies_in_.sites[next[sample]++] = site;
+    starts_ = {samples_.size(), [&](const auto& visit) {
+                 for (std::size_t site = 0; site < n_sites(); ++site)
+                   for (const std::int32_t c : cones_of(site)) visit(table_.sample[c], static_cast<std::int32_t>(site));
+               }};
+    lies_in_ = {samples_.size(), [&](const auto& visit) {
+                  for (const auto& [site, sample] : own_sites_) visit(sample, site);
+                }};
   }
 
   void make_site(std::size_t site, Piece& own) {
@@ -354,7 +339,7 @@ class StretchSpread {
   std::vector<AlongSite> sites_;      // [n_sites]
   std::vector<Directions> turns_;
   std::vector<std::uint64_t> is_plain_;  // a bit for each site: nothing is stretched there
-  SiteLists starts_, lies_in_;           // of each sample: where it tells a length, where it lies
+  ListsByKey<> starts_, lies_in_;        // of each sample: where it tells a length, where it lies
   std::mutex walks_mutex_;
   std::vector<std::unique_ptr<Walk>> walks_;  // not in use
 };

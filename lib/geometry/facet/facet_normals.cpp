@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "base/eigen.h"
+#include "base/lists_by_key.h"
 #include "base/threads.h"
 #include "geometry/shape/known_neighbours.h"
 
@@ -67,33 +67,27 @@ class ArcNormals {
   void find_sides(const std::vector<Corners>& neighbours) {
     at_line_.assign(ways_[0].size(), 0);
     node_.resize(at_line_.size());
-    first_.assign(at_line_.size() + 1, 0);
     for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
       for (int k = 0; k < 3; ++k) {
         node_[fan(t, k)] = node(t, k);
         if (mesh_.is_line[t][k]) at_line_[fan(t, k)] = at_line_[fan(t, k + 1)] = 1;
       }
-    const auto for_each_side = [&](const auto& visit) {
-      for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
-        for (int k = 0; k < 3; ++k)
-          if (!mesh_.is_line[t][k] && neighbours[t][k] > t && !(at_line_[fan(t, k)] && at_line_[fan(t, k + 1)]))
-            visit(static_cast<std::size_t>(fan(t, k)), static_cast<std::size_t>(fan(t, k + 1)));
-    };
-    for_each_side([&](std::size_t a, std::size_t b) { ++first_[a + 1], ++first_[b + 1]; });
-    std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    beside_.resize(static_cast<std::size_t>(first_.back()));
-    std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-    for_each_side([&](std::size_t a, std::size_t b) {
-      beside_[next[a]++] = static_cast<std::int32_t>(b);
-      beside_[next[b]++] = static_cast<std::int32_t>(a);
-    });
+    beside_ = {at_line_.size(), [&](const auto& visit) {
+                 for (std::int32_t t = 0; t < mesh_.n_triangles(); ++t)
+                   for (int k = 0; k < 3; ++k) {
+                     const std::int32_t a = fan(t, k), b = fan(t, k + 1);
+                     if (mesh_.is_line[t][k] || neighbours[t][k] <= t || (at_line_[a] && at_line_[b])) continue;
+                     visit(a, b);
+                     visit(b, a);
+                   }
+               }};
   }
 
   /// Calls visit(other fan, unit vector there) for the sides of a fan.
   template <class Visit>
   void for_each_beside(std::int32_t n, const Visit& visit) const {
-    for (std::int32_t i = first_[n]; i < first_[n + 1]; ++i)
-      visit(beside_[i], normalized(mesh_.x[node_[beside_[i]]] - mesh_.x[node_[n]]));
+    for (const std::int32_t other : beside_[static_cast<std::size_t>(n)])
+      visit(other, normalized(mesh_.x[node_[other]] - mesh_.x[node_[n]]));
   }
 
   /// For each fan the weights that make arcs of the sides around.
@@ -134,7 +128,7 @@ class ArcNormals {
         mesh_.normal[n] = normal;
         is_still = false;
         turns[n] = 1;
-        for (std::int32_t i = first_[n]; i < first_[n + 1]; ++i) turns[beside_[i]] = 1;
+        for (const std::int32_t other : beside_[n]) turns[other] = 1;
       }
     }
   }
@@ -174,7 +168,7 @@ class ArcNormals {
   std::array<std::vector<Vec3>, kWays> ways_;  // [fans] unit
   std::vector<std::uint8_t> at_line_;          // [fans]
   std::vector<std::int32_t> node_;             // [fans]
-  std::vector<std::int32_t> first_, beside_;   // other fans across sides: those of fan n from first_[n] on
+  ListsByKey<> beside_;                        // other fans across sides, by fan
 };
 
 /// Ends of a short side, as needles have it, get one normal where it would turn by far more per length than the facets

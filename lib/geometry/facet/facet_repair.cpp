@@ -9,8 +9,8 @@
 
 #include "base/boxes.h"
 #include "base/error.h"
+#include "base/lists_by_key.h"
 #include "geometry/facet/facet_flaps.h"
-#include "geometry/facet/facets_of_nodes.h"
 #include "geometry/facet/short_sides.h"
 #include "geometry/facet/split_sides.h"
 
@@ -23,17 +23,6 @@ constexpr double kAtCorner = 0.5;    // cosine between facets that lie on one su
 constexpr double kNoNormal = 1e-3;   // height over longest side: below, the normal is rounding
 constexpr int kCapPasses = 12;       // over all facets: caps may lie on caps
 
-/// Numbers of elements by their keys, below n_keys; those of one key ascend.
-std::vector<std::int32_t> ordered_by_key(const std::vector<std::int32_t>& key, std::size_t n_keys,
-                                         std::vector<std::int32_t>& offsets) {
-  offsets.assign(n_keys + 1, 0);
-  for (const std::int32_t k : key) ++offsets[static_cast<std::size_t>(k) + 1];
-  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-  std::vector<std::int32_t> order(key.size()), next(offsets.begin(), offsets.end() - 1);
-  for (std::size_t i = 0; i < key.size(); ++i) order[next[key[i]]++] = static_cast<std::int32_t>(i);
-  return order;
-}
-
 /// A side with its nodes in ascending order.
 struct FacetSide {
   std::int32_t low, high, triangle;
@@ -41,28 +30,27 @@ struct FacetSide {
   bool operator<(const FacetSide& o) const { return std::tie(high, triangle) < std::tie(o.high, o.triangle); }
 };
 
-/// By lower node, higher node and triangle.
-std::vector<FacetSide> sorted_sides(const std::vector<Corners>& corners, std::size_t n_nodes) {
-  std::vector<std::int32_t> low, offsets;
-  low.reserve(3 * corners.size());
-  for (const Corners& c : corners)
-    for (int k = 0; k < 3; ++k) low.push_back(std::min(c[k], c[(k + 1) % 3]));
-  std::vector<FacetSide> sides;
-  sides.reserve(low.size());
-  for (const std::int32_t i : ordered_by_key(low, n_nodes, offsets)) {
-    const std::int32_t a = corners[i / 3][i % 3], b = corners[i / 3][(i % 3 + 1) % 3];
-    sides.push_back({low[i], std::max(a, b), i / 3, a < b});
-  }
-  for (std::size_t n = 0; n < n_nodes; ++n) std::sort(sides.begin() + offsets[n], sides.begin() + offsets[n + 1]);
+/// Of each lower node, by higher node and triangle.
+ListsByKey<FacetSide> sorted_sides(const std::vector<Corners>& corners, std::size_t n_nodes) {
+  ListsByKey<FacetSide> sides(n_nodes, [&](const auto& visit) {
+    for (std::size_t i = 0; i < 3 * corners.size(); ++i) {
+      const auto [a, b] = std::pair(corners[i / 3][i % 3], corners[i / 3][(i + 1) % 3]);
+      visit(std::min(a, b), FacetSide{std::min(a, b), std::max(a, b), static_cast<std::int32_t>(i / 3), a < b});
+    }
+  });
+  for (std::size_t n = 0; n < n_nodes; ++n) std::sort(sides[n].begin(), sides[n].end());
   return sides;
 }
 
 /// Calls visit(first, n) for each pair of nodes and the sides that it has.
 template <class Visit>
-void for_each_pair(const std::vector<FacetSide>& sides, const Visit& visit) {
-  for (std::size_t i = 0, j; i < sides.size(); i = j) {
-    for (j = i + 1; j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high;) ++j;
-    visit(&sides[i], j - i);
+void for_each_pair(const ListsByKey<FacetSide>& sides, const Visit& visit) {
+  for (std::size_t node = 0; node < sides.n_keys(); ++node) {
+    const std::span<const FacetSide> own = sides[node];
+    for (std::size_t i = 0, j; i < own.size(); i = j) {
+      for (j = i + 1; j < own.size() && own[j].high == own[i].high;) ++j;
+      visit(&own[i], j - i);
+    }
   }
 }
 
@@ -96,29 +84,27 @@ class FacetRepair {
 
   void drop_duplicates() {
     std::vector<Corners> sorted = in_.corners;
-    std::vector<std::int32_t> lowest, offsets;
-    lowest.reserve(sorted.size());
-    for (Corners& c : sorted) {
-      std::sort(c.begin(), c.end());
-      lowest.push_back(c[0]);
-    }
-    std::vector<std::int32_t> order = ordered_by_key(lowest, in_.x.size(), offsets);
-    for (std::size_t n = 0; n < in_.x.size(); ++n)
-      std::sort(order.begin() + offsets[n], order.begin() + offsets[n + 1],
-                [&](std::int32_t a, std::int32_t b) { return sorted[a] != sorted[b] ? sorted[a] < sorted[b] : a < b; });
+    for (Corners& c : sorted) std::ranges::sort(c);
+    ListsByKey<> by_lowest(in_.x.size(), [&](const auto& visit) {
+      for (std::size_t t = 0; t < sorted.size(); ++t) visit(sorted[t][0], static_cast<std::int32_t>(t));
+    });
     std::vector<std::uint8_t> is_kept(sorted.size(), 0);
     std::size_t n_duplicates = 0;
     std::vector<TwinFacets> pairs;
     Vec3 place;
-    for (std::size_t i = 0, j; i < order.size(); i = j) {
-      const Corners& c = sorted[order[i]];
-      for (j = i + 1; j < order.size() && sorted[order[j]] == c;) ++j;
-      if (c[0] == c[1] || c[1] == c[2]) continue;
-      if (j - i > 1 && n_duplicates == 0) place = in_.x[c[0]];
-      const bool is_left = (j - i) % 2 == 1 || flatness(c) > kNoNormal;  // two without area on one another are nothing
-      is_kept[order[i]] = is_left;
-      n_duplicates += j - i - is_left;
-      if (j - i == 2 && is_left) pairs.push_back({order[i], order[i + 1]});
+    for (std::size_t node = 0; node < by_lowest.n_keys(); ++node) {
+      const std::span<std::int32_t> own = by_lowest[node];
+      std::ranges::stable_sort(own, {}, [&](std::int32_t t) -> const Corners& { return sorted[t]; });
+      for (std::size_t i = 0, j; i < own.size(); i = j) {
+        const Corners& c = sorted[own[i]];
+        for (j = i + 1; j < own.size() && sorted[own[j]] == c;) ++j;
+        if (c[0] == c[1] || c[1] == c[2]) continue;
+        if (j - i > 1 && n_duplicates == 0) place = in_.x[c[0]];
+        const bool is_left = (j - i) % 2 == 1 || flatness(c) > kNoNormal;  // two without area are nothing
+        is_kept[own[i]] = is_left;
+        n_duplicates += j - i - is_left;
+        if (j - i == 2 && is_left) pairs.push_back({own[i], own[i + 1]});
+      }
     }
     for (const auto& [a, b] : find_flaps(in_.corners, pairs)) {
       is_kept[a] = is_kept[b] = 0;
@@ -193,7 +179,7 @@ class FacetRepair {
 
   /// Neighbours across sides that two facets have, whichever way round.
   void link() {
-    const std::vector<FacetSide> sides = sorted_sides(in_.corners, in_.x.size());
+    const ListsByKey<FacetSide> sides = sorted_sides(in_.corners, in_.x.size());
     links_.assign(in_.corners.size(), {});
     is_open_.assign(in_.corners.size(), 0);
     for_each_pair(sides, [&](const FacetSide* s, std::size_t n) {
@@ -293,7 +279,7 @@ class FacetRepair {
     std::size_t n_turned = 0, n_before = 0;
     for (int pass = 0; pass < kCapPasses; ++pass) {
       const std::vector<Corners> neighbours = find_neighbours(in_.corners);
-      facets_ = FacetsOfNodes(in_.corners, in_.x.size());
+      facets_ = cells_of_nodes(in_.corners, in_.x.size());
       std::vector<std::uint8_t> is_touched(in_.corners.size(), 0);
       for (std::int32_t t = 0; t < static_cast<std::int32_t>(in_.corners.size()); ++t) {
         const int k = longest_side(in_.corners[t]);
@@ -369,8 +355,7 @@ class FacetRepair {
   }
 
   bool has_side(std::int32_t a, std::int32_t b) const {
-    return std::ranges::any_of(facets_.of(a),
-                               [&](std::int32_t t) { return std::ranges::count(in_.corners[t], b) > 0; });
+    return std::ranges::any_of(facets_[a], [&](std::int32_t t) { return std::ranges::count(in_.corners[t], b) > 0; });
   }
 
   FacetInput& in_;
@@ -378,7 +363,7 @@ class FacetRepair {
   std::vector<ImportFinding> findings_;
   std::vector<std::array<Link, 3>> links_;  // of each facet, those without another one last
   std::vector<std::uint8_t> is_open_;       // has a side that not exactly two facets have
-  FacetsOfNodes facets_;                    // when a pass began
+  ListsByKey<> facets_;                     // of nodes, when a pass began
   bool has_free_sides_ = false;             // before any nodes were joined
   Vec3 place_;
 };

@@ -5,8 +5,8 @@
 #include <iterator>
 #include <utility>
 
+#include "base/lists_by_key.h"
 #include "base/sort_once.h"
-#include "geometry/facet/facets_of_nodes.h"
 
 namespace st {
 namespace {
@@ -27,14 +27,14 @@ class ShortSides {
         if (is_short(c[k], c[(k + 1) % 3])) sides.push_back(std::minmax(c[k], c[(k + 1) % 3]));
     if (sides.empty()) return 0;
     sort_once(sides);
-    facets_ = FacetsOfNodes(in_.corners, in_.x.size());
+    facets_ = cells_of_nodes(in_.corners, in_.x.size());
     is_touched_.assign(in_.x.size(), 0);
     std::size_t n = 0;
     for (const auto& [a, b] : sides) {
       if (is_touched_[a] || is_touched_[b] || !stays_a_surface(a, b)) continue;
       for (const std::int32_t node : {a, b})
         for (const std::int32_t beside : neighbours_of(node)) is_touched_[beside] = 1;
-      for (const std::int32_t t : facets_.of(b)) std::ranges::replace(in_.corners[t], b, a);
+      for (const std::int32_t t : facets_[b]) std::ranges::replace(in_.corners[t], b, a);
       ++n;
     }
     drop_facets_without_three_nodes();
@@ -52,15 +52,14 @@ class ShortSides {
   /// And itself, ascending.
   std::vector<std::int32_t> neighbours_of(std::int32_t node) const {
     std::vector<std::int32_t> nodes;
-    for (const std::int32_t t : facets_.of(node))
-      nodes.insert(nodes.end(), in_.corners[t].begin(), in_.corners[t].end());
+    for (const std::int32_t t : facets_[node]) nodes.insert(nodes.end(), in_.corners[t].begin(), in_.corners[t].end());
     sort_once(nodes);
     return nodes;
   }
 
   bool stays_a_surface(std::int32_t a, std::int32_t b) const {
     std::vector<std::int32_t> opposite{a, b}, common;
-    for (const std::int32_t t : facets_.of(a)) {
+    for (const std::int32_t t : facets_[a]) {
       const Corners& c = in_.corners[t];
       if (std::ranges::count(c, b) > 0) opposite.insert(opposite.end(), c.begin(), c.end());
     }
@@ -73,7 +72,7 @@ class ShortSides {
   bool lie_on_each_other(std::int32_t a, std::int32_t b) const {
     const auto others = [&](std::int32_t node) {
       std::vector<NodePair> sides;
-      for (const std::int32_t t : facets_.of(node)) {
+      for (const std::int32_t t : facets_[node]) {
         const Corners& c = in_.corners[t];
         const auto k = std::ranges::find(c, node) - c.begin();
         sides.push_back(std::minmax(c[(k + 1) % 3], c[(k + 2) % 3]));
@@ -95,7 +94,7 @@ class ShortSides {
 
   FacetInput& in_;
   double gap_;
-  FacetsOfNodes facets_;                  // when the pass began
+  ListsByKey<> facets_;                   // of nodes, when the pass began
   std::vector<std::uint8_t> is_touched_;  // nodes beside a side that went
 };
 

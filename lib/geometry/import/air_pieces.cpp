@@ -131,13 +131,10 @@ void AirPieces::find_first_edges() {
               if (first_edge_[e] == e && are_at_one_place(e, other)) first_edge_[e] = other;
     if (first_edge_[e] == e) cells[key(middle, 0)].push_back(e);
   }
-  offsets_.assign(t_.n_edges() + 1, 0);
-  for (const EdgeId e : t_.coedge_edge) ++offsets_[first_edge_[e] + 1];
-  std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-  edge_faces_.resize(t_.coedge_edge.size());
-  std::vector<std::int32_t> next(offsets_.begin(), offsets_.end() - 1);
-  for (FaceId f = 0; f < t_.n_faces(); ++f)
-    for (const EdgeId e : t_.edges_of(f)) edge_faces_[next[first_edge_[e]]++] = f;
+  faces_at_ = {static_cast<std::size_t>(t_.n_edges()), [&](const auto& visit) {
+                 for (FaceId f = 0; f < t_.n_faces(); ++f)
+                   for (const EdgeId e : t_.edges_of(f)) visit(first_edge_[e], f);
+               }};
 }
 
 void AirPieces::find_first_faces() {

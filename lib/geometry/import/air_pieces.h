@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists_by_key.h"
 #include "geometry/model/imported_shape.h"
 #include "geometry/model/model.h"
 
@@ -61,10 +62,7 @@ class AirPieces {
   /// Three faces or more meet there.
   bool is_crowded(EdgeId e) const { return ways_.count(first_edge_[e]) > 0; }
   /// Faces that use an edge, or another one at its place; one that uses it twice appears twice.
-  std::span<const FaceId> faces_at(EdgeId e) const {
-    const EdgeId first = first_edge_[e];
-    return std::span(edge_faces_).subspan(offsets_[first], offsets_[first + 1] - offsets_[first]);
-  }
+  std::span<const FaceId> faces_at(EdgeId e) const { return faces_at_[static_cast<std::size_t>(first_edge_[e])]; }
 
   /// Whether a piece ends at a crowded edge where two of the other's faces go on: a partition in a box, or the sides of
   /// a box that stands on another one.
@@ -112,11 +110,10 @@ class AirPieces {
   const ImportedShape& model_;
   const ModelTables& t_;
   TopTools_IndexedMapOfShape edges_;
-  std::vector<EdgeId> first_edge_;     // [n_edges] of all at its place: solids that touch may have edges each
-  std::vector<FaceId> first_face_;     // [n_faces] of all with the same edges, and so of those that are there twice
-  std::vector<std::int32_t> offsets_;  // of first edges
-  std::vector<FaceId> edge_faces_;
-  std::vector<Vec3> edge_points_;                              // [5 * n_edges] of poles their vertex
+  std::vector<EdgeId> first_edge_;  // [n_edges] of all at its place: solids that touch may have edges each
+  std::vector<FaceId> first_face_;  // [n_faces] of all with the same edges, and so of those that are there twice
+  ListsByKey<FaceId> faces_at_;     // by first edge
+  std::vector<Vec3> edge_points_;   // [5 * n_edges] of poles their vertex
   std::map<EdgeId, std::vector<Way>> ways_;                    // of edges of three faces or more
   mutable std::map<FaceId, std::vector<FaceSample>> samples_;  // of faces that were asked for
   Box3 box_;

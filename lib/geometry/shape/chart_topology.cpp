@@ -1,43 +1,31 @@
 #include "geometry/shape/chart_topology.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/lists_by_key.h"
 #include "geometry/shape/known_neighbours.h"
 
 namespace st {
 namespace {
 
-/// Sides in buckets by their lower node: side k of triangle t is 3 t + k, ascending in each bucket.
-struct SideTable {
-  std::vector<std::int32_t> offsets, high, side;
+/// A side by its lower node: side k of triangle t is 3 t + k.
+struct UpperSide {
+  std::int32_t high, side;
 };
 
-SideTable sides_by_node(std::span<const Corners> corners) {
+/// Those of each node ascend.
+ListsByKey<UpperSide> sides_by_node(std::span<const Corners> corners) {
   std::int32_t n_nodes = 0;
   for (const Corners& c : corners) n_nodes = std::max({n_nodes, c[0] + 1, c[1] + 1, c[2] + 1});
-  SideTable table;
-  table.offsets.assign(static_cast<std::size_t>(n_nodes) + 1, 0);
-  table.high.resize(3 * corners.size());
-  table.side.resize(3 * corners.size());
-  const auto for_each = [&](const auto& visit) {
-    for (std::size_t i = 0; i < 3 * corners.size(); ++i) {
-      const Corners& c = corners[i / 3];
-      const auto [low, high] = std::minmax(c[i % 3], c[(i + 1) % 3]);
-      visit(static_cast<std::int32_t>(i), low, high);
-    }
-  };
-  for_each([&](std::int32_t, std::int32_t low, std::int32_t) { ++table.offsets[static_cast<std::size_t>(low) + 1]; });
-  std::partial_sum(table.offsets.begin(), table.offsets.end(), table.offsets.begin());
-  std::vector<std::int32_t> next(table.offsets.begin(), table.offsets.end() - 1);
-  for_each([&](std::int32_t i, std::int32_t low, std::int32_t high) {
-    const std::int32_t at = next[low]++;
-    table.high[at] = high;
-    table.side[at] = i;
-  });
-  return table;
+  return {static_cast<std::size_t>(n_nodes), [&](const auto& visit) {
+            for (std::size_t i = 0; i < 3 * corners.size(); ++i) {
+              const Corners& c = corners[i / 3];
+              const auto [low, high] = std::minmax(c[i % 3], c[(i + 1) % 3]);
+              visit(low, UpperSide{high, static_cast<std::int32_t>(i)});
+            }
+          }};
 }
 
 /// Rim sides as a map from each node to the next one; false where a node has two.
@@ -88,17 +76,17 @@ std::int32_t corner_across(std::span<const Corners> corners, std::span<const Cor
 
 std::vector<Corners> find_neighbours(std::span<const Corners> corners) {
   std::vector<Corners> result(corners.size(), {kNone, kNone, kNone});
-  SideTable table = sides_by_node(corners);
-  for (std::size_t node = 0; node + 1 < table.offsets.size(); ++node)
-    for (std::int32_t i = table.offsets[node], end = table.offsets[node + 1]; i < end; ++i) {
-      const std::int32_t high = table.high[i], own = table.side[i];
+  ListsByKey<UpperSide> sides = sides_by_node(corners);
+  for (std::size_t node = 0; node < sides.n_keys(); ++node)
+    for (std::span<UpperSide> rest = sides[node]; !rest.empty(); rest = rest.subspan(1)) {
+      const auto [high, own] = rest[0];
       if (high == kNone) continue;  // met before
       std::int32_t n_uses = 1, other = kNone;
-      for (std::int32_t j = i + 1; j < end; ++j)
-        if (table.high[j] == high) {
+      for (UpperSide& side : rest.subspan(1))
+        if (side.high == high) {
           ++n_uses;
-          other = table.side[j];
-          table.high[j] = kNone;
+          other = side.side;
+          side.high = kNone;
         }
       if (n_uses != 2 || corners[own / 3][own % 3] == corners[other / 3][other % 3]) continue;
       result[own / 3][own % 3] = other / 3;

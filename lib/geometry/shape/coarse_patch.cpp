@@ -6,6 +6,8 @@
 #include <numeric>
 #include <utility>
 
+#include "base/lists_by_key.h"
+
 namespace st {
 namespace {
 
@@ -47,7 +49,7 @@ class Coarsening {
   CoarsePatch run(std::size_t most_triangles) {
     while (corners_.size() > most_triangles) {
       const std::size_t n_before = corners_.size();
-      find_stars();
+      star_ = cells_of_nodes(corners_, x_.size());
       std::size_t n_left = n_before;
       for (const std::int32_t node : active_) {
         if (n_left <= most_triangles) break;
@@ -63,24 +65,9 @@ class Coarsening {
  private:
   static constexpr std::uint8_t kBeside = 1, kGone = 2;
 
-  void find_stars() {
-    offsets_.assign(x_.size() + 1, 0);
-    star_.resize(3 * corners_.size());
-    for (const Corners& c : corners_)
-      for (const std::int32_t n : c) ++offsets_[static_cast<std::size_t>(n) + 1];
-    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-    std::vector<std::int32_t> next(offsets_.begin(), offsets_.end() - 1);
-    for (std::size_t t = 0; t < corners_.size(); ++t)
-      for (const std::int32_t n : corners_[t]) star_[next[n]++] = static_cast<std::int32_t>(t);
-  }
-
-  std::span<const std::int32_t> star(std::int32_t node) const {
-    return {star_.data() + offsets_[node], static_cast<std::size_t>(offsets_[node + 1] - offsets_[node])};
-  }
-
   /// False where it is too large, or no fan.
   bool find_ring(std::int32_t node, Ring& ring) const {
-    const auto triangles = star(node);
+    const auto triangles = star_[node];
     ring.n = 0;
     ring.is_closed = loop_[node] == kNone;
     if (triangles.size() + 1 > kMostRing || triangles.size() < 2) return false;
@@ -151,7 +138,7 @@ class Coarsening {
   /// The link condition: ring node i has sides to none of the ring but its two neighbours there.
   bool has_only_these(std::int32_t node, const Ring& ring, std::size_t i) const {
     const std::int32_t into = ring.at(i);
-    for (const std::int32_t t : star(into))
+    for (const std::int32_t t : star_[into])
       for (const std::int32_t other : corners_[t]) {
         if (other == into || other == node) continue;
         for (std::size_t k = 0; k < ring.n; ++k) {
@@ -164,7 +151,7 @@ class Coarsening {
   }
 
   void remove(std::int32_t node, const Ring& ring, std::size_t into) {
-    for (const std::int32_t t : star(node)) {
+    for (const std::int32_t t : star_[node]) {
       Corners& c = corners_[t];
       if (std::find(c.begin(), c.end(), ring.at(into)) != c.end())
         c.fill(kNone);
@@ -193,12 +180,12 @@ class Coarsening {
   }
 
   std::span<const Vec3> x_;
-  std::vector<Corners> corners_;              // what is left, nodes of the fine patch
-  std::vector<std::int32_t> loop_;            // of each node; kNone inside
-  std::vector<std::int64_t> loop_size_;       // nodes that are left
-  std::vector<std::uint8_t> is_touched_;      // in this round
-  std::vector<std::int32_t> active_;          // nodes that are left, ascending
-  std::vector<std::int32_t> offsets_, star_;  // triangles at each node when the round began
+  std::vector<Corners> corners_;          // what is left, nodes of the fine patch
+  std::vector<std::int32_t> loop_;        // of each node; kNone inside
+  std::vector<std::int64_t> loop_size_;   // nodes that are left
+  std::vector<std::uint8_t> is_touched_;  // in this round
+  std::vector<std::int32_t> active_;      // nodes that are left, ascending
+  ListsByKey<> star_;                     // triangles at each node when the round began
   CoarsePatch result_;
 };
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
+#include "base/lists_by_key.h"
 #include "geometry/shape/coarse_patch.h"
 #include "geometry/shape/flatten.h"
 
@@ -167,18 +167,15 @@ class Refinement {
   }
 
   void even_out(std::span<const Corners> corners) {
-    std::vector<std::int32_t> offsets(x_.size() + 1, 0), star(3 * corners.size());
-    for (const Corners& c : corners)
-      for (const std::int32_t n : c) ++offsets[static_cast<std::size_t>(n) + 1];
-    std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
-    std::vector<std::int32_t> next(offsets.begin(), offsets.end() - 1);
-    for (std::size_t i = 0; i < star.size(); ++i) star[next[corners[i / 3][i % 3]]++] = static_cast<std::int32_t>(i);
+    const ListsByKey<> star(x_.size(), [&](const auto& visit) {
+      for (std::size_t i = 0; i < 3 * corners.size(); ++i) visit(corners[i / 3][i % 3], static_cast<std::int32_t>(i));
+    });
     for (int sweep = 0; sweep < kSweeps; ++sweep)
       for (std::size_t n = 0; n < x_.size(); ++n) {
         energy_.clear();
-        for (std::int32_t i = offsets[n]; i < offsets[n + 1]; ++i) {
-          const Corners& c = corners[star[i] / 3];
-          const std::int32_t a = c[(star[i] + 1) % 3], b = c[(star[i] + 2) % 3];
+        for (const std::int32_t i : star[n]) {
+          const Corners& c = corners[i / 3];
+          const std::int32_t a = c[(i + 1) % 3], b = c[(i + 2) % 3];
           energy_.add(make_star_triangle(x_[n], x_[a], x_[b], p_[a], p_[b]));
         }
         improve(energy_, p_[n]);

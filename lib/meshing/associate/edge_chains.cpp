@@ -286,7 +286,6 @@ class ChainFinder {
 
 MeshEdges::MeshEdges(const std::vector<Triangle>& triangles, std::int64_t n_nodes) {
   edge_of_side.assign(3 * triangles.size(), kNone);
-  node_offsets.assign(n_nodes + 1, 0);
   side_offsets.push_back(0);
   EdgeTable(triangles, n_nodes).for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> on_it) {
     for (const SideId s : on_it) edge_of_side[s] = n_edges();
@@ -294,16 +293,13 @@ MeshEdges::MeshEdges(const std::vector<Triangle>& triangles, std::int64_t n_node
     high.push_back(b);
     sides.insert(sides.end(), on_it.begin(), on_it.end());
     side_offsets.push_back(static_cast<std::int32_t>(sides.size()));
-    ++node_offsets[a + 1];
-    ++node_offsets[b + 1];
   });
-  for (std::int64_t n = 0; n < n_nodes; ++n) node_offsets[n + 1] += node_offsets[n];
-  node_edges.resize(2 * low.size());
-  std::vector<std::int32_t> next(node_offsets.begin(), node_offsets.end() - 1);
-  for (std::int32_t e = 0; e < n_edges(); ++e) {
-    node_edges[next[low[e]]++] = e;
-    node_edges[next[high[e]]++] = e;
-  }
+  at_node = {static_cast<std::size_t>(n_nodes), [&](const auto& visit) {
+               for (std::int32_t e = 0; e < n_edges(); ++e) {
+                 visit(low[e], e);
+                 visit(high[e], e);
+               }
+             }};
 }
 
 ChainSegments::ChainSegments(const MeshEdges& edges, const EdgeChains& chains)

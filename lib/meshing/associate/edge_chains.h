@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/lists_by_key.h"
 #include "geometry/model/model.h"
 #include "mesh/adjacency.h"
 #include "mesh/surface_mesh.h"
@@ -17,13 +18,11 @@ struct MeshEdges {
   std::vector<NodeId> low, high;           ///< [n_edges], sorted
   std::vector<std::int32_t> side_offsets;  ///< [n_edges+1]
   std::vector<SideId> sides;
-  std::vector<std::int32_t> node_offsets, node_edges;  ///< CSR: mesh edges at each node, ascending
-  std::vector<std::int32_t> edge_of_side;              ///< [3*n_triangles] kNone for triangles with a repeated node
+  ListsByKey<> at_node;                    ///< mesh edges, ascending
+  std::vector<std::int32_t> edge_of_side;  ///< [3*n_triangles] kNone for triangles with a repeated node
   std::int32_t n_edges() const { return static_cast<std::int32_t>(low.size()); }
   NodeId other(std::int32_t edge, NodeId n) const { return low[edge] == n ? high[edge] : low[edge]; }
-  std::span<const std::int32_t> at(NodeId n) const {
-    return std::span(node_edges).subspan(node_offsets[n], node_offsets[n + 1] - node_offsets[n]);
-  }
+  std::span<const std::int32_t> at(NodeId n) const { return at_node[static_cast<std::size_t>(n)]; }
   std::span<const SideId> sides_of(std::int32_t edge) const {
     return std::span(sides).subspan(side_offsets[edge], side_offsets[edge + 1] - side_offsets[edge]);
   }

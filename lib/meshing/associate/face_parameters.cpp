@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <tuple>
 
 #include "base/disjoint_sets.h"
+#include "base/lists_by_key.h"
 #include "geometry/shape/projection.h"
 #include "geometry/shape/surface_forms.h"
 
@@ -101,12 +101,9 @@ class FaceParameters {
       }
       fan_of_[corner] = fan;
     }
-    corner_offsets_.assign(fans_.size() + 1, 0);
-    for (const std::int32_t fan : fan_of_) ++corner_offsets_[fan + 1];
-    std::partial_sum(corner_offsets_.begin(), corner_offsets_.end(), corner_offsets_.begin());
-    fan_corners_.resize(n_corners);
-    std::vector<std::int32_t> next(corner_offsets_.begin(), corner_offsets_.end() - 1);
-    for (std::int32_t corner = 0; corner < n_corners; ++corner) fan_corners_[next[fan_of_[corner]]++] = corner;
+    corners_of_ = {fans_.size(), [&](const auto& visit) {
+                     for (std::int32_t corner = 0; corner < n_corners; ++corner) visit(fan_of_[corner], corner);
+                   }};
   }
 
   const Curve2d& pcurve(CoedgeId c) {
@@ -163,10 +160,10 @@ class FaceParameters {
     std::vector<std::int32_t> queue;
     std::vector<char> is_queued(triangles_.size(), 0);
     const auto push_around = [&](std::int32_t fan) {
-      for (std::int32_t k = corner_offsets_[fan]; k < corner_offsets_[fan + 1]; ++k)
-        if (char& queued = is_queued[fan_corners_[k] / 3]; !queued) {
+      for (const std::int32_t corner : corners_of_[fan])
+        if (char& queued = is_queued[corner / 3]; !queued) {
           queued = 1;
-          queue.push_back(fan_corners_[k] / 3);
+          queue.push_back(corner / 3);
         }
     };
     for (std::size_t fan = 0; fan < fans_.size(); ++fan)
@@ -335,8 +332,8 @@ class FaceParameters {
   std::map<CoedgeId, std::unique_ptr<Curve2d>> pcurves_;
   std::map<NodeId, std::vector<CoedgeId>> poles_;  // degenerate edges of the face at a node
   std::vector<Fan> fans_;
-  std::vector<std::int32_t> fan_of_;                        // by corner: 3 * place in triangles_ + k
-  std::vector<std::int32_t> corner_offsets_, fan_corners_;  // corners of each fan
+  std::vector<std::int32_t> fan_of_;  // by corner: 3 * place in triangles_ + k
+  ListsByKey<> corners_of_;           // by fan
 };
 
 }  // namespace

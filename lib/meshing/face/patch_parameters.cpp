@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/lists_by_key.h"
 #include "geometry/shape/projection.h"
 #include "mesh/merge.h"
 #include "mesh/patch_blocks.h"
@@ -29,7 +30,7 @@ class PatchParameters {
   }
 
   FurthestNode run() {
-    list_triangles();
+    triangles_ = cells_of_nodes(patch_.triangles, xyz_.size());
     walk();
     set_corners();
     FurthestNode furthest;
@@ -42,17 +43,6 @@ class PatchParameters {
   }
 
  private:
-  void list_triangles() {
-    begin_.assign(xyz_.size() + 1, 0);
-    for (const Triangle& t : patch_.triangles)
-      for (const NodeId n : t.n) ++begin_[n + 1];
-    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
-    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
-    triangles_.resize(3 * patch_.triangles.size());
-    for (std::size_t t = 0; t < patch_.triangles.size(); ++t)
-      for (const NodeId n : patch_.triangles[t].n) triangles_[next[n]++] = static_cast<std::int32_t>(t);
-  }
-
   Vec2 foot(Vec3 x, Vec2 guess) const {
     if (const auto uv = surface_.exact_foot(x)) return *uv;
     if (const auto uv = surface_.foot_near(x, guess)) return *uv;
@@ -66,8 +56,8 @@ class PatchParameters {
     std::vector<NodeId> front;
     const auto go = [&](std::size_t i) {
       for (; i < front.size(); ++i)
-        for (std::int32_t k = begin_[front[i]]; k < begin_[front[i] + 1]; ++k)
-          for (const NodeId n : patch_.triangles[triangles_[k]].n) {
+        for (const TriangleId t : triangles_[front[i]])
+          for (const NodeId n : patch_.triangles[t].n) {
             if (n < patch_.n_boundary || is_known[n]) continue;
             const NodeId from = front[i];
             const Vec2 guess =
@@ -120,9 +110,9 @@ class PatchParameters {
 
   const Surface& surface_;
   FacePatch& patch_;
-  const std::vector<Vec3> xyz_;                  // by node of the patch
-  std::vector<std::vector<Vec2>> choices_;       // by boundary node: as often as the loops pass it
-  std::vector<std::int32_t> begin_, triangles_;  // of each node
+  const std::vector<Vec3> xyz_;             // by node of the patch
+  std::vector<std::vector<Vec2>> choices_;  // by boundary node: as often as the loops pass it
+  ListsByKey<> triangles_;                  // by node
 };
 
 }  // namespace

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <tuple>
 
 #include "base/disjoint_sets.h"
+#include "base/lists_by_key.h"
 #include "mesh/adjacency.h"
 
 namespace st {
@@ -116,7 +116,6 @@ class RimFinder {
   /// Sides on CAD segments go to their rim; the others are counted into buckets by their lower node.
   void sort_sides() {
     collect_face_edges();
-    begin_.assign(node_corner_.size() + 1, 0);
     std::vector<Side> open;
     open.reserve(local_.size());
     for (std::size_t t = 0; t < triangles_.size(); ++t)
@@ -130,30 +129,30 @@ class RimFinder {
           continue;
         }
         open.push_back(s);
-        ++begin_[std::min(s.first, s.second) + 1];
       }
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    sides_.resize(open.size());
-    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
-    for (const Side& s : open) sides_[next[std::min(s.first, s.second)]++] = s;
+    sides_ = {node_corner_.size(), [&](const auto& visit) {
+                for (const Side& s : open) visit(std::min(s.first, s.second), s);
+              }};
   }
 
   /// Sides used an even number of times are inside the hole.
   void drop_inner_sides() {
-    for (std::size_t n = 0; n + 1 < begin_.size(); ++n)
-      for (std::int32_t i = begin_[n]; i < begin_[n + 1]; ++i) {
-        const std::int32_t upper = std::max(sides_[i].first, sides_[i].second);
+    for (std::size_t n = 0; n < sides_.n_keys(); ++n) {
+      const std::span<Side> sides = sides_[n];
+      for (std::size_t i = 0; i < sides.size(); ++i) {
+        const std::int32_t upper = std::max(sides[i].first, sides[i].second);
         if (upper == kNone) continue;  // counted with an earlier one
         bool is_odd = true;
-        for (std::int32_t j = i + 1; j < begin_[n + 1]; ++j)
-          if (std::max(sides_[j].first, sides_[j].second) == upper) {
+        for (Side& other : sides.subspan(i + 1))
+          if (std::max(other.first, other.second) == upper) {
             is_odd = !is_odd;
-            sides_[j] = {kNone, kNone};
+            other = {kNone, kNone};
           }
         if (!is_odd) continue;
-        HoleRim& rim = rims_[part_[connected_.find(sides_[i].first)]];
-        rim.free_sides.push_back(in_rim(rim, sides_[i]));
+        HoleRim& rim = rims_[part_[connected_.find(sides[i].first)]];
+        rim.free_sides.push_back(in_rim(rim, sides[i]));
       }
+    }
   }
 
   /// The side with the rim's own numbers.
@@ -181,8 +180,7 @@ class RimFinder {
   std::vector<std::int32_t> part_;         // [local nodes] hole, at roots
   std::vector<std::int32_t> in_rim_;       // [local nodes] number in its rim
   std::vector<EdgeId> face_edges_;         // sorted
-  std::vector<Side> sides_;                // not on the CAD, by lower node
-  std::vector<std::int32_t> begin_;        // [local nodes + 1] into sides_
+  ListsByKey<Side> sides_;                 // not on the CAD, by lower node
   std::vector<HoleRim> rims_;
 };
 

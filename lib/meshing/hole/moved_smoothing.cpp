@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/boxes.h"
+#include "base/lists_by_key.h"
 #include "base/sort_once.h"
 #include "base/sparse.h"
 #include "mesh/quality.h"
@@ -86,37 +87,26 @@ class FaceSmoother {
       if (m_.node_entity_dim[n] == static_cast<std::uint8_t>(EntityDim::kFace)) nodes_.push_back(n);
   }
 
-  /// Corners at each node: star_[star_begin_[i], star_begin_[i + 1]).
   void find_stars() {
-    std::vector<std::pair<std::size_t, Corner>> at;
-    for (Corner c = 3 * static_cast<Corner>(begin_); c < 3 * static_cast<Corner>(end_); ++c) {
-      const NodeId n = m_.triangles[c / 3].n[c % 3];
-      const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), n);
-      if (found != nodes_.end() && *found == n) at.emplace_back(found - nodes_.begin(), c);
-    }
-    std::sort(at.begin(), at.end());
-    star_begin_.assign(nodes_.size() + 1, 0);
-    for (const auto& [i, c] : at) {
-      ++star_begin_[i + 1];
-      star_.push_back(c);
-    }
-    for (std::size_t i = 0; i < nodes_.size(); ++i) star_begin_[i + 1] += star_begin_[i];
-  }
-
-  std::span<const Corner> star(std::size_t i) const {
-    return std::span(star_).subspan(star_begin_[i], star_begin_[i + 1] - star_begin_[i]);
+    star_ = {nodes_.size(), [&](const auto& visit) {
+               for (Corner c = 3 * static_cast<Corner>(begin_); c < 3 * static_cast<Corner>(end_); ++c) {
+                 const NodeId n = m_.triangles[c / 3].n[c % 3];
+                 const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), n);
+                 if (found != nodes_.end() && *found == n) visit(found - nodes_.begin(), c);
+               }
+             }};
   }
 
   double worst(std::size_t i) const {
     double least = 1;
-    for (const Corner c : star(i)) least = std::min(least, rated(static_cast<TriangleId>(c / 3)));
+    for (const Corner c : star_[i]) least = std::min(least, rated(static_cast<TriangleId>(c / 3)));
     return least;
   }
 
   /// All corners at the node move alike: across a period they differ by it.
   void shift(std::size_t i, Vec2 by) {
-    for (const Corner c : star(i)) m_.corner_uv[c] = m_.corner_uv[c] + by;
-    m_.node_xyz[nodes_[i]] = surface_.point(m_.corner_uv[star(i)[0]]);
+    for (const Corner c : star_[i]) m_.corner_uv[c] = m_.corner_uv[c] + by;
+    m_.node_xyz[nodes_[i]] = surface_.point(m_.corner_uv[star_[i][0]]);
   }
 
   /// Takes the best of some places if it is better than its own. Returns false for a node that needs none.
@@ -125,12 +115,12 @@ class FaceSmoother {
     if (before >= kGood) return false;
     Vec2 to_middle;
     Box2 extent;
-    for (const Corner c : star(i)) {
+    for (const Corner c : star_[i]) {
       const Corner first = c - c % 3;
       for (const Corner other : {first + (c + 1) % 3, first + (c + 2) % 3}) {
         const Vec2 d = m_.corner_uv[other] - m_.corner_uv[c];
         extent.add(d);
-        to_middle = to_middle + (0.5 / static_cast<double>(star(i).size())) * d;
+        to_middle = to_middle + (0.5 / static_cast<double>(star_[i].size())) * d;
       }
     }
     const double du = step_[i] * (extent.hi.x - extent.lo.x), dv = step_[i] * (extent.hi.y - extent.lo.y);
@@ -140,9 +130,9 @@ class FaceSmoother {
     std::optional<Vec2> chosen;
     const Vec3 x = m_.node_xyz[nodes_[i]];
     std::vector<Vec2> own;
-    for (const Corner c : star(i)) own.push_back(m_.corner_uv[c]);
+    for (const Corner c : star_[i]) own.push_back(m_.corner_uv[c]);
     const auto back = [&] {
-      for (std::size_t k = 0; k < own.size(); ++k) m_.corner_uv[star(i)[k]] = own[k];
+      for (std::size_t k = 0; k < own.size(); ++k) m_.corner_uv[star_[i][k]] = own[k];
       m_.node_xyz[nodes_[i]] = x;
     };
     for (const Vec2 move : moves) {
@@ -165,8 +155,7 @@ class FaceSmoother {
   const std::span<const Vec3> squeeze_;
   std::vector<NodeId> nodes_;  // ascending
   std::vector<double> step_;   // [nodes_]
-  std::vector<std::size_t> star_begin_;
-  std::vector<Corner> star_;
+  ListsByKey<Corner> star_;    // corners at each of these nodes
 };
 
 }  // namespace
