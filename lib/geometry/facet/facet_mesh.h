@@ -38,6 +38,14 @@ struct FacetInput {
   }
 };
 
+/// The sum of what passes did, until one does nothing; at most `most` of them.
+template <class Pass>
+std::size_t sum_of_passes(int most, const Pass& pass) {
+  std::size_t sum = 0, n = 1;
+  for (int i = 0; i < most && n > 0; ++i) sum += n = pass();
+  return sum;
+}
+
 /// Facets with smooth regions or charts as faces. Triangles may be divided; the surface stays.
 struct FacetMesh {
   std::vector<Vec3> x;

@@ -101,13 +101,7 @@ class ShortSides {
 }  // namespace
 
 std::size_t join_ends_of_short_sides(FacetInput& input, double gap) {
-  std::size_t n = 0;
-  for (int pass = 0; pass < kMostPasses; ++pass) {
-    const std::size_t n_joined = ShortSides(input, gap).join();
-    if (n_joined == 0) break;
-    n += n_joined;
-  }
-  return n;
+  return sum_of_passes(kMostPasses, [&] { return ShortSides(input, gap).join(); });
 }
 
 }  // namespace st

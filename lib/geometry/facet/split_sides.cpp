@@ -116,13 +116,7 @@ class SideSplitter {
 
 std::size_t split_sides_at_nodes(FacetInput& input, double gap) {
   constexpr int kSides = 3;  // of a facet, one at a time
-  std::size_t n_split = 0;
-  for (int pass = 0; pass < kSides; ++pass) {
-    const std::size_t n = SideSplitter(input, gap).run();
-    if (n == 0) break;
-    n_split += n;
-  }
-  return n_split;
+  return sum_of_passes(kSides, [&] { return SideSplitter(input, gap).run(); });
 }
 
 bool ends_on_side(std::span<const Vec3> x, const Corners& a, const Corners& b, double gap) {
