@@ -10,6 +10,7 @@
 #include <TopoDS.hxx>
 #include <algorithm>
 #include <map>
+#include <span>
 #include <utility>
 
 #include "base/boxes.h"
@@ -236,17 +237,16 @@ bool has_turned_facet(const Surface& surface, const UvFacets& facets, std::int32
   return false;
 }
 
-std::vector<FaceId> find_turned(const Model& model, const UvFacets& facets) {
-  std::vector<std::uint8_t> is_turned(facets.face_offsets.size() - 1, 0);
-  parallel_for(is_turned.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      if (facets.face_offsets[f] < facets.face_offsets[f + 1])
-        is_turned[f] = has_turned_facet(*model.surface(static_cast<FaceId>(f)), facets, facets.face_offsets[f],
-                                        facets.face_offsets[f + 1]);
+std::vector<FaceId> find_turned(const Model& model, const UvFacets& facets, std::span<const FaceId> among) {
+  std::vector<std::uint8_t> is_turned(among.size(), 0);
+  parallel_for(among.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      is_turned[i] = has_turned_facet(*model.surface(among[i]), facets, facets.face_offsets[among[i]],
+                                      facets.face_offsets[among[i] + 1]);
   });
   std::vector<FaceId> turned;
-  for (std::size_t f = 0; f < is_turned.size(); ++f)
-    if (is_turned[f]) turned.push_back(static_cast<FaceId>(f));
+  for (std::size_t i = 0; i < among.size(); ++i)
+    if (is_turned[i]) turned.push_back(among[i]);
   return turned;
 }
 
@@ -256,11 +256,14 @@ class FacetMaker {
       : model_(model), is_wanted_(is_wanted), copy_(wanted_faces(), false) {}  // the model itself keeps no triangles
 
   UvFacets run(FacetLimits limits) {
-    UvFacets facets = make(limits);
+    std::vector<FaceId> wanted;
+    for (std::size_t f = 0; f < is_wanted_.size(); ++f)
+      if (is_wanted_[f]) wanted.push_back(static_cast<FaceId>(f));
+    UvFacets facets = make(limits, wanted);
     if (facets.turned.empty() || limits.is_exact) return facets;
     limits.is_exact = true;
     for (const FaceId f : facets.turned) BRepTools::Clean(face(f));  // others, and edges between them, keep theirs
-    return make(limits);
+    return make(limits, facets.turned);
   }
 
  private:
@@ -276,7 +279,8 @@ class FacetMaker {
     return TopoDS::Face(copy_.ModifiedShape(ModelEditor::brep(model_).faces(f + 1)).Oriented(TopAbs_FORWARD));
   }
 
-  UvFacets make(const FacetLimits& limits) {
+  /// `unsure`: faces of which facets may be turned.
+  UvFacets make(const FacetLimits& limits, std::span<const FaceId> unsure) {
     put_facets(copy_.Shape(), limits, FacetsGo::kToAllEdges);
     UvFacets facets;
     FacetReader reader(model_, facets);
@@ -285,7 +289,7 @@ class FacetMaker {
       if (is_wanted_[f]) reader.add(static_cast<FaceId>(f), face(static_cast<FaceId>(f)), copy_);
     }
     facets.face_offsets.push_back(static_cast<std::int32_t>(facets.corners.size()));
-    facets.turned = find_turned(model_, facets);
+    facets.turned = find_turned(model_, facets, unsure);
     return facets;
   }
 
