@@ -22,6 +22,30 @@ struct Pair {
   }
 };
 
+/// Triangles of four nodes on the boundary, and others inside, as a patch; and what its functions want beside it.
+struct BluntPatch {
+  FacePatch patch;
+  std::vector<Vec3> xyz;
+  std::vector<Vec2> uv;  // of all corners
+
+  BluntPatch(const std::vector<FaceNode>& nodes, const std::vector<Triangle>& triangles) {
+    patch.face = 0;
+    patch.n_boundary = 4;
+    patch.triangles = triangles;
+    for (const FaceNode& n : nodes) xyz.push_back(n.x);
+    for (std::size_t n = 4; n < nodes.size(); ++n) {
+      patch.inner_xyz.push_back(nodes[n].x);
+      patch.inner_uv.push_back(nodes[n].uv);
+      patch.inner_size.push_back(static_cast<double>(n));
+    }
+    for (const Triangle& t : triangles) {
+      patch.triangle_previous.push_back(static_cast<TriangleId>(5 + patch.triangle_previous.size()));
+      for (const NodeId n : t.n) uv.push_back(nodes[n].uv);
+    }
+    set_corner_uvs(uv, patch);
+  }
+};
+
 std::vector<std::array<NodeId, 3>> corners(const std::vector<Triangle>& triangles) {
   std::vector<std::array<NodeId, 3>> all;
   for (const Triangle& t : triangles) all.push_back(std::to_array(t.n));
@@ -75,17 +99,7 @@ TEST(BluntSwaps, make_an_edge_sharper_for_the_largest_angles_alone_where_one_is_
 
 TEST(BluntSwaps, keep_the_parameters_of_a_patch) {
   const Pair pair;
-  FacePatch patch;
-  patch.face = 0;
-  patch.n_boundary = 4;
-  patch.triangles = pair.triangles;
-  patch.triangle_previous = {5, 6};
-  std::vector<Vec3> xyz;
-  std::vector<Vec2> uv;
-  for (const FaceNode& n : pair.nodes) xyz.push_back(n.x);
-  for (const Triangle& t : pair.triangles)
-    for (const NodeId n : t.n) uv.push_back(pair.nodes[n].uv);
-  set_corner_uvs(uv, patch);
+  auto [patch, xyz, uv] = BluntPatch(pair.nodes, pair.triangles);
   EXPECT_EQ(mend_blunt(xyz, patch), 1);
   for (std::size_t i = 0; i < 6; ++i)
     EXPECT_TRUE(corner_uv(patch, i) == pair.nodes[patch.triangles[i / 3].n[i % 3]].uv);
@@ -138,22 +152,7 @@ TEST(BluntSwaps, keep_nodes_that_others_are_not_to_be_put_on) {
 
 TEST(BluntSwaps, keep_what_the_nodes_and_triangles_of_a_patch_were) {
   const Dent dent;
-  FacePatch patch;
-  patch.face = 0;
-  patch.n_boundary = 4;
-  patch.triangles = dent.triangles;
-  patch.triangle_previous = {5, 6, 7, 8, 9, 10};
-  std::vector<Vec3> xyz;
-  std::vector<Vec2> uv;
-  for (const FaceNode& n : dent.nodes) xyz.push_back(n.x);
-  for (const int n : {4, 5}) {
-    patch.inner_xyz.push_back(dent.nodes[n].x);
-    patch.inner_uv.push_back(dent.nodes[n].uv);
-    patch.inner_size.push_back(n);
-  }
-  for (const Triangle& t : dent.triangles)
-    for (const NodeId n : t.n) uv.push_back(dent.nodes[n].uv);
-  set_corner_uvs(uv, patch);
+  auto [patch, xyz, uv] = BluntPatch(dent.nodes, dent.triangles);
   EXPECT_EQ(mend_blunt(xyz, patch), 1);
   EXPECT_EQ(patch.inner_size, std::vector<double>{5});
   ASSERT_EQ(patch.triangles.size(), 4u);
