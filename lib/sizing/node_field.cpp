@@ -6,7 +6,6 @@
 #include <queue>
 
 #include "base/assert.h"
-#include "base/axis.h"
 
 namespace st {
 namespace {
@@ -28,18 +27,24 @@ Weights weights_at(Vec3 x, Vec3 a, Vec3 b, Vec3 c) {
   return r;
 }
 
+std::vector<NodeId> all_below(std::size_t n_nodes) {
+  std::vector<NodeId> all(n_nodes);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 }  // namespace
 
 NodeField::NodeField(const SurfaceMesh& mesh, std::vector<double> size, double slope)
-    : mesh_(mesh), size_(std::move(size)), slope_(slope) {
+    : mesh_(mesh),
+      size_(std::move(size)),
+      slope_(slope),
+      triangles_of_(cells_of_nodes(mesh.triangles, mesh.node_xyz.size())),
+      nearest_(mesh.node_xyz, all_below(mesh.node_xyz.size())) {
   ST_ASSERT(size_.size() == mesh_.node_xyz.size() && slope_ > 0);
   ST_ASSERT(std::all_of(size_.begin(), size_.end(), [](double h) { return h > 0 && std::isfinite(h); }));
-  triangles_of_ = cells_of_nodes(mesh_.triangles, size_.size());
   limit_growth();
   min_size_ = size_.empty() ? 0 : *std::min_element(size_.begin(), size_.end());
-  tree_.resize(size_.size());
-  std::iota(tree_.begin(), tree_.end(), 0);
-  build_tree(0, tree_.size(), 0);
 }
 
 /// The largest lengths below the given ones that grow no faster: from the smallest on.
@@ -59,35 +64,10 @@ void NodeField::limit_growth() {
   }
 }
 
-void NodeField::build_tree(std::size_t begin, std::size_t end, int axis) {
-  if (end - begin < 2) return;
-  const std::size_t middle = (begin + end) / 2;
-  const auto key = [&](NodeId n) { return std::pair(component(mesh_.node_xyz[n], axis), n); };
-  std::nth_element(tree_.begin() + begin, tree_.begin() + middle, tree_.begin() + end,
-                   [&](NodeId a, NodeId b) { return key(a) < key(b); });
-  build_tree(begin, middle, (axis + 1) % 3);
-  build_tree(middle + 1, end, (axis + 1) % 3);
-}
-
-void NodeField::find_nearest(Vec3 x, std::size_t begin, std::size_t end, int axis, NodeId& best, double& best2) const {
-  if (begin >= end) return;
-  const std::size_t middle = (begin + end) / 2;
-  const NodeId n = tree_[middle];
-  const double d2 = norm2(mesh_.node_xyz[n] - x), off = component(x, axis) - component(mesh_.node_xyz[n], axis);
-  if (d2 < best2 || (d2 == best2 && n < best)) best = n, best2 = d2;
-  const int next = (axis + 1) % 3;
-  const bool is_low = off < 0;
-  is_low ? find_nearest(x, begin, middle, next, best, best2) : find_nearest(x, middle + 1, end, next, best, best2);
-  if (off * off > best2) return;
-  is_low ? find_nearest(x, middle + 1, end, next, best, best2) : find_nearest(x, begin, middle, next, best, best2);
-}
-
 double NodeField::size(Vec3 x, int& hint) const {
-  NodeId node = hint >= 0 && hint < static_cast<int>(size_.size()) ? hint : 0;
-  double best2 = norm2(mesh_.node_xyz[node] - x);
-  find_nearest(x, 0, tree_.size(), 0, node, best2);
+  const NodeId node = nearest_.find(x, hint >= 0 && hint < static_cast<int>(size_.size()) ? hint : kNone);
   hint = node;
-  double length = size_[node], closest2 = best2;
+  double length = size_[node], closest2 = norm2(mesh_.node_xyz[node] - x);
   for (const TriangleId own : triangles_of_[node]) {
     const Triangle& t = mesh_.triangles[own];
     Vec3 at{0, 0, 0}, c[3] = {mesh_.node_xyz[t.n[0]], mesh_.node_xyz[t.n[1]], mesh_.node_xyz[t.n[2]]};

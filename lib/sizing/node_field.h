@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/lists_by_key.h"
+#include "base/nearest_node.h"
 #include "mesh/surface_mesh.h"
 #include "sizing/size_field.h"
 
@@ -25,14 +26,12 @@ class NodeField : public SizeField {
 
  private:
   void limit_growth();
-  void build_tree(std::size_t begin, std::size_t end, int axis);
-  void find_nearest(Vec3 x, std::size_t begin, std::size_t end, int axis, NodeId& best, double& best2) const;
 
   const SurfaceMesh& mesh_;
   std::vector<double> size_;
   double slope_, min_size_ = 0;
   ListsByKey<> triangles_of_;  // by node
-  std::vector<NodeId> tree_;   // nodes as a balanced tree: the middle of a range divides it along an axis
+  NearestNode nearest_;
 };
 
 }  // namespace st

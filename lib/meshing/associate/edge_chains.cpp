@@ -9,8 +9,8 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "base/nearest_node.h"
 #include "geometry/shape/projection.h"
-#include "meshing/associate/nearest_node.h"
 #include "meshing/associate/part_matching.h"
 #include "meshing/associate/places.h"
 #include "meshing/topology/mesh_topology.h"

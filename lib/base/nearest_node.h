@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/ids.h"
@@ -14,8 +15,9 @@ class NearestNode {
  public:
   /// Of `xyz`, which outlives the object, these. n log n.
   NearestNode(std::span<const Vec3> xyz, std::vector<NodeId> nodes);
-  /// The nearest, of equally near ones the lowest; kNone when there is no point. About log n.
-  NodeId find(Vec3 x) const;
+  /// The nearest, of equally near ones the lowest; kNone when there is no point. About log n, less if the point `guess`
+  /// is near; kNone: none is known.
+  NodeId find(Vec3 x, NodeId guess = kNone) const;
 
  private:
   void build(std::size_t begin, std::size_t end, int axis);

@@ -1,5 +1,5 @@
 // The nearest of many points.
-#include "meshing/associate/nearest_node.h"
+#include "base/nearest_node.h"
 
 #include <gtest/gtest.h>
 
@@ -25,6 +25,7 @@ TEST(NearestNode, is_the_lowest_of_the_nearest) {
     for (const NodeId n : nodes)
       if (norm2(xyz[n] - x) < norm2(xyz[expected] - x)) expected = n;
     EXPECT_EQ(nearest.find(x), expected);
+    EXPECT_EQ(nearest.find(x, nodes[i]), expected) << "from a guess";
   }
   EXPECT_EQ(NearestNode(xyz, {}).find({}), kNone);
 }

@@ -1,14 +1,11 @@
-#include "meshing/associate/nearest_node.h"
+#include "base/nearest_node.h"
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "base/axis.h"
 
 namespace st {
-namespace {}  // namespace
-
 NearestNode::NearestNode(std::span<const Vec3> xyz, std::vector<NodeId> nodes) : xyz_(xyz), node_(std::move(nodes)) {
   build(0, node_.size(), 0);
 }
@@ -24,8 +21,8 @@ void NearestNode::build(std::size_t begin, std::size_t end, int axis) {
   build(middle + 1, end, (axis + 1) % 3);
 }
 
-NodeId NearestNode::find(Vec3 x) const {
-  std::pair<double, NodeId> best{std::numeric_limits<double>::infinity(), kNone};
+NodeId NearestNode::find(Vec3 x, NodeId guess) const {
+  std::pair best(guess == kNone ? std::numeric_limits<double>::infinity() : norm2(xyz_[guess] - x), guess);
   search(x, 0, node_.size(), 0, best);
   return best.second;
 }
