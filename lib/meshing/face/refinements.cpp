@@ -3,13 +3,10 @@
 #include <algorithm>
 #include <iterator>
 
-#include "base/axis.h"
-
 namespace st {
 namespace {
 
 constexpr double kWorthwhile = 0.95;  // of the present length: a refinement that asks for more than this is no change
-constexpr std::int32_t kPlacesPerLeaf = 8;
 constexpr double kRoundOff = 1 - 1e-12;  // of the bound by which places are passed over: no rounding may hide one that
                                          // counts
 
@@ -21,12 +18,6 @@ double length_at(const Refinement& r, Vec3 x) {
 }
 
 }  // namespace
-
-double box_distance(const Box3& box, Vec3 p) {
-  const auto outside = [](double lo, double hi, double x) { return x < lo ? lo - x : x > hi ? x - hi : 0.0; };
-  return norm(
-      Vec3{outside(box.lo.x, box.hi.x, p.x), outside(box.lo.y, box.hi.y, p.y), outside(box.lo.z, box.hi.z, p.z)});
-}
 
 bool Refinements::add(const RefinementPoint& place, double floor, Shortens shortens) {
   int hint = 0;
@@ -55,44 +46,22 @@ std::vector<Refinement> Refinements::near(const Box3& box) const {
 
 RefinementTree::RefinementTree(const std::vector<Refinement>& places, Shortens shortens) : slope_(slope_of(shortens)) {
   std::ranges::copy_if(places, std::back_inserter(places_), [&](const auto& r) { return r.shortens == shortens; });
-  for (const Refinement& r : places_) shortest_ = std::min(shortest_, r.length);
-  if (!places_.empty()) build(0, static_cast<std::int32_t>(places_.size()));
-}
-
-/// Appends the node of these places and all below it; returns its number.
-std::int32_t RefinementTree::build(std::int32_t first, std::int32_t last) {
-  const auto own = static_cast<std::int32_t>(nodes_.size());
-  Node node{{}, at_centre(places_[first]), first, last, 0};
-  for (std::int32_t i = first; i < last; ++i) {
-    node.box.add(places_[i].x);
-    node.shortest = std::min(node.shortest, at_centre(places_[i]));
+  std::vector<Box3> boxes(places_.size());
+  std::vector<double> tips;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    boxes[i].add(places_[i].x);
+    tips.push_back(at_centre(places_[i]));
+    shortest_ = std::min(shortest_, places_[i].length);
   }
-  nodes_.push_back(node);
-  if (last - first <= kPlacesPerLeaf) return own;
-  const int axis = longest_axis(node.box);
-  const std::int32_t middle = first + (last - first) / 2;
-  std::nth_element(
-      places_.begin() + first, places_.begin() + middle, places_.begin() + last,
-      [&](const Refinement& a, const Refinement& b) { return component(a.x, axis) < component(b.x, axis); });
-  build(first, middle);
-  const std::int32_t right = build(middle, last);
-  nodes_[own].right = right;
-  return own;
-}
-
-void RefinementTree::visit(std::int32_t index, Vec3 xyz, double& length) const {
-  const Node& node = nodes_[index];
-  if (kRoundOff * (node.shortest + slope_ * box_distance(node.box, xyz)) > length) return;
-  if (node.right) {
-    visit(index + 1, xyz, length);
-    visit(node.right, xyz, length);
-    return;
-  }
-  for (std::int32_t i = node.first; i < node.last; ++i) length = std::min(length, length_at(places_[i], xyz));
+  tree_ = LengthTree(boxes, tips);
 }
 
 double RefinementTree::least(Vec3 xyz, double length) const {
-  if (!nodes_.empty()) visit(0, xyz, length);
+  double bound = length / kRoundOff;
+  tree_.visit_from(xyz, slope_, bound, [&](std::int32_t i) {
+    length = std::min(length, length_at(places_[i], xyz));
+    bound = length / kRoundOff;
+  });
   return length;
 }
 

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
 
+#include "base/boxes.h"
 #include "base/vec.h"
 #include "meshing/face/face_mesher.h"
+#include "sizing/length_tree.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -19,7 +22,7 @@ inline constexpr double kRefinementSlope = 0.3;
 inline constexpr double kAlongSlope = 0.6;
 
 /// From `p` to the box; 0 inside.
-double box_distance(const Box3& box, Vec3 p);
+inline double box_distance(const Box3& box, Vec3 p) { return std::sqrt(distance2(p, box)); }
 
 /// What a refinement makes shorter.
 enum class Shortens : std::int64_t {
@@ -76,18 +79,9 @@ class RefinementTree {
   double shortest() const { return shortest_; }
 
  private:
-  struct Node {  // of a binary tree in an array: children follow their parent
-    Box3 box;
-    double shortest = 0;               // of the places in it, less what the slope takes on their radius
-    std::int32_t first = 0, last = 0;  // places
-    std::int32_t right = 0;            // node; 0: a leaf. The left child is the next node
-  };
-  std::int32_t build(std::int32_t first, std::int32_t last);
-  void visit(std::int32_t node, Vec3 xyz, double& length) const;
-
   double slope_;
-  std::vector<Refinement> places_;                             // by tree
-  std::vector<Node> nodes_;                                    // empty: no place
+  std::vector<Refinement> places_;
+  LengthTree tree_;                                            // of these, by the tips of their cones
   double shortest_ = std::numeric_limits<double>::infinity();  // of the places
 };
 
