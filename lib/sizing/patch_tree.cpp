@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "base/assert.h"
 #include "base/boxes.h"
 
 namespace st {
 namespace {
-
-constexpr std::size_t kLeafPatches = 4;
 
 /// The prism over a patch as three slabs along its own axes.
 struct Prism {
@@ -50,13 +47,24 @@ struct Prism {
 
 }  // namespace
 
-PatchTree::PatchTree(std::span<const GapPatch> patches) : patches_(patches), order_(patches.size()) {
-  std::iota(order_.begin(), order_.end(), 0);
+PatchTree::PatchTree(std::span<const GapPatch> patches) : patches_(patches) {
   for (const GapPatch& p : patches) {
     boxes_.push_back(p.shape.box());
     cones_.push_back(cone_of(p.shape));
   }
-  if (!patches.empty()) build(0, patches.size());
+  tree_ = BoxTree(boxes_);
+  const std::span<const BoxTree::Node> nodes = tree_.nodes();
+  node_cones_.resize(nodes.size());
+  for (std::size_t at = nodes.size(); at-- > 0;) {  // children first
+    const BoxTree::Node& node = nodes[at];
+    Cone& cone = node_cones_[at];
+    if (node.right != 0) {
+      cone = united(node_cones_[at + 1], node_cones_[node.right]);
+      continue;
+    }
+    cone = cones_[tree_.items()[node.begin]];
+    for (std::int32_t i = node.begin + 1; i < node.end; ++i) cone = united(cone, cones_[tree_.items()[i]]);
+  }
 }
 
 PatchTree::Cone PatchTree::make_cone(Vec3 axis, double angle) {
@@ -81,36 +89,6 @@ PatchTree::Cone PatchTree::united(const Cone& a, const Cone& b) {
   return make_cone(normalized(std::cos(turn) * a.axis + std::sin(turn) * side), angle);
 }
 
-std::size_t PatchTree::build(std::size_t begin, std::size_t end) {
-  const std::size_t index = nodes_.size();
-  nodes_.push_back({{}, {}, begin, end, 0});
-  Box3 box, centers;
-  for (std::size_t i = begin; i < end; ++i) {
-    box.add(boxes_[order_[i]]);
-    centers.add(patches_[order_[i]].shape.x);
-  }
-  nodes_[index].box = box;
-  if (end - begin <= kLeafPatches) {
-    Cone cone = cones_[order_[begin]];
-    for (std::size_t i = begin + 1; i < end; ++i) cone = united(cone, cones_[order_[i]]);
-    nodes_[index].cone = cone;
-    return index;
-  }
-  const Vec3 size = centers.hi - centers.lo;
-  const double Vec3::*axis = size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z;
-  const std::size_t middle = (begin + end) / 2;
-  const auto at = [&](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-  std::nth_element(at(begin), at(middle), at(end), [&](std::int32_t a, std::int32_t b) {
-    const double xa = patches_[a].shape.x.*axis, xb = patches_[b].shape.x.*axis;
-    return xa != xb ? xa < xb : a < b;
-  });
-  build(begin, middle);
-  const std::size_t right = build(middle, end);
-  nodes_[index].right = right;
-  nodes_[index].cone = united(nodes_[index + 1].cone, nodes_[right].cone);
-  return index;
-}
-
 void PatchTree::find_facing(std::size_t patch, double reach, std::vector<std::int32_t>& found) const {
   ST_ASSERT(patch < patches_.size() && reach >= 0);
   found.clear();
@@ -121,22 +99,13 @@ void PatchTree::find_facing(std::size_t patch, double reach, std::vector<std::in
   const auto may_face = [&](const Cone& cone) {
     return cone.angle >= opposed || dot(own.axis, cone.axis) <= cosine * cone.cosine + sine * cone.sine;
   };
-  std::vector<std::size_t> stack{0};
-  while (!stack.empty()) {
-    const std::size_t index = stack.back();
-    const Node& node = nodes_[index];
-    stack.pop_back();
-    if (!may_face(node.cone) || !prism.meets(node.box)) continue;
-    if (node.right) {
-      stack.push_back(node.right);
-      stack.push_back(index + 1);
-      continue;
-    }
-    for (std::size_t i = node.begin; i < node.end; ++i) {
-      const std::int32_t id = order_[i];
-      if (static_cast<std::size_t>(id) != patch && may_face(cones_[id]) && prism.meets(boxes_[id])) found.push_back(id);
-    }
-  }
+  tree_.visit_near(
+      prism.x,
+      [&](std::int32_t node, double) { return may_face(node_cones_[node]) && prism.meets(tree_.nodes()[node].box); },
+      [&](std::int32_t id) {
+        if (static_cast<std::size_t>(id) != patch && may_face(cones_[id]) && prism.meets(boxes_[id]))
+          found.push_back(id);
+      });
 }
 
 }  // namespace st

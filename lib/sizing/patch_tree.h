@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/box_tree.h"
 #include "sizing/gap_patch.h"
 
 namespace st {
@@ -28,23 +29,15 @@ class PatchTree {
     double angle = 0;             // half the opening, radians
     double cosine = 1, sine = 0;  // of the angle
   };
-  struct Node {
-    Box3 box;
-    Cone cone;
-    std::size_t begin = 0, end = 0;
-    std::size_t right = 0;  // index of the right child, the left one follows its parent; 0: a leaf
-  };
-
   static Cone make_cone(Vec3 axis, double angle);
   static Cone cone_of(const Paraboloid& patch);
   static Cone united(const Cone& a, const Cone& b);
-  std::size_t build(std::size_t begin, std::size_t end);
 
   std::span<const GapPatch> patches_;
   std::vector<Cone> cones_;
   std::vector<Box3> boxes_;
-  std::vector<std::int32_t> order_;
-  std::vector<Node> nodes_;
+  BoxTree tree_;                  // of these
+  std::vector<Cone> node_cones_;  // [nodes of the tree]
 };
 
 }  // namespace st
