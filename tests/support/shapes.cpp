@@ -734,6 +734,18 @@ const std::map<std::string, Factory>& factories() {
       {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},
       {"lemon_with_fin_beside", [] { return with_fin(lemon(), 0.4); }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
+      {"ball_with_notch",  // whose side passes the pole, the seam beside it
+       [] {
+         const gp_Pnt side(9 * std::cos(0.3), 9 * std::sin(0.3), 0);
+         const TopoDS_Shape ball = between_tips(GC_MakeArcOfCircle(gp_Pnt(0, 0, -9), side, gp_Pnt(0, 0, 9)).Value());
+         return BRepAlgoAPI_Cut(ball, moved(box(20, 7, 15), 0, -3, 5)).Shape();
+       }},
+      {"ball_with_two_holes",  // of one bore, both across the seam
+       [] {
+         return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(8).Shape(),
+                                moved(BRepPrimAPI_MakeCylinder(2, 30).Shape(), 3, 0, -15))
+             .Shape();
+       }},
       {"ball_with_bore", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(10), bore_along_x(2)).Shape(); }},
       {"ring_with_ball",
        [] {

@@ -24,6 +24,7 @@
 #include "base/ids.h"
 #include "geometry/brep/faces_of.h"
 #include "geometry/import/meridians.h"
+#include "geometry/import/seam_curves.h"
 #include "geometry/import/swapped_seams.h"
 #include "geometry/import/vertex_loops.h"
 
@@ -57,6 +58,8 @@ class HealingOfLoops : public XSAlgo_AlgoContainer {
       const std::vector<TopoDS_Face> faces = faces_of(shape);
       trim_meridians(faces);
       bound_whole_surfaces(faces);
+      give_seams_curves(shape);
+      move_curves_between_poles(shape);
       swap_seams(faces);
     }
     return XSAlgo_AlgoContainer::ProcessShape(shape, precision, tolerance, resource, sequence, info, progress,

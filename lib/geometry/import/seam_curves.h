@@ -1,0 +1,20 @@
+// Seams to which the reader of STEP gives no trimming curves, or curves beyond the poles.
+#pragma once
+
+#include <TopoDS_Shape.hxx>
+
+namespace st::occt {
+
+/// OpenCASCADE leaves the trimming curves of seams to its healing. Where another edge of the loop runs into a pole, as
+/// on a ball with a notch whose side passes the pole, the healing closes the loop without the seam: the face is what
+/// was cut off. In such a loop the seam gets its two curves along the bounds of u, by the direction in which the loop
+/// passes it, in the shape itself. Returns the number of edges that got them.
+int give_seams_curves(const TopoDS_Shape& shape);
+
+/// The curve of a meridian may start anywhere on its circle: then the trimming curves of a piece of a sphere's seam are
+/// a turn beyond the pole. The healing takes pieces that do not follow each other for spurs, as on a ball with a bore
+/// along its axis, and removes what lies beyond. Such curves are moved by whole turns of v, in the shape itself.
+/// Returns the number of edges changed.
+int move_curves_between_poles(const TopoDS_Shape& shape);
+
+}  // namespace st::occt

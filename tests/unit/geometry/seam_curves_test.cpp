@@ -1,0 +1,91 @@
+// Seams that come out of the reader of STEP without trimming curves.
+#include "geometry/import/seam_curves.h"
+
+#include <BRepTools.hxx>
+#include <BRep_Builder.hxx>
+#include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_SphericalSurface.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
+#include <cmath>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+#include "unit/geometry/broken_import.h"
+
+namespace st {
+namespace {
+
+TopoDS_Shape shape_of(const std::string& name) {
+  const TemporaryDirectory dir;
+  test::write_brep(name, dir / "a.brep");
+  TopoDS_Shape shape;
+  BRepTools::Read(shape, (dir / "a.brep").c_str(), BRep_Builder());
+  return shape;
+}
+
+TEST(SeamCurves, a_seam_gets_them_as_the_loop_passes_it) {
+  const TopoDS_Shape shape = shape_of("ball_with_notch");
+  int n_seams = 0;
+  for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {
+    const TopoDS_Face face = TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD));
+    for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+      if (edge.Orientation() == TopAbs_REVERSED || !BRep_Tool::IsClosed(edge, face)) continue;
+      ++n_seams;
+      double t0, t1;
+      const Handle(Geom2d_Curve) there = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+      const Handle(Geom2d_Curve) back = BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), face, t0, t1);
+      BRep_Builder().UpdateEdge(edge, Handle(Geom2d_Curve)(), Handle(Geom2d_Curve)(), face, 1e-7);
+      EXPECT_EQ(occt::give_seams_curves(shape), 1);
+      const Handle(Geom2d_Curve) given = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+      const Handle(Geom2d_Curve) other = BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), face, t0, t1);
+      for (const double t : {t0, 0.3 * t0 + 0.7 * t1, t1}) {
+        EXPECT_LT(given->Value(t).Distance(there->Value(t)), 1e-6);
+        EXPECT_LT(other->Value(t).Distance(back->Value(t)), 1e-6);
+      }
+    }
+  }
+  EXPECT_EQ(n_seams, 1);
+  EXPECT_EQ(occt::give_seams_curves(shape), 0);
+}
+
+TEST(SeamCurves, those_beyond_a_pole_are_moved_back) {
+  const TopoDS_Shape shape = shape_of("ball_with_two_holes");
+  ASSERT_EQ(occt::move_curves_between_poles(shape), 0);
+  int n_moved = 0;
+  for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {
+    const TopoDS_Face face = TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD));
+    if (!BRep_Tool::Surface(face)->IsKind(STANDARD_TYPE(Geom_SphericalSurface))) continue;
+    for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
+      const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+      if (BRep_Tool::IsClosed(edge, face) || BRep_Tool::Degenerated(edge)) continue;
+      double t0, t1;
+      const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+      const gp_Pnt2d place = curve->Value(t0);
+      curve->Translate(gp_Vec2d(0, n_moved % 2 ? 2 * M_PI : -4 * M_PI));
+      EXPECT_EQ(occt::move_curves_between_poles(shape), 1);
+      EXPECT_LT(BRep_Tool::CurveOnSurface(edge, face, t0, t1)->Value(t0).Distance(place), 1e-9);
+      ++n_moved;
+    }
+  }
+  EXPECT_EQ(n_moved, 4);
+}
+
+class BallsWithSeams : public testing::TestWithParam<const char*> {};
+
+TEST_P(BallsWithSeams, are_whole_in_step_files) {
+  const TemporaryDirectory dir;
+  test::expect_whole_in_step(GetParam(), dir);
+}
+
+INSTANTIATE_TEST_SUITE_P(, BallsWithSeams, testing::Values("ball_with_notch", "ball_with_two_holes"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace st
