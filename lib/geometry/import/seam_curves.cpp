@@ -8,6 +8,7 @@
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
+#include <ShapeAnalysis_Curve.hxx>
 #include <ShapeAnalysis_Surface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
@@ -53,7 +54,8 @@ bool ends_at(const TopoDS_Edge& edge, const std::vector<gp_Pnt>& poles) {
   });
 }
 
-/// The edges that a loop passes twice and that have no curves on the face, if another of its edges ends at a pole.
+/// The edges that a loop passes twice and that have no curves on the face, if these are several, or another edge of the
+/// loop ends at a pole.
 std::vector<TopoDS_Edge> bare_seams_of(const TopoDS_Shape& wire, const TopoDS_Face& face,
                                        const std::vector<gp_Pnt>& poles) {
   TopTools_IndexedMapOfShape edges;
@@ -74,7 +76,7 @@ std::vector<TopoDS_Edge> bare_seams_of(const TopoDS_Shape& wire, const TopoDS_Fa
     else if (BRep_Tool::CurveOnSurface(edge, face, t0, t1).IsNull())
       seams.push_back(edge);
   }
-  return is_at_pole ? seams : std::vector<TopoDS_Edge>();
+  return is_at_pole || seams.size() > 1 ? seams : std::vector<TopoDS_Edge>();
 }
 
 /// A straight curve from `a` at the parameter `t0` to `b` at `t1`.
@@ -116,13 +118,36 @@ bool give_curves(const TopoDS_Edge& seam, const TopoDS_Face& face, ShapeAnalysis
   if (!ends_at_bound(seam, surface, a, b)) return false;
   double t0, t1;
   BRep_Tool::Range(seam, t0, t1);
-  const gp_Vec2d period(surface.Surface()->UPeriod(), 0);
+  double u0, u1, v0, v1;
+  surface.Surface()->Bounds(u0, u1, v0, v1);
+  const gp_Vec2d period(u1 - u0, 0);
   const Handle(Geom2d_Curve) low = line(a, b, t0, t1);
   const Handle(Geom2d_Curve) high = line(a.Translated(period), b.Translated(period), t0, t1);
   const bool is_up = b.Y() > a.Y();  // the face is on the left: upwards along the upper bound
   BRep_Builder().UpdateEdge(seam, is_up ? high : low, is_up ? low : high, face, BRep_Tool::Tolerance(seam));
   BRep_Builder().Range(seam, face, t0, t1);
   return true;
+}
+
+/// Gives curves to the seams that `seams_of` finds in the loops of faces that are closed in u and have poles.
+template <class SeamsOf>
+int give_curves_in_loops(const TopoDS_Shape& shape, SeamsOf seams_of) {
+  TopTools_IndexedMapOfShape faces;
+  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+  int n = 0;
+  for (int f = 1; f <= faces.Extent(); ++f) {
+    const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
+    TopLoc_Location location;
+    const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face, location);
+    if (geometry.IsNull() || !location.IsIdentity() || !geometry->IsUClosed()) continue;
+    const std::vector<gp_Pnt> poles = poles_of(*geometry);
+    if (poles.empty()) continue;
+    ShapeAnalysis_Surface surface(geometry);
+    for (TopoDS_Iterator w(face); w.More(); w.Next())
+      if (w.Value().ShapeType() == TopAbs_WIRE)
+        for (const TopoDS_Edge& seam : seams_of(w.Value(), face, poles)) n += give_curves(seam, face, surface);
+  }
+  return n;
 }
 
 /// Whole turns that bring the middle of a curve between the poles of a sphere; 0 where it is there.
@@ -150,25 +175,65 @@ bool move_inside(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   return true;
 }
 
+/// Whether one edge of a loop is the other, passed in the other direction.
+bool is_way_back(const TopoDS_Edge& edge, const TopoDS_Edge& other) {
+  constexpr int kPlaces = 4;
+  constexpr double kSame = 1e-5;  // of its length: files hold few digits
+  double t0, t1, s0, s1;
+  const Handle(Geom_Curve) there = BRep_Tool::Curve(edge, t0, t1), back = BRep_Tool::Curve(other, s0, s1);
+  if (there.IsNull() || back.IsNull()) return false;
+  const gp_Pnt middle = there->Value(0.5 * (t0 + t1));
+  const double length = there->Value(t0).Distance(middle) + middle.Distance(there->Value(t1));
+  const double tolerance =
+      std::max(kSame * length, 2 * std::max(BRep_Tool::Tolerance(edge), BRep_Tool::Tolerance(other)));
+  const bool is_turned = edge.Orientation() != other.Orientation();
+  const gp_Pnt begin = back->Value(is_turned ? s0 : s1), end = back->Value(is_turned ? s1 : s0);
+  if (there->Value(t0).Distance(begin) > tolerance || there->Value(t1).Distance(end) > tolerance) return false;
+  for (int k = 1; k < kPlaces; ++k) {
+    gp_Pnt at;
+    double t;
+    const gp_Pnt p = there->Value(t0 + k * (t1 - t0) / kPlaces);
+    if (ShapeAnalysis_Curve().Project(back, p, tolerance, at, t, s0, s1, false) > tolerance) return false;
+  }
+  return true;
+}
+
+/// Puts the first edge in the place of another that is its way back; the edges that became seams.
+std::vector<TopoDS_Edge> join_ways_back(TopoDS_Shape& wire, const TopoDS_Face& face) {
+  std::vector<TopoDS_Edge> edges, seams;
+  double t0, t1;
+  for (TopoDS_Iterator e(wire, false); e.More(); e.Next()) edges.push_back(TopoDS::Edge(e.Value()));
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t k = i + 1; k < edges.size(); ++k) {
+      if (edges[i].IsSame(edges[k]) || !BRep_Tool::CurveOnSurface(edges[i], face, t0, t1).IsNull()) continue;
+      if (!is_way_back(edges[i], edges[k])) continue;
+      edges[k] = TopoDS::Edge(edges[i].Reversed());
+      seams.push_back(TopoDS::Edge(edges[i].Oriented(TopAbs_FORWARD)));
+    }
+  if (seams.empty()) return seams;
+  BRep_Builder builder;
+  const bool was_free = wire.Free();
+  wire.Free(true);
+  std::vector<TopoDS_Shape> all;
+  for (TopoDS_Iterator e(wire, false); e.More(); e.Next()) all.push_back(e.Value());
+  for (const TopoDS_Shape& e : all) builder.Remove(wire, e);
+  for (const TopoDS_Edge& e : edges) builder.Add(wire, e);
+  wire.Free(was_free);
+  return seams;
+}
+
 }  // namespace
 
 int give_seams_curves(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
-  int n = 0;
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
-    TopLoc_Location location;
-    const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face, location);
-    if (geometry.IsNull() || !location.IsIdentity() || !geometry->IsUPeriodic()) continue;
-    const std::vector<gp_Pnt> poles = poles_of(*geometry);
-    if (poles.empty()) continue;
-    ShapeAnalysis_Surface surface(geometry);
-    for (TopoDS_Iterator w(face); w.More(); w.Next())
-      if (w.Value().ShapeType() == TopAbs_WIRE)
-        for (const TopoDS_Edge& seam : bare_seams_of(w.Value(), face, poles)) n += give_curves(seam, face, surface);
-  }
-  return n;
+  return give_curves_in_loops(shape, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>& poles) {
+    return bare_seams_of(wire, face, poles);
+  });
+}
+
+int make_seams(const TopoDS_Shape& shape) {
+  return give_curves_in_loops(shape, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>&) {
+    return join_ways_back(wire, face);
+  });
 }
 
 int move_curves_between_poles(const TopoDS_Shape& shape) {

@@ -1,4 +1,4 @@
-// Seams to which the reader of STEP gives no trimming curves, or curves beyond the poles.
+// Seams to which the readers of STEP and IGES give no trimming curves, or curves beyond the poles.
 #pragma once
 
 #include <TopoDS_Shape.hxx>
@@ -6,10 +6,17 @@
 namespace st::occt {
 
 /// OpenCASCADE leaves the trimming curves of seams to its healing. Where another edge of the loop runs into a pole, as
-/// on a ball with a notch whose side passes the pole, the healing closes the loop without the seam: the face is what
-/// was cut off. In such a loop the seam gets its two curves along the bounds of u, by the direction in which the loop
-/// passes it, in the shape itself. Returns the number of edges that got them.
+/// on a ball with a notch whose side passes the pole, or where a seam is in pieces that all have none, the healing
+/// closes the loop without the seam: the face is what was cut off. In such a loop the seam gets its two curves along
+/// the bounds of u, by the direction in which the loop passes it, in the shape itself. Only on surfaces with poles.
+/// Returns the number of edges that got them.
 int give_seams_curves(const TopoDS_Shape& shape);
+
+/// IGES files may hold the curves in space alone, and have a seam twice: once for each direction. OpenCASCADE gives
+/// both the same trimming curve, and the face of a body between two poles has no area. Of two edges of a loop without
+/// trimming curves that are each other's way back, the first takes the place of the other, and gets the two curves of a
+/// seam, in the shape itself. Only on surfaces that are closed in u and have poles. Returns the number of such edges.
+int make_seams(const TopoDS_Shape& shape);
 
 /// The curve of a meridian may start anywhere on its circle: then the trimming curves of a piece of a sphere's seam are
 /// a turn beyond the pole. The healing takes pieces that do not follow each other for spurs, as on a ball with a bore

@@ -19,6 +19,7 @@
 #include "geometry/import/part_names.h"
 #include "geometry/import/text_encoding.h"
 #include "geometry/reader/document_parts.h"
+#include "geometry/reader/step_entities.h"
 
 namespace st::occt {
 namespace {
@@ -54,6 +55,7 @@ void name_by_iges_property(const Handle(XSControl_WorkSession) & session, TextEn
 
 extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   IGESControl_Controller::Init();
+  mend_loops_before_healing();
   Handle(TDocStd_Document) document = new_document();
   IGESCAFControl_Reader reader;
   reader.SetNameMode(true);

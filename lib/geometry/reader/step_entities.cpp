@@ -61,6 +61,8 @@ class HealingOfLoops : public XSAlgo_AlgoContainer {
       give_seams_curves(shape);
       move_curves_between_poles(shape);
       swap_seams(faces);
+    } else if (std::string(sequence) == "read.iges.sequence") {
+      make_seams(shape);
     }
     return XSAlgo_AlgoContainer::ProcessShape(shape, precision, tolerance, resource, sequence, info, progress,
                                               is_non_manifold);

@@ -11,6 +11,9 @@
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <cmath>
+#include <fstream>
+#include <regex>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -85,6 +88,35 @@ TEST_P(BallsWithSeams, are_whole_in_step_files) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, BallsWithSeams, testing::Values("ball_with_notch", "ball_with_two_holes"),
+                         [](const auto& info) { return std::string(info.param); });
+
+/// Takes the (u,v) curves out of the trimming curves (entity 142) of an IGES file.
+void keep_curves_in_space(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  const std::regex curve("(\n142,[0-9]+,[0-9]+,)([0-9]+)(,[0-9]+,)[0-9](;)");
+  std::string kept, rest = text.str();
+  for (std::smatch m; std::regex_search(rest, m, curve); rest = m.suffix())
+    kept += m.prefix().str() + m[1].str() + std::string(m[2].length(), '0') + m[3].str() + "2" + m[4].str();
+  std::ofstream(path) << kept << rest;
+}
+
+class BodiesWithPoles : public testing::TestWithParam<const char*> {};
+
+TEST_P(BodiesWithPoles, are_whole_in_iges_files_with_curves_in_space_alone) {
+  const TemporaryDirectory dir;
+  test::write_brep(GetParam(), dir / "a.brep");
+  test::write_iges(GetParam(), dir / "a.igs");
+  keep_curves_in_space(dir / "a.igs");
+  const ImportResult sound = import_model(dir / "a.brep", {}), r = import_model(dir / "a.igs", {});
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area);
+  EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
+}
+
+INSTANTIATE_TEST_SUITE_P(, BodiesWithPoles,
+                         testing::Values("sphere", "ball_with_two_holes", "ball_with_notch", "spindle_with_fin",
+                                         "lemon_with_fin"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace
