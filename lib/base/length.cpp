@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
@@ -62,12 +63,15 @@ std::string in_unit(const std::string& unit, int power) {
   return power == 1 ? " " + unit : " " + unit + "^" + std::to_string(power);
 }
 
-double resolve_length(const LengthSpec& spec, const LengthReference& reference, const std::string& option) {
+namespace {
+
+double length_in_model_unit(const LengthSpec& spec, const LengthReference& reference, const std::string& option) {
   const auto of_wing = [&](const std::optional<double>& length) {
     if (!length)
-      throw Error(ExitCode::kUsage, option + ": '" + spec.text +
-                                        "' refers to a wing, and there is no lifting surface; write a length or a per "
-                                        "cent of the diagonal, such as 0.1%");
+      throw Error(ExitCode::kUsage,
+                  option + ": '" + spec.text +
+                      "' refers to a wing, and no lifting surface is known here; write a length or a per "
+                      "cent of the diagonal, such as 0.1%");
     return spec.value * 0.01 * *length;
   };
   switch (spec.kind) {
@@ -84,6 +88,17 @@ double resolve_length(const LengthSpec& spec, const LengthReference& reference, 
   }
   require_unit(spec, reference.unit_in_m, option);
   return spec.value / *reference.unit_in_m;
+}
+
+}  // namespace
+
+double resolve_length(const LengthSpec& spec, const LengthReference& reference, const std::string& option) {
+  constexpr double kLargestLength = 1e15;  // a thousand times kLargestCoordinate; sizes are stored as float
+  const double length = length_in_model_unit(spec, reference, option);
+  if (length <= kLargestLength) return length;
+  std::ostringstream text;
+  text << option << ": " << length << " in the unit of the model; give a length of at most " << kLargestLength;
+  throw Error(ExitCode::kUsage, text.str());
 }
 
 }  // namespace st

@@ -37,7 +37,7 @@ LengthSpec parse_length(const std::string& text, const std::string& option);
 std::string in_unit(const std::string& unit, int power = 1);
 
 /// The length in the model unit. Throws Error(kUsage) for an absolute length in a model without a unit (names --unit),
-/// and for one of chord or span where there is none.
+/// for one of chord or span where there is none, and for one above 1e15, which single precision does not bear.
 double resolve_length(const LengthSpec& spec, const LengthReference& reference, const std::string& option);
 
 }  // namespace st

@@ -14,7 +14,7 @@ struct ProlongStageOptions {
   std::string raster;  ///< raster artifact, or a sizing whose sources and scale are changed
   std::string output = "sizing.hdf";
   double slope = 0.2;
-  static constexpr NumberOption kSlope{"--slope", "S", "(0, 2]",
+  static constexpr NumberOption kSlope{"--slope", "S", "[1e-6, 2]",
                                        "largest change of edge length per distance; 0.2 is a growth rate of 1.2"};
   std::string slope_of;  ///< "WING=0.1, FLAP=0.15": slope where lengths come from faces of these names; empty: none
   double scale = 1.0;

@@ -11,7 +11,9 @@
 
 #include <fmt/format.h>
 
+#include "base/length.h"
 #include "base/nearest_name.h"
+#include "base/similarity.h"
 #include "base/text.h"
 #include "io/file/text_file.h"
 #include "io/toml/toml_entry.h"
@@ -251,20 +253,21 @@ class SourceTable {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto value = list && list->size() == 3 ? (*list)[k].value<double>() : std::nullopt;
       if (!value || !std::isfinite(*value)) fail(std::string(key) + ": [x, y, z] expected", &node);
+      if (std::abs(*value) > kLargestCoordinate)
+        fail(fmt::format("{}: {:g} is beyond {:g}, the largest coordinate", key, *value, kLargestCoordinate), &node);
       v[k] = *value;
     }
     return {v[0], v[1], v[2]};
   }
   double length(const char* key, const toml::node& node, bool may_be_zero = false) const {
-    if (const auto value = node.value<double>(); value && !node.is_string()) {
-      if (!(*value > 0 || (may_be_zero && *value == 0)) || !std::isfinite(*value))
-        fail(std::string(key) + ": must be positive", &node);
-      return *value;
-    }
     const auto* s = node.as_string();
-    if (!s) fail(std::string(key) + ": a length expected, such as 0.2 or \"5mm\"", &node);
+    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!s && !number) fail(std::string(key) + ": a length expected, such as 0.2 or \"5mm\"", &node);
+    if (number && (!(*number > 0 || (may_be_zero && *number == 0)) || !std::isfinite(*number)))
+      fail(std::string(key) + ": must be positive", &node);
     try {
-      return resolve_length(parse_length(s->get(), key), {scale_.diagonal, scale_.unit_in_m}, key);
+      const LengthSpec spec = s ? parse_length(s->get(), key) : LengthSpec{LengthSpec::Kind::kModelUnit, *number, {}};
+      return resolve_length(spec, {scale_.diagonal, scale_.unit_in_m}, key);
     } catch (const Error& e) {
       fail(e.what(), &node);
     }

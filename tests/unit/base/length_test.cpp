@@ -66,6 +66,16 @@ TEST(Length, anything_else_is_a_usage_error_that_names_the_option) {
   }
 }
 
+TEST(Length, beyond_what_single_precision_holds_is_refused_however_it_is_written) {
+  for (const char* text : {"1e16", "1e300", "1e290%", "1e300km", "1e290%chord"})
+    EXPECT_EQ(code_of([&] {
+                resolve_length(parse_length(text, "--lmax"), {100, 0.001, 4}, "--lmax");
+              }),
+              ExitCode::kUsage)
+        << text;
+  EXPECT_EQ(resolve_length(parse_length("100%", "--lmax"), {3.4e12, 0.001}, "--lmax"), 3.4e12);
+}
+
 TEST(Length, unit_names_are_known_in_any_case_and_spelling) {
   EXPECT_EQ(unit_in_metres("mm"), 1e-3);
   EXPECT_EQ(unit_in_metres("MILLIMETRE"), 1e-3);

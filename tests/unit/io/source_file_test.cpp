@@ -139,6 +139,10 @@ length = 1
 }
 
 TEST_F(SourceFiles, toml_errors_name_file_line_and_cause) {
+  const std::string cylinder = "[[source]]\ntype = \"cylinder\"\nextent = 1\nlength = 1\nfrom = [0, 0, 0]\n";
+  expect_error(cylinder + "to = [1e200, 0, 0]", "s.toml:6: to: 1e+200 is beyond 1e+12, the largest coordinate");
+  expect_error(cylinder + "to = [1, 0, 0]\nradius = 1e300", "s.toml:7: radius: 1e+300 in the unit of the model");
+  expect_error(cylinder + "to = [1, 0, 0]\nradius = true", "s.toml:7: radius: a length expected");
   expect_error("[[source]]\ntype = \"blob\"\nlength = 1", "blob");
   expect_error("[[source]]\ntype = \"point\"\nlength = 1", "at = [x, y, z]");
   expect_error("[[source]]\ntype = \"point\"\nat = [0, 0]\nlength = 1", "s.toml:3");
