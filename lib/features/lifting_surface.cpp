@@ -118,23 +118,14 @@ bool is_rim(const Model& model, EdgeId e, const LiftingSurface& surface) {
   return is_along_chord(surface, e, middle, normalized(end - begin));
 }
 
-/// Edges of a chain that are none of a wing's, and why.
-struct LeftOut {
-  std::vector<WingEdge> edges;
-  std::string why;
-
-  static auto fields(auto& l) { return std::tie(l.edges, l.why); }
-};
-
 /// Why there is no lifting surface.
 struct Reason {
   std::string text;
   bool may_be_wing = true;
-  bool is_inexact = false;             // facets are too coarse to tell
-  bool is_own_nose = false;            // and as sharp as a nose may be
-  std::vector<LeftOut> left_out = {};  // what the rest of this is not about
+  bool is_inexact = false;   // facets are too coarse to tell
+  bool is_own_nose = false;  // and as sharp as a nose may be
 
-  static auto fields(auto& r) { return std::tie(r.text, r.may_be_wing, r.is_inexact, r.is_own_nose, r.left_out); }
+  static auto fields(auto& r) { return std::tie(r.text, r.may_be_wing, r.is_inexact, r.is_own_nose); }
 };
 
 /// Edges of a chain that are no part of a surface with noses.
@@ -160,14 +151,6 @@ struct ChainSurfaces {
 
   static auto fields(auto& f) { return std::tie(f.surfaces, f.rest, f.ends); }
 };
-
-/// Of these, those that are not among `part`.
-std::vector<WingEdge> without(const std::vector<WingEdge>& edges, const std::vector<WingEdge>& part) {
-  std::vector<WingEdge> others;
-  for (const WingEdge& w : edges)
-    if (std::ranges::count(part, w.edge, &WingEdge::edge) == 0) others.push_back(w);
-  return others;
-}
 
 /// What exact facets of a chain's own faces show.
 struct ExactSurface {
@@ -255,14 +238,13 @@ class SurfaceMeasurer {
     LiftingSurface surface = assemble(chain, places, profiles);
     if (!is_measured(surface)) return std::nullopt;
     if (const std::vector<WingEdge> part = narrow_edges(chain, surface); part.size() < chain.size()) {
-      std::optional<SurfaceDraft> draft = find_without(
-          {without(chain, part), fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase)}, part,
-          why);
+      std::optional<SurfaceDraft> draft =
+          find_without(fmt::format("its base is wider than {:g} % of the chord", 100 * kWidestBase), part, why);
       why.may_be_wing = why.may_be_wing || (part.empty() && is_cut_off(surface, profiles));
       return draft;
     }
     if (const std::vector<WingEdge> part = without_rims(chain, surface); part.size() < chain.size())
-      return find_without({without(chain, part), kRimOfEnd}, part, why);
+      return find_without(kRimOfEnd, part, why);
     why = {why_no_wing(surface), false};
     if (why.text.empty() && has_nose_on(surface, surface)) {
       const bool is_no_lens =
@@ -306,19 +288,15 @@ class SurfaceMeasurer {
     Reason own;
     std::optional<SurfaceDraft> draft = find(part, own);
     why.is_own_nose = own.is_own_nose;
-    why.left_out = own.left_out;
     return draft;
   }
 
   /// Where the rest shows no surface either, the reason is that of the rest.
-  std::optional<SurfaceDraft> find_without(const LeftOut& others, const std::vector<WingEdge>& part,
+  std::optional<SurfaceDraft> find_without(const std::string& why_not_others, const std::vector<WingEdge>& part,
                                            Reason& why) const {
     std::optional<SurfaceDraft> draft;
     if (!part.empty()) draft = find(part, why);
-    if (draft || part.empty())
-      why = {others.why, false};
-    else
-      why.left_out.push_back(others);
+    if (draft || part.empty()) why = {why_not_others, false};
     return draft;
   }
 
@@ -830,21 +808,6 @@ bool runs_along_nose(const Model& model, const WingEdge& w, const LiftingSurface
   return is_near;
 }
 
-/// Whether the surface is square to the chord at most noses.
-bool has_round_noses(const Model& model, const LiftingSurface& surface) {
-  constexpr double kSquare = 0.9;  // cosine
-  int n = 0, n_round = 0;
-  for (const ChordEdge& edge : surface.trailing)
-    for (const ChordStation& s : edge.stations) {
-      if (!s.is_measured) continue;
-      const auto face = model.surface(s.nose_face);
-      const Vec3 normal = surface_normal(*face, closest_point(*face, s.nose).uv);
-      ++n;
-      n_round += std::abs(dot(normal, normalized(s.nose - s.trailing))) > kSquare;
-    }
-  return 2 * n_round > n;
-}
-
 /// The facets and their mirror image; vertices on the plane of `mirror` belong to both.
 Facets with_image(const Model& model, Facets facets, FaceId mirror, double on_plane) {
   const MirrorPlane plane(model, mirror);
@@ -889,40 +852,11 @@ FaceId mirror_of(const std::vector<WingEdge>& chain) {
   return kNone;
 }
 
-/// Smooth edges in a nose that may be a trailing edge: one of their faces has another such edge, apart from them.
-class SmoothTails {
- public:
-  SmoothTails(const ModelTables& t, std::span<const WingEdge> edges)
-      : t_(t), is_leading_(static_cast<std::size_t>(t.n_edges()), 0), faces_at_(t) {
-    for (const WingEdge& w : edges)
-      if (w.kind == WingEdgeKind::kLeading) is_leading_[static_cast<std::size_t>(w.edge)] = 1;
-  }
-
-  bool may_be_tail(const WingEdge& own) const {
-    if (own.kind != WingEdgeKind::kLeading || own.is_declared) return false;
-    const auto vertex = [&](EdgeId e, std::size_t k) { return t_.edge_vertices[2 * static_cast<std::size_t>(e) + k]; };
-    const auto is_other = [&](EdgeId e) {
-      if (!is_leading_[static_cast<std::size_t>(e)]) return false;
-      for (const std::size_t k : {0, 1})
-        if (vertex(e, k) == vertex(own.edge, 0) || vertex(e, k) == vertex(own.edge, 1)) return false;
-      return true;
-    };
-    return std::ranges::any_of(faces_at_[own.edge],
-                               [&](FaceId f) { return std::ranges::any_of(t_.edges_of(f), is_other); });
-  }
-
- private:
-  const ModelTables& t_;
-  std::vector<std::uint8_t> is_leading_;  // [n_edges] smooth, in a nose
-  EdgeFaces faces_at_;
-};
-
 /// Edges at which profiles are cut.
-std::vector<WingEdge> possible_tails(const ModelTables& t, std::span<const WingEdge> edges) {
-  const SmoothTails smooth(t, edges);
+std::vector<WingEdge> possible_tails(std::span<const WingEdge> edges) {
   std::vector<WingEdge> tails;
   for (const WingEdge& w : edges)
-    if (w.kind != WingEdgeKind::kLeading || w.is_declared || smooth.may_be_tail(w)) tails.push_back(w);
+    if (w.kind != WingEdgeKind::kLeading || w.is_declared) tails.push_back(w);
   return tails;
 }
 
@@ -949,7 +883,6 @@ class SurfaceFinder {
     ends_ = std::move(found.ends);
     find_small(small);
     unite_surfaces();
-    find_behind_noses();
     leave_out_slivers(small);
     add_front_noses(model_, surfaces_);
     const bool has_aircraft = noseless == Noseless::kAll || !surfaces_.empty();
@@ -1011,33 +944,6 @@ class SurfaceFinder {
     const auto e = static_cast<std::size_t>(w.edge);
     if (t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1]) return true;
     return std::ranges::all_of(faces_at_[w.edge], [&](FaceId f) { return t.face_type[f] == SurfaceType::kPlane; });
-  }
-
-  /// Blades whose trailing edge is round, with a smooth edge in it, and whose other end is round, too: else that would
-  /// be the trailing edge.
-  void find_behind_noses() {
-    std::vector<WingEdge> noses;
-    const SmoothTails smooth(model_.tables(), edges_);
-    for (const WingEdge& w : edges_) {
-      const auto has_edge = [&](const LiftingSurface& s) { return std::ranges::count(s.leading, w.edge) > 0; };
-      if (!smooth.may_be_tail(w) || std::ranges::any_of(surfaces_, has_edge)) continue;
-      noses.push_back(w);
-      noses.back().kind = WingEdgeKind::kSharpTrailing;
-    }
-    const std::size_t n = surfaces_.size(), n_rest = rest_.size();
-    for (const auto& chain : trailing_chains(model_, noses)) find_with_noses(chain);
-    rest_.resize(n_rest);
-    surfaces_.erase(std::remove_if(surfaces_.begin() + static_cast<std::ptrdiff_t>(n), surfaces_.end(),
-                                   [&](const LiftingSurface& s) { return !has_round_noses(model_, s); }),
-                    surfaces_.end());
-    for (std::size_t i = n; i < surfaces_.size(); ++i) {
-      surfaces_[i].is_round = true;
-      const auto is_own = [&](EdgeId e) {
-        return std::ranges::any_of(surfaces_[i].trailing, [&](const ChordEdge& edge) { return edge.edge == e; });
-      };
-      std::erase_if(surfaces_[i].leading, is_own);
-    }
-    unite_surfaces();
   }
 
   /// What cuts of the CAD leave beside a wing, as of a slat above its cove: a needle whose chord goes to nothing.
@@ -1165,19 +1071,8 @@ class SurfaceFinder {
     std::optional<LiftingSurface> surface = surface_at(chain, cutter_for(chain), reach(), why);
     if (why.is_inexact || (surface ? !is_seen(surface, kSeenSmall) : why.may_be_wing))
       try_exact_facets(surface && !is_straight(chain) ? edges_of(*surface, chain) : chain, surface, why);
-    if (!surface && !why.left_out.empty()) return find_in_rest(chain, why.left_out);
     const bool is_bent = why.may_be_wing && !is_straight(chain);
     if (surface || !(why.is_own_nose || is_bent) || !find_lines(chain)) keep(chain, surface, why);
-  }
-
-  /// What hangs together without the edges that are none of a wing's, each by itself.
-  void find_in_rest(const std::vector<WingEdge>& chain, const std::vector<LeftOut>& left_out) {
-    std::vector<WingEdge> others = chain;
-    for (const LeftOut& own : left_out) {
-      others = without(others, own.edges);
-      rest_.push_back({own.edges, {own.why, false}});
-    }
-    for (const auto& part : trailing_chains(model_, others)) find_with_noses(part);
   }
 
   /// Each line of a chain by itself, as luff and leech of a sail, or both edges of a blade that are sharp; false: it
@@ -1546,7 +1441,7 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
   std::vector<WingEdge> all(edges.begin(), edges.end());
   std::vector<Chain> chains;
   for (std::vector<WingEdge>& chain : trailing_chains(model, all)) chains.push_back({std::move(chain)});
-  const std::vector<WingEdge> tails = possible_tails(model.tables(), edges);
+  const std::vector<WingEdge> tails = possible_tails(edges);
   bool has_edges = !tails.empty() || !small.empty();
   share(executor, has_edges, all, chains);
   if (!has_edges) return {};

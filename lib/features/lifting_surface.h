@@ -52,7 +52,7 @@ enum class Noseless : unsigned char {
 /// A lifting surface: all trailing edges that hang together, pieces, kinks and both sides of a blunt one alike.
 struct LiftingSurface {
   bool is_blunt = false;
-  bool is_round = false;     ///< its trailing edge is a smooth edge in a round, or runs inside faces
+  bool is_round = false;     ///< its trailing edge runs inside faces
   bool has_noses = true;     ///< false: no station is measured; chords are as far as the part behind the edge is thin
   bool is_declared = false;  ///< some of its edges are, by the user
   std::vector<ChordEdge> trailing;          ///< ascending by edge
