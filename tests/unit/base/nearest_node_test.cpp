@@ -21,11 +21,14 @@ TEST(NearestNode, is_the_lowest_of_the_nearest) {
   const NearestNode nearest(xyz, nodes);
   for (int i = 0; i < 500; ++i) {
     const Vec3 x = point() + Vec3{0.01 * (i % 7), 0, 0};
-    NodeId expected = nodes[0];
-    for (const NodeId n : nodes)
+    NodeId expected = nodes[0], last = nodes[0];
+    for (const NodeId n : nodes) {
       if (norm2(xyz[n] - x) < norm2(xyz[expected] - x)) expected = n;
+      if (norm2(xyz[n] - x) <= norm2(xyz[last] - x)) last = n;
+    }
     EXPECT_EQ(nearest.find(x), expected);
     EXPECT_EQ(nearest.find(x, nodes[i]), expected) << "from a guess";
+    EXPECT_EQ(nearest.find(x, last), expected) << "from one as near";
   }
   EXPECT_EQ(NearestNode(xyz, {}).find({}), kNone);
 }
