@@ -93,7 +93,14 @@ class HarmFinder {
  private:
   static constexpr std::size_t kFacesPerPiece = 8;
 
+  /// Two coedges of a loop that follow each other, and the vertex between them.
+  struct Corner {
+    VertexId vertex;
+    CoedgeId in, out;
+  };
+
   void judge(FaceId f) {
+    std::vector<Corner> corners;
     for (const LoopId l : t_.loops(f)) {
       const IdRange loop = t_.loop_coedges(l);
       for (const CoedgeId c : loop) {
@@ -103,8 +110,24 @@ class HarmFinder {
         while (t_.edge_is_degenerate[t_.coedge_edge[next]]) next = after(next);  // the corner is at a pole
         judge_corner(c, next);
         judge_width(f, c);
+        corners.push_back({end_of(c), c, next});
       }
     }
+    judge_contacts(corners);
+  }
+
+  /// Where loops touch, the face has a corner on either side, between edges of both.
+  void judge_contacts(std::vector<Corner>& corners) {
+    std::ranges::stable_sort(corners, {}, &Corner::vertex);
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      for (std::size_t k = i + 1; k < corners.size() && corners[k].vertex == corners[i].vertex; ++k) {
+        judge_corner(corners[i].in, corners[k].out);
+        judge_corner(corners[k].in, corners[i].out);
+      }
+  }
+
+  VertexId end_of(CoedgeId c) const {
+    return t_.edge_vertices[2 * static_cast<std::size_t>(t_.coedge_edge[c]) + (t_.coedge_is_reversed[c] ? 0 : 1)];
   }
 
   /// Whole numbers: the sum does not depend on their order.

@@ -32,6 +32,7 @@
 #include <BinTools.hxx>
 #include <GCPnts_AbscissaPoint.hxx>
 #include <GC_MakeArcOfCircle.hxx>
+#include <GC_MakeSegment.hxx>
 #include <Geom2d_Curve.hxx>
 #include <GeomAPI_Interpolate.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
@@ -49,6 +50,7 @@
 #include <Geom_SurfaceOfLinearExtrusion.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_ToroidalSurface.hxx>
+#include <Geom_TrimmedCurve.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
@@ -713,6 +715,27 @@ TopoDS_Shape melon() {
   return all;
 }
 
+/// Two smooth halves of a plate; a hole in one of them touches the other.
+TopoDS_Shape plate_of_2_with_touching_hole() {
+  const TopoDS_Shape plate = BRepAlgoAPI_Fuse(box(10, 10, 1), moved(box(5, 10, 1), -5, 0, 0)).Shape();
+  const gp_Ax2 axis(gp_Pnt(2, 5, -1), gp_Dir(0, 0, 1), gp_Dir(-1, 0, 0));  // its seam is where it touches
+  return BRepAlgoAPI_Cut(plate, BRepPrimAPI_MakeCylinder(axis, 2, 3).Shape()).Shape();
+}
+
+/// The profile of a wing in two halves, ruled from the chord to either side: poles at both ends of the chord.
+TopoDS_Shape tip_of_2() {
+  BRepBuilderAPI_Sewing sewing(1e-6);
+  for (const double y : {2.0, -1.0}) {
+    const Handle(Geom_TrimmedCurve) side =
+        GC_MakeArcOfCircle(gp_Pnt(0, 0, 0), gp_Pnt(5, y, 0), gp_Pnt(10, 0, 0)).Value();
+    const Handle(Geom_TrimmedCurve) chord = GC_MakeSegment(gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0)).Value();
+    TopoDS_Shape half = BRepBuilderAPI_MakeFace(GeomFill::Surface(chord, side), 1e-6).Face();
+    sewing.Add(y < 0 ? half.Reversed() : half);
+  }
+  sewing.Perform();
+  return sewing.SewedShape();
+}
+
 using Factory = std::function<TopoDS_Shape()>;
 
 const std::map<std::string, Factory>& factories() {
@@ -859,6 +882,8 @@ const std::map<std::string, Factory>& factories() {
       {"wing_of_8", [] { return cut_wing(4, 2); }},
       {"wing_of_200", [] { return cut_wing(10, 20); }},
       {"melon", melon},
+      {"plate_of_2_with_touching_hole", plate_of_2_with_touching_hole},
+      {"tip_of_2", tip_of_2},
       {"cylinder_of_8", [] { return cut_prism(new Geom_Circle(kZ, 5), 8, 1); }},
       {"disc_of_16", [] { return cut_prism(new Geom_Circle(kZ, 5), 16, 1, 0.05); }},  // its rim: strips and short
                                                                                       // pieces

@@ -17,6 +17,7 @@ namespace st::test {
 ///   thin_cylinder thin_pipe (radius 10, wall 0.05) spindle_torus (crosses itself on its axis) drilled_block
 ///   stepped_box (a step of 0.02 across the top) thin_plate (0.02 thick) wedge_strip (a blunt edge 0.02 to 1 wide)
 ///   framed_plate (a square window 0.1 from an edge)
+///   plate_of_2_with_touching_hole (15 x 10 x 1, cut at x = 0, where the hole of radius 2 touches)
 ///   sharp_wing blunt_wing (NACA 0012, chord 10, span 30, edge 0.0252 wide) wing_in_box (the box without the wing)
 ///   wing_with_pod (3.5 long and 1 wide, half of it below the wing) half_sharp_wing half_blunt_wing (cut at y = 0)
 ///   wing_on_body (its root in a box of 16 x 4 x 8 that ends at z = 4)
@@ -29,6 +30,7 @@ namespace st::test {
 ///   thin_pin_in_block (radius 0.05, no gap) rod_and_shallow_prism
 /// - Faces: square disc annulus thin_crescent (two circles 0.002 apart at x = 10) strip sharp_triangle (5.7 degrees)
 /// spiked_plate (a corner of 5.7 degrees)
+/// tip_of_2 (10 long, ruled from its chord to arcs 2 and 1 high: poles)
 ///   l_face plate_with_hole cone_side sphere_octant
 /// - Sheets: wave rational_wave high_degree_wave bezier rational_bezier stretched kinked crumpled (folded in itself)
 ///   folded_sheet (a wave, offset by more than its radii) folded_sheet_and_pipe (a thin pipe in its box)

@@ -65,6 +65,12 @@ TEST(Compose, sharp_corners_at_poles_do_harm) {
   EXPECT_TRUE(std::ranges::any_of(g.composites.triangle_pole, [](std::int32_t pole) { return pole != kNone; }));
 }
 
+TEST(Compose, corners_where_a_hole_touches_an_edge_do_harm) {
+  const GeometryArtifact g = composed("plate_of_2_with_touching_hole", "harm", "");
+  EXPECT_EQ(g.composites.size(), 2);  // above and below
+  EXPECT_EQ(g.composites.member.size(), 4u);
+}
+
 TEST(Compose, narrow_faces_are_no_reason_to_join_at_edges_across_them) {
   ImportResult cad = test::import_shape("cylinder_of_8");
   const Model model(cad.tables, cad.brep);
