@@ -18,6 +18,7 @@
 #include "geometry/brep/compound.h"
 #include "geometry/model/brep_facets.h"
 #include "geometry/model/model_editor.h"
+#include "geometry/model/pole_band.h"
 #include "geometry/shape/composite_surface.h"
 #include "geometry/shape/member_map.h"
 
@@ -39,7 +40,11 @@ struct Pole {
 class FacetReader {
  public:
   FacetReader(const Model& model, UvFacets& facets)
-      : model_(model), t_(model.tables()), brep_(ModelEditor::brep(model)), facets_(facets) {
+      : model_(model),
+        t_(model.tables()),
+        brep_(ModelEditor::brep(model)),
+        facets_(facets),
+        spans_poles_(edges_between_poles(t_)) {
     facets_.rim_t.resize(t_.coedge_edge.size());
     facets_.rim_side.resize(t_.coedge_edge.size());
   }
@@ -59,8 +64,11 @@ class FacetReader {
         rims.emplace_back(c, std::move(*rim));
     }
     UvFacets own = triangles(f, *mesh, location);
+    for (auto& [coedge, rim] : rims)
+      if (rim.node.size() == 2 && spans_poles_[t_.coedge_edge[coedge]] && !split(f, coedge, own, rim)) return;
     for (Pole& pole : poles)
-      if (!find_line(*mesh, pole) || !close(own, pole, rims)) return;
+      if (!find_line(*mesh, pole)) return;
+    if (!poles.empty() && !close(f, own, poles, rims)) return;
     if (connect(own, rims)) append(std::move(own), rims);
   }
 
@@ -121,6 +129,34 @@ class FacetReader {
     return own;
   }
 
+  /// Puts nodes inside a straight edge from pole to pole: a facet at both would have no meridians. False where no facet
+  /// lies at the edge.
+  bool split(FaceId f, CoedgeId c, UvFacets& own, Rim& rim) const {
+    constexpr int kBetweenPoles = 7;  // nodes inside a straight edge
+    const std::int32_t a = rim.node[0], b = rim.node[1];
+    const auto at = std::ranges::find_if(own.corners, [&](const Corners& n) {
+      return std::ranges::find(n, a) != n.end() && std::ranges::find(n, b) != n.end();
+    });
+    if (at == own.corners.end()) return false;
+    const auto t = static_cast<std::size_t>(at - own.corners.begin());
+    const auto ka = static_cast<std::size_t>(std::ranges::find(*at, a) - at->begin()),
+               kb = static_cast<std::size_t>(std::ranges::find(*at, b) - at->begin());
+    const auto curve = model_.curve(t_.coedge_edge[c]);
+    const auto pcurve = model_.pcurve(f, c);
+    for (int k = kBetweenPoles; k >= 1; --k) {  // facet t keeps a, and loses b
+      const double s = rim.t[0] + k * (rim.t.back() - rim.t[0]) / (kBetweenPoles + 1);
+      const auto node = static_cast<std::int32_t>(own.x.size());
+      own.x.push_back(curve->point(s));
+      Corners rest = own.corners[t];
+      auto rest_uv = own.uv[t];
+      rest[ka] = own.corners[t][kb] = node;
+      rest_uv[ka] = own.uv[t][kb] = pcurve->point(s);
+      own.corners.push_back(rest), own.uv.push_back(rest_uv), own.pole.push_back(kNone), own.face.push_back(f);
+      rim.t.insert(rim.t.begin() + 1, s), rim.node.insert(rim.node.begin() + 1, node);
+    }
+    return true;
+  }
+
   /// Whether the nodes of a pole lie on a line along u or v.
   static bool find_line(const Poly_Triangulation& mesh, Pole& pole) {
     constexpr double kStraight = 1e-6;  // of its length
@@ -132,9 +168,53 @@ class FacetReader {
     return std::min(size.x, size.y) <= kStraight * std::max(size.x, size.y) && size != Vec2{};
   }
 
+  using Rims = std::vector<std::pair<CoedgeId, Rim>>;
+
+  static bool close(UvFacets& own, const std::vector<Pole>& poles, Rims& rims) {
+    return std::ranges::all_of(poles, [&](const Pole& pole) { return close(own, pole, rims); });
+  }
+
+  bool close(FaceId f, UvFacets& own, const std::vector<Pole>& poles, Rims& rims) const {
+    UvFacets closed = own;
+    Rims closed_rims = rims;
+    if (close(closed, poles, closed_rims)) return own = std::move(closed), rims = std::move(closed_rims), true;
+    if (poles.size() != 2 || rims.size() != 2) return false;
+    if (rims[0].second.node.size() < 3 || rims[1].second.node.size() < 3) return false;
+    own = band(f, own, poles, rims);
+    return close(own, poles, rims);
+  }
+
+  /// Facets from edge to edge of a face between two poles: OpenCASCADE's may have two corners on one meridian.
+  UvFacets band(FaceId f, const UvFacets& whole, const std::vector<Pole>& poles, const Rims& rims) const {
+    UvFacets own;
+    own.x = whole.x;
+    std::array<PoleChain, 2> chain;
+    std::map<std::int32_t, Vec2> uv;
+    for (const std::size_t k : {0, 1}) {
+      const auto pcurve = model_.pcurve(f, rims[k].first);
+      const Rim& rim = rims[k].second;
+      for (std::size_t i = 0; i < rim.node.size(); ++i) {
+        uv[rim.node[i]] = pcurve->point(rim.t[i]);
+        chain[k].node.push_back(rim.node[i]);
+        chain[k].at.push_back(poles[0].is_along_v ? uv[rim.node[i]].x : uv[rim.node[i]].y);
+      }
+      if (chain[k].at.front() > chain[k].at.back())
+        std::ranges::reverse(chain[k].node), std::ranges::reverse(chain[k].at);
+    }
+    for (Corners c : fill_pole_band(chain[0], chain[1])) {
+      const double area = cross(uv[c[1]] - uv[c[0]], uv[c[2]] - uv[c[0]]);
+      if ((area < 0) != (t_.face_is_reversed[f] != 0)) std::swap(c[1], c[2]);
+      own.corners.push_back(c);
+      own.uv.push_back({uv[c[0]], uv[c[1]], uv[c[2]]});
+      own.face.push_back(f);
+    }
+    own.pole.assign(own.corners.size(), kNone);
+    return own;
+  }
+
   /// Makes one node of those at a pole and takes out the triangles that have no area then. False where what is left
   /// does not lie side by side around it.
-  static bool close(UvFacets& own, const Pole& pole, std::vector<std::pair<CoedgeId, Rim>>& rims) {
+  static bool close(UvFacets& own, const Pole& pole, Rims& rims) {
     const std::int32_t first = pole.node.front();
     const auto weld = [&](std::int32_t& node) {
       if (std::ranges::find(pole.node, node) != pole.node.end()) node = first;
@@ -222,6 +302,7 @@ class FacetReader {
   const ModelTables& t_;
   const Model::Impl& brep_;
   UvFacets& facets_;
+  std::vector<std::uint8_t> spans_poles_;  // edges
 };
 
 bool has_turned_facet(const Surface& surface, const UvFacets& facets, std::int32_t first, std::int32_t end) {

@@ -89,6 +89,17 @@ TEST(UvFacets, have_one_node_at_a_pole) {
   }
 }
 
+TEST(UvFacets, fill_a_face_between_two_poles_from_edge_to_edge) {
+  const Model model = test::make_model("tip_of_2");
+  const UvFacets facets = uv_facets_of(model);
+  double area = 0;
+  for (const Corners& c : facets.corners)
+    area += 0.5 * cross(facets.x[c[1]] - facets.x[c[0]], facets.x[c[2]] - facets.x[c[0]]).z;
+  const double all = model.tables().face_area[0] + model.tables().face_area[1];
+  EXPECT_NEAR(std::abs(area), all, 0.02 * all);  // both seen from the same side
+  EXPECT_EQ(std::ranges::count_if(facets.pole, [](std::int32_t pole) { return pole != kNone; }), 4);
+}
+
 TEST(UvFacets, are_made_of_wanted_faces_alone) {
   const Model model = test::make_model("box");
   const UvFacets facets = make_uv_facets(model, {0, 1, 0, 0, 1, 0}, {.deflection = 1});
