@@ -47,6 +47,9 @@ class Polyhedron {
     BRep_Builder().MakeShell(shell_);
   }
 
+  /// Makes one vertex of two; edges to either are two still.
+  void join_vertices(int keep, int gone) { vertices_[gone] = vertices_[keep]; }
+
   /// The edge between two vertices.
   void bend(int a, int b, const Handle(Geom_Curve) & curve) {
     edges_[{a, b}] = BRepBuilderAPI_MakeEdge(curve, vertices_[a], vertices_[b]).Edge();
@@ -71,16 +74,19 @@ class Polyhedron {
     builder.Add(shell_, face);
   }
 
-  /// Counter-clockwise as seen from outside; the first three places give the plane.
-  void add_face(const std::vector<int>& corners) {
+  /// Counter-clockwise as seen from outside, a hole clockwise; the first three places give the plane.
+  void add_face(const std::vector<int>& corners, const std::vector<int>& hole = {}) {
     const gp_Vec u(places_[corners[0]], places_[corners[1]]), v(places_[corners[0]], places_[corners[2]]);
     TopoDS_Face face = BRepBuilderAPI_MakeFace(gp_Pln(places_[corners[0]], u.Crossed(v))).Face();
-    TopoDS_Wire wire;
-    BRep_Builder().MakeWire(wire);
-    for (std::size_t k = 0; k < corners.size(); ++k)
-      BRep_Builder().Add(wire, edge(corners[k], corners[(k + 1) % corners.size()]));
-    wire.Closed(true);
-    BRep_Builder().Add(face, wire);
+    for (const std::vector<int>& loop : {corners, hole}) {
+      if (loop.empty()) continue;
+      TopoDS_Wire wire;
+      BRep_Builder().MakeWire(wire);
+      for (std::size_t k = 0; k < loop.size(); ++k)
+        BRep_Builder().Add(wire, edge(loop[k], loop[(k + 1) % loop.size()]));
+      wire.Closed(true);
+      BRep_Builder().Add(face, wire);
+    }
     BRep_Builder().Add(shell_, face);
   }
 
@@ -140,6 +146,42 @@ TopoDS_Shape wall_twice(double far) {
   solid.add_face({8, 1, 2, 9});
   solid.add_face({11, 9, 2, 4});
   return solid.solid(0.001);
+}
+
+/// A block of 10 x 10 x 2 with a pocket of 4 x 4 above and 2 x 2 below, 1 deep, whose rim lies on the block's.
+TopoDS_Shape pocket_at_rim() {
+  Polyhedron solid({{0, 0, 0},
+                    {10, 0, 0},
+                    {10, 10, 0},
+                    {0, 10, 0},
+                    {0, 0, 2},
+                    {10, 0, 2},
+                    {10, 10, 2},
+                    {0, 10, 2},
+                    {0, 3, 2},
+                    {0, 7, 2},
+                    {4, 3, 2},
+                    {4, 7, 2},
+                    {1, 4, 1},
+                    {3, 4, 1},
+                    {3, 6, 1},
+                    {1, 6, 1},
+                    {0, 3, 2},
+                    {0, 7, 2}});
+  solid.join_vertices(8, 16);
+  solid.join_vertices(9, 17);
+  solid.add_face({0, 3, 2, 1});
+  solid.add_face({0, 1, 5, 4});
+  solid.add_face({1, 2, 6, 5});
+  solid.add_face({2, 3, 7, 6});
+  solid.add_face({0, 4, 8, 9, 7, 3});
+  solid.add_face({4, 5, 6, 7, 9, 8}, {16, 17, 11, 10});
+  solid.add_face({17, 16, 12, 15});
+  solid.add_face({11, 17, 15, 14});
+  solid.add_face({10, 11, 14, 13});
+  solid.add_face({16, 10, 13, 12});
+  solid.add_face({12, 13, 14, 15});
+  return solid.solid(1e-7);
 }
 
 constexpr double kLength = 40, kDepth = 20, kTop = 10;
@@ -250,6 +292,7 @@ Makers makers() {
       {"blend_edges", [] { return blend(Crossing::kEdges, 0.04, 0.04); }},
       {"blend_round", [] { return blend(Crossing::kEdges, 0.04, 0.04, 0.8); }},
       {"blend_tip", [] { return blend(Crossing::kTrimmingCurves, 0.04, 0); }},
+      {"pocket_at_rim", pocket_at_rim},
       {"wall_apart", [] { return wall_twice(0.02); }},
       {"wall_twice", [] { return wall_twice(0.002); }},
   };

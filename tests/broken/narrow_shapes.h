@@ -11,6 +11,7 @@ namespace st::test {
 /// of
 ///   its own that crosses it, 0.002 beside it at most: tolerances are 0.001. Volume 30, area of what is outside 140.
 /// - wall_apart: the same, 0.02 beside it.
+/// - pocket_at_rim: a block of 10 x 10 x 2 with a pocket 1 deep, whose rim lies on the block's from y = 3 to 7.
 /// - A block of 40 x 20 x 10 whose upper edge is cut off by a face 0.04 * sqrt(2) wide; tolerances are 0.034. Trimming
 ///   curves of that face's long edges cross each other six times: blend_curves; blend_tip, where the face ends at a
 ///   point; blend_edges, where the edges do in space, too, and its neighbours' surfaces end up to 0.034 beside them;

@@ -93,7 +93,72 @@ std::optional<EdgeSpur> spur_of(const TopoDS_Edge& first, const TopoDS_Edge& sec
   return spur;
 }
 
+/// From head to tail; empty where the edges are no rings, or meet in a way that leaves a choice.
+std::vector<EdgeChain> rings_of(EdgeChain left) {
+  std::vector<EdgeChain> rings;
+  while (!left.empty()) {
+    EdgeChain ring{left.front()};
+    left.erase(left.begin());
+    const TopoDS_Vertex start = TopExp::FirstVertex(ring.front(), true);
+    while (!TopExp::LastVertex(ring.back(), true).IsSame(start)) {
+      const TopoDS_Vertex end = TopExp::LastVertex(ring.back(), true);
+      const auto follows = [&](const TopoDS_Edge& e) { return TopExp::FirstVertex(e, true).IsSame(end); };
+      const auto next = std::find_if(left.begin(), left.end(), follows);
+      if (next == left.end() || std::count_if(left.begin(), left.end(), follows) > 1) return {};
+      ring.push_back(*next);
+      left.erase(next);
+    }
+    rings.push_back(std::move(ring));
+  }
+  return rings;
+}
+
 }  // namespace
+
+std::vector<EdgeChain> chains_of(const TopoDS_Face& forward) {
+  std::vector<EdgeChain> chains;
+  for (TopoDS_Iterator w(forward); w.More(); w.Next()) {
+    if (w.Value().ShapeType() != TopAbs_WIRE) continue;
+    const TopoDS_Wire wire = TopoDS::Wire(w.Value());
+    if (!can_be_walked(wire, forward)) return {};
+    chains.push_back(walk_wire(wire, forward));
+  }
+  return chains;
+}
+
+std::optional<TopoDS_Face> face_of_chains(const TopoDS_Face& face, const std::vector<EdgeChain>& chains, double area,
+                                          double room) {
+  BRep_Builder builder;
+  TopoDS_Face result = TopoDS::Face(face.EmptyCopied());
+  for (const EdgeChain& chain : chains)
+    for (const EdgeChain& ring : rings_of(chain)) {
+      TopoDS_Wire wire;
+      builder.MakeWire(wire);
+      for (const TopoDS_Edge& e : ring) builder.Add(wire, e);
+      wire.Closed(true);
+      builder.Add(result, wire);
+      if (!can_be_walked(wire, result)) return std::nullopt;
+    }
+  if (!TopoDS_Iterator(result).More()) return std::nullopt;
+  const double left = std::abs(integrate_face(make_domain(result), {}).area);
+  return std::abs(left - area) <= room ? std::optional(result) : std::nullopt;
+}
+
+bool share_spur(const ImportedShape& model, const EdgeSpur& spur, const std::pair<FaceId, FaceId>& own,
+                std::map<FaceId, TopoDS_Face>& faces) {
+  for (FaceId f = 0; f < model.faces.Extent(); ++f) {
+    if (f == own.first || f == own.second) continue;
+    const auto it = faces.find(f);
+    const TopoDS_Face face = it == faces.end() ? TopoDS::Face(model.faces(f + 1).Oriented(TopAbs_FORWARD)) : it->second;
+    int n_uses = 0;
+    for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) n_uses += e.Current().IsSame(spur.longer);
+    if (n_uses == 0) continue;
+    const auto changed = n_uses == 1 ? with_common_edge(face, spur) : std::nullopt;
+    if (!changed) return false;
+    faces[f] = *changed;
+  }
+  return true;
+}
 
 std::optional<EdgeSpur> find_spur(const std::vector<TopoDS_Edge>& loop, const std::vector<TopoDS_Edge>& added,
                                   double distance) {

@@ -3,10 +3,26 @@
 
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "base/ids.h"
+#include "geometry/model/imported_shape.h"
+
 namespace st::occt {
+
+/// Edges that bound something, oriented as the loop of a face (taken forward) runs.
+using EdgeChain = std::vector<TopoDS_Edge>;
+
+/// One of each wire; empty where a wire cannot be walked.
+std::vector<EdgeChain> chains_of(const TopoDS_Face& forward);
+
+/// The face on the surface of `face` whose loops are the rings of each chain; nullopt where edges are no rings or meet
+/// in a way that leaves a choice, or where it does not have this area within `room` (both unit of the shape, squared).
+std::optional<TopoDS_Face> face_of_chains(const TopoDS_Face& face, const std::vector<EdgeChain>& chains, double area,
+                                          double room);
 
 /// Two edges that follow each other in a loop, there and back beside each other; all as the loop runs.
 struct EdgeSpur {
@@ -31,5 +47,10 @@ bool add_pcurve(const TopoDS_Edge& edge, const TopoDS_Face& face, double distanc
 /// `face` (forward), a neighbour at the longer edge: it has the rest and the shorter one in its place. nullopt where
 /// the face then does not have the area that it had, but for what lies between the edges.
 std::optional<TopoDS_Face> with_common_edge(const TopoDS_Face& face, const EdgeSpur& spur);
+
+/// All faces of the model at the longer edge, but for `own`, get the shorter one in its place: in `faces`, by their
+/// numbers from 0, forward; faces that are in it are changed there. False where one cannot.
+bool share_spur(const ImportedShape& model, const EdgeSpur& spur, const std::pair<FaceId, FaceId>& own,
+                std::map<FaceId, TopoDS_Face>& faces);
 
 }  // namespace st::occt

@@ -1,17 +1,12 @@
 #include "geometry/import/folded_slivers.h"
 
 #include <BRepTools_ReShape.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Standard_Failure.hxx>
-#include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Iterator.hxx>
-#include <TopoDS_Vertex.hxx>
-#include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -20,11 +15,9 @@
 #include <utility>
 
 #include "geometry/brep/face_domain.h"
-#include "geometry/brep/face_integral.h"
 #include "geometry/brep/occt_evaluators.h"
 #include "geometry/brep/shape_queries.h"
 #include "geometry/brep/uv_box.h"
-#include "geometry/brep/wire_walk.h"
 #include "geometry/import/edge_spurs.h"
 #include "geometry/model/cad_tolerance.h"
 #include "geometry/model/sameness.h"
@@ -40,24 +33,9 @@ constexpr double kLeftArea = 0.5;  // of the sliver's area: how far the neighbou
 constexpr int kAcross = 12;        // samples of the sliver in u and in v,
 constexpr int kAlong = 24;         // and of each of its edges
 
-/// The edges of one wire that bound something, oriented for the neighbour taken forward.
-using Chain = std::vector<TopoDS_Edge>;
-
-/// Empty where a wire cannot be walked.
-std::vector<Chain> chains_of(const TopoDS_Face& forward) {
-  std::vector<Chain> chains;
-  for (TopoDS_Iterator w(forward); w.More(); w.Next()) {
-    if (w.Value().ShapeType() != TopAbs_WIRE) continue;
-    const TopoDS_Wire wire = TopoDS::Wire(w.Value());
-    if (!can_be_walked(wire, forward)) return {};
-    chains.push_back(walk_wire(wire, forward));
-  }
-  return chains;
-}
-
 /// What of both chains bounds them as one face; nullopt where an edge of the sliver is used twice, or the same way by
 /// both.
-std::optional<Chain> sum_of(Chain own, Chain slivers) {
+std::optional<EdgeChain> sum_of(EdgeChain own, EdgeChain slivers) {
   std::size_t n_shared = 0;
   for (std::size_t k = 0; k < slivers.size();) {
     const auto same = [&](const TopoDS_Edge& e) { return e.IsSame(slivers[k]); };
@@ -78,26 +56,6 @@ std::optional<Chain> sum_of(Chain own, Chain slivers) {
   return own;
 }
 
-/// From head to tail; empty where the edges are no rings, or meet in a way that leaves a choice.
-std::vector<Chain> rings_of(Chain left) {
-  std::vector<Chain> rings;
-  while (!left.empty()) {
-    Chain ring{left.front()};
-    left.erase(left.begin());
-    const TopoDS_Vertex start = TopExp::FirstVertex(ring.front(), true);
-    while (!TopExp::LastVertex(ring.back(), true).IsSame(start)) {
-      const TopoDS_Vertex end = TopExp::LastVertex(ring.back(), true);
-      const auto follows = [&](const TopoDS_Edge& e) { return TopExp::FirstVertex(e, true).IsSame(end); };
-      const auto next = std::find_if(left.begin(), left.end(), follows);
-      if (next == left.end() || std::count_if(left.begin(), left.end(), follows) > 1) return {};
-      ring.push_back(*next);
-      left.erase(next);
-    }
-    rings.push_back(std::move(ring));
-  }
-  return rings;
-}
-
 /// What becomes of a sliver and its neighbour.
 struct Merge {
   std::map<FaceId, TopoDS_Face> faces;                     ///< oriented forward: the neighbour with the sliver in it,
@@ -116,11 +74,11 @@ class SliverMerger {
     const double on = kOn * std::max({least_, cad_tolerance(t_, sliver), cad_tolerance(t_, neighbour)});
     const auto surface = make_surface(BRep_Tool::Surface(b), uv_box(b));
     if (!lies_on(a, *surface, on)) return std::nullopt;
-    std::vector<Chain> own = chains_of(b), slivers = chains_of(a);
+    std::vector<EdgeChain> own = chains_of(b), slivers = chains_of(a);
     if (own.empty() || slivers.size() != 1) return std::nullopt;
     if (model_.faces(sliver + 1).Orientation() != model_.faces(neighbour + 1).Orientation())
       for (TopoDS_Edge& e : slivers[0]) e.Reverse();
-    for (Chain& chain : own)
+    for (EdgeChain& chain : own)
       if (const auto sum = sum_of(chain, slivers[0])) {
         chain = *sum;
         for (const TopoDS_Edge& e : slivers[0])
@@ -128,11 +86,12 @@ class SliverMerger {
         Merge merge;
         while (const auto spur = find_spur(chain, slivers[0], on)) {
           chain = without_spur(chain, *spur);
-          if (!share(*spur, {sliver, neighbour}, merge)) return std::nullopt;
+          if (!share_spur(model_, *spur, {sliver, neighbour}, merge.faces)) return std::nullopt;
+          if (!spur->rest.IsNull()) merge.rests.emplace_back(spur->longer, spur->rest);
         }
         if (!runs_clear(chain, slivers[0], on)) return std::nullopt;
         const double area = t_.face_area[neighbour] - t_.face_area[sliver];
-        const auto face = face_of(b, own, area, kLeftArea * t_.face_area[sliver]);
+        const auto face = face_of_chains(b, own, area, kLeftArea * t_.face_area[sliver]);
         if (!face) return std::nullopt;
         merge.faces.insert({neighbour, *face});
         return merge;
@@ -154,7 +113,7 @@ class SliverMerger {
   TopoDS_Face forward(FaceId f) const { return TopoDS::Face(model_.faces(f + 1).Oriented(TopAbs_FORWARD)); }
 
   /// Whether no edge of the sliver runs along another one, there and back.
-  static bool runs_clear(const Chain& chain, const Chain& added, double on) {
+  static bool runs_clear(const EdgeChain& chain, const EdgeChain& added, double on) {
     for (const TopoDS_Edge& e : added) {
       if (!is_of(chain, e)) continue;  // a common edge, gone
       double t0, t1;
@@ -168,7 +127,7 @@ class SliverMerger {
     }
     return true;
   }
-  static bool is_of(const Chain& chain, const TopoDS_Edge& edge) {
+  static bool is_of(const EdgeChain& chain, const TopoDS_Edge& edge) {
     return std::any_of(chain.begin(), chain.end(), [&](const TopoDS_Edge& e) { return e.IsSame(edge); });
   }
 
@@ -195,42 +154,6 @@ class SliverMerger {
         if (loops.contains(uv) && !is_on(d.surface->point(uv))) return false;
       }
     return true;
-  }
-
-  /// All faces at the longer edge of a spur, but for `own`, get the shorter one in its place.
-  bool share(const EdgeSpur& spur, const std::pair<FaceId, FaceId>& own, Merge& merge) const {
-    for (FaceId f = 0; f < t_.n_faces(); ++f) {
-      if (f == own.first || f == own.second) continue;
-      const auto it = merge.faces.find(f);
-      const TopoDS_Face face = it == merge.faces.end() ? forward(f) : it->second;
-      int n_uses = 0;
-      for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) n_uses += e.Current().IsSame(spur.longer);
-      if (n_uses == 0) continue;
-      const auto changed = n_uses == 1 ? with_common_edge(face, spur) : std::nullopt;
-      if (!changed) return false;
-      merge.faces[f] = *changed;
-    }
-    if (!spur.rest.IsNull()) merge.rests.emplace_back(spur.longer, spur.rest);
-    return true;
-  }
-
-  /// `chains` on the surface of `b`.
-  static std::optional<TopoDS_Face> face_of(const TopoDS_Face& b, const std::vector<Chain>& chains, double area,
-                                            double room) {
-    BRep_Builder builder;
-    TopoDS_Face face = TopoDS::Face(b.EmptyCopied());
-    for (const Chain& chain : chains)
-      for (const Chain& ring : rings_of(chain)) {
-        TopoDS_Wire wire;
-        builder.MakeWire(wire);
-        for (const TopoDS_Edge& e : ring) builder.Add(wire, e);
-        wire.Closed(true);
-        builder.Add(face, wire);
-        if (!can_be_walked(wire, face)) return std::nullopt;
-      }
-    if (!TopoDS_Iterator(face).More()) return std::nullopt;
-    const double left = std::abs(integrate_face(make_domain(face), {}).area);
-    return std::abs(left - area) <= room ? std::optional(face) : std::nullopt;
   }
 
   const ImportedShape& model_;

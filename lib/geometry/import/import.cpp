@@ -43,6 +43,7 @@
 #include "geometry/import/space_curves.h"
 #include "geometry/import/split_vertices.h"
 #include "geometry/import/topology_report.h"
+#include "geometry/import/touching_loops.h"
 #include "geometry/import/wrong_sides.h"
 #include "geometry/model/group_selection.h"
 #include "geometry/model/imported_shape.h"
@@ -258,6 +259,7 @@ void repair_edges_and_loops(ImportedShape& model, std::vector<ImportFinding>& fi
   occt::repair_loops(model, findings);
   occt::move_loops(model, findings);
   occt::repair_pcurves(model, findings);
+  occt::join_touching_loops(model, findings);
   occt::divide_kinked_faces(model, findings);
 }
 
