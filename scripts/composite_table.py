@@ -58,6 +58,7 @@ class Joining:
         self.apart = ""
         self.divided = re.findall(r"^  divided: .*?\): (.*)$", said, re.M)
         self.refused = re.findall(r"^  not joined: .*?\): (.*)$", said, re.M)
+        self.stays = re.findall(r"^  stays: (.*)$", said, re.M)
 
     def text(self):
         reasons = "; ".join(sorted({*self.divided, *self.refused}))
@@ -114,6 +115,7 @@ class Row:
         self.n_wrong = said["crossings"] + said["folds"]
         angle, is_inside = smallest_angles(chain.file("mesh"))
         sharp, smooth = said["causes"]["sharp"], said["causes"]["sharp"]["at_smooth_edges"]
+        self.worst = sharp["worst"]
         below10, inside = int((angle < 10).sum()), int(((angle < 10) & is_inside).sum())
         self.counts = [len(angle), below10, int((angle < 20).sum()), smooth, inside, below10 - smooth - inside,
                        chain.seconds]
@@ -168,19 +170,28 @@ def print_medians(all_rows, modes):
                       f"{statistics.median(changes):+.1f} %")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def add_options(parser):
     parser.add_argument("--bin", type=Path, default=Path("build/check/bin"))
     parser.add_argument("--work", type=Path, help="folder for what is made meanwhile")
-    parser.add_argument("--modes", default="none,harm")
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=120, help="of the chain of one model in one mode")
     parser.add_argument("model", type=Path, nargs="+")
+
+
+def models_of(given):
+    """Files as they are; of folders all CAD files."""
+    return [m for path in given for m in (sorted(path.rglob("*")) if path.is_dir() else [path])
+            if m == path or m.suffix.lower() in CAD_SUFFIXES]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--modes", default="none,harm")
+    add_options(parser)
     options = parser.parse_args()
     tempfile.tempdir = str(options.work) if options.work else None
     modes = options.modes.split(",")
-    models = [m for given in options.model for m in (sorted(given.rglob("*")) if given.is_dir() else [given])
-              if m == given or m.suffix.lower() in CAD_SUFFIXES]
+    models = models_of(options.model)
     print("\t".join(["model", "mode", *COUNTS[:-1], "causes", "code", "wrong", COUNTS[-1], "composites"]))
     all_rows = []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
