@@ -2,17 +2,17 @@
 
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2dAPI_Interpolate.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <Geom2d_Curve.hxx>
+#include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_SphericalSurface.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
-#include <ShapeAnalysis_Curve.hxx>
 #include <ShapeAnalysis_Surface.hxx>
-#include <TColStd_Array1OfInteger.hxx>
-#include <TColStd_Array1OfReal.hxx>
-#include <TColgp_Array1OfPnt2d.hxx>
+#include <TColStd_HArray1OfReal.hxx>
+#include <TColgp_HArray1OfPnt2d.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
@@ -54,8 +54,16 @@ bool ends_at(const TopoDS_Edge& edge, const std::vector<gp_Pnt>& poles) {
   });
 }
 
-/// The edges that a loop passes twice and that have no curves on the face, if these are several, or another edge of the
-/// loop ends at a pole.
+/// Whether a seam's curves are each on the side of the other: the face is on the left, so upwards is along the upper u.
+bool is_on_wrong_side(const Geom2d_Curve& forward, double t0, double t1, const Geom_Surface& surface) {
+  double u0, u1, v0, v1;
+  surface.Bounds(u0, u1, v0, v1);
+  const bool is_up = forward.Value(t1).Y() > forward.Value(t0).Y();
+  return is_up != (forward.Value(0.5 * (t0 + t1)).X() > 0.5 * (u0 + u1));
+}
+
+/// The edges that a loop passes twice and that have no curves on the face, if these are several or another edge of the
+/// loop ends at a pole; then also those that have their curves on the wrong sides.
 std::vector<TopoDS_Edge> bare_seams_of(const TopoDS_Shape& wire, const TopoDS_Face& face,
                                        const std::vector<gp_Pnt>& poles) {
   TopTools_IndexedMapOfShape edges;
@@ -65,65 +73,57 @@ std::vector<TopoDS_Edge> bare_seams_of(const TopoDS_Shape& wire, const TopoDS_Fa
     if (k > n_uses.size()) n_uses.push_back(0);
     ++n_uses[k - 1];
   }
-  std::vector<TopoDS_Edge> seams;
+  std::vector<TopoDS_Edge> bare, wrong;
   bool is_at_pole = false;
   for (int k = 1; k <= edges.Extent(); ++k) {
     const TopoDS_Edge edge = TopoDS::Edge(edges(k));
     double t0, t1;
     if (BRep_Tool::Degenerated(edge)) continue;
+    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
     if (n_uses[k - 1] != 2)
       is_at_pole = is_at_pole || ends_at(edge, poles);
-    else if (BRep_Tool::CurveOnSurface(edge, face, t0, t1).IsNull())
-      seams.push_back(edge);
+    else if (curve.IsNull())
+      bare.push_back(edge);
+    else if (is_on_wrong_side(*curve, t0, t1, *BRep_Tool::Surface(face)))
+      wrong.push_back(edge);
   }
-  return is_at_pole || seams.size() > 1 ? seams : std::vector<TopoDS_Edge>();
+  if (is_at_pole) bare.insert(bare.end(), wrong.begin(), wrong.end());
+  return is_at_pole || bare.size() > 1 ? bare : std::vector<TopoDS_Edge>();
 }
 
-/// A straight curve from `a` at the parameter `t0` to `b` at `t1`.
-Handle(Geom2d_Curve) line(const gp_Pnt2d& a, const gp_Pnt2d& b, double t0, double t1) {
-  TColgp_Array1OfPnt2d poles(1, 2);
-  TColStd_Array1OfReal knots(1, 2);
-  TColStd_Array1OfInteger multiplicities(1, 2);
-  poles(1) = a, poles(2) = b;
-  knots(1) = t0, knots(2) = t1;
-  multiplicities.Init(2);
-  return new Geom2d_BSplineCurve(poles, knots, multiplicities, 1);
-}
-
-/// The meridian of a seam at the lower bound of u, its parameter going with that of the edge; false where it is none.
-bool ends_at_bound(const TopoDS_Edge& seam, ShapeAnalysis_Surface& surface, gp_Pnt2d& first, gp_Pnt2d& last) {
-  constexpr double kOnBound = 1e-6;  // of the period
-  constexpr int kPlaces = 6;         // inside the edge: its ends may be poles
+/// The lower bound of u, with the parameter of a seam that runs along it; null where the seam is elsewhere.
+Handle(Geom2d_Curve) along_bound(const TopoDS_Edge& seam, ShapeAnalysis_Surface& surface) {
+  constexpr double kOnBound = 1e-5;  // of the period
+  constexpr int kPlaces = 16;
   double u0, u1, v0, v1, t0, t1;
   surface.Surface()->Bounds(u0, u1, v0, v1);
   const Handle(Geom_Curve) curve = BRep_Tool::Curve(seam, t0, t1);
-  if (curve.IsNull()) return false;
-  std::vector<double> v;
-  for (int k = 1; k <= kPlaces; ++k) {
-    const gp_Pnt2d uv = surface.ValueOfUV(curve->Value(t0 + k * (t1 - t0) / (kPlaces + 1)), BRep_Tool::Tolerance(seam));
+  if (curve.IsNull()) return {};
+  const Handle(TColgp_HArray1OfPnt2d) places = new TColgp_HArray1OfPnt2d(1, kPlaces + 1);
+  const Handle(TColStd_HArray1OfReal) parameters = new TColStd_HArray1OfReal(1, kPlaces + 1);
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double t = t0 + k * (t1 - t0) / kPlaces;
+    const gp_Pnt2d uv = surface.ValueOfUV(curve->Value(t), BRep_Tool::Tolerance(seam));
     const double periods = (uv.X() - u0) / (u1 - u0);
-    if (std::abs(periods - std::round(periods)) > kOnBound) return false;
-    v.push_back(uv.Y());
+    const bool is_end = k == 0 || k == kPlaces;  // which may be a pole, where u is any
+    if (!is_end && std::abs(periods - std::round(periods)) > kOnBound) return {};
+    places->SetValue(k + 1, {u0, uv.Y()});
+    parameters->SetValue(k + 1, t);
   }
-  const double step = (v.back() - v.front()) / (kPlaces - 1);
-  for (int k = 0; k < kPlaces; ++k)
-    if (std::abs(v[k] - v[0] - k * step) > kOnBound * (u1 - u0)) return false;
-  first = {u0, v.front() - step};
-  last = {u0, v.back() + step};
-  return true;
+  Geom2dAPI_Interpolate spline(places, parameters, false, Precision::PConfusion());
+  spline.Perform();
+  if (!spline.IsDone()) return {};
+  return Handle(Geom2d_Curve)(spline.Curve());
 }
 
 bool give_curves(const TopoDS_Edge& seam, const TopoDS_Face& face, ShapeAnalysis_Surface& surface) {
-  gp_Pnt2d a, b;
-  if (!ends_at_bound(seam, surface, a, b)) return false;
-  double t0, t1;
-  BRep_Tool::Range(seam, t0, t1);
-  double u0, u1, v0, v1;
+  const Handle(Geom2d_Curve) low = along_bound(seam, surface);
+  if (low.IsNull()) return false;
+  double u0, u1, v0, v1, t0, t1;
   surface.Surface()->Bounds(u0, u1, v0, v1);
-  const gp_Vec2d period(u1 - u0, 0);
-  const Handle(Geom2d_Curve) low = line(a, b, t0, t1);
-  const Handle(Geom2d_Curve) high = line(a.Translated(period), b.Translated(period), t0, t1);
-  const bool is_up = b.Y() > a.Y();  // the face is on the left: upwards along the upper bound
+  BRep_Tool::Range(seam, t0, t1);
+  const auto high = Handle(Geom2d_Curve)::DownCast(low->Translated(gp_Vec2d(u1 - u0, 0)));
+  const bool is_up = low->Value(t1).Y() > low->Value(t0).Y();  // the face is on the left: upwards along the upper bound
   BRep_Builder().UpdateEdge(seam, is_up ? high : low, is_up ? low : high, face, BRep_Tool::Tolerance(seam));
   BRep_Builder().Range(seam, face, t0, t1);
   return true;
@@ -137,9 +137,8 @@ int give_curves_in_loops(const TopoDS_Shape& shape, SeamsOf seams_of) {
   int n = 0;
   for (int f = 1; f <= faces.Extent(); ++f) {
     const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
-    TopLoc_Location location;
-    const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face, location);
-    if (geometry.IsNull() || !location.IsIdentity() || !geometry->IsUClosed()) continue;
+    const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face);
+    if (geometry.IsNull() || !geometry->IsUClosed()) continue;
     const std::vector<gp_Pnt> poles = poles_of(*geometry);
     if (poles.empty()) continue;
     ShapeAnalysis_Surface surface(geometry);
@@ -190,10 +189,8 @@ bool is_way_back(const TopoDS_Edge& edge, const TopoDS_Edge& other) {
   const gp_Pnt begin = back->Value(is_turned ? s0 : s1), end = back->Value(is_turned ? s1 : s0);
   if (there->Value(t0).Distance(begin) > tolerance || there->Value(t1).Distance(end) > tolerance) return false;
   for (int k = 1; k < kPlaces; ++k) {
-    gp_Pnt at;
-    double t;
-    const gp_Pnt p = there->Value(t0 + k * (t1 - t0) / kPlaces);
-    if (ShapeAnalysis_Curve().Project(back, p, tolerance, at, t, s0, s1, false) > tolerance) return false;
+    const GeomAPI_ProjectPointOnCurve foot(there->Value(t0 + k * (t1 - t0) / kPlaces), back, s0, s1);
+    if (foot.NbPoints() == 0 || foot.LowerDistance() > tolerance) return false;
   }
   return true;
 }

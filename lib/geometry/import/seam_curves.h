@@ -5,11 +5,11 @@
 
 namespace st::occt {
 
-/// OpenCASCADE leaves the trimming curves of seams to its healing. Where another edge of the loop runs into a pole, as
-/// on a ball with a notch whose side passes the pole, or where a seam is in pieces that all have none, the healing
-/// closes the loop without the seam: the face is what was cut off. In such a loop the seam gets its two curves along
-/// the bounds of u, by the direction in which the loop passes it, in the shape itself. Only on surfaces with poles.
-/// Returns the number of edges that got them.
+/// OpenCASCADE leaves the trimming curves of seams to its healing, or gives each the other's. Where another edge of the
+/// loop runs into a pole, as on a ball with a notch whose side passes the pole, or where a seam is in pieces that all
+/// have none, the healing then closes the loop without the seam: the face is what was cut off. In such a loop the seam
+/// gets its two curves along the bounds of u, by the direction in which the loop passes it, in the shape itself. Only
+/// on surfaces that are closed in u and have poles. Returns the number of edges that got them.
 int give_seams_curves(const TopoDS_Shape& shape);
 
 /// IGES files may hold the curves in space alone, and have a seam twice: once for each direction. OpenCASCADE gives

@@ -144,8 +144,9 @@ void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path) 
   for (const ControlPoint& p : points)
     distance.push_back(std::hypot(p.xyz[0] - middle[0], p.xyz[1] - middle[1], p.xyz[2] - middle[2]));
   const auto farthest = std::max_element(distance.begin(), distance.end());
+  constexpr double kRounding = 1e-14;  // of the farthest: half of the points are at one place
   const double usual = median(distance);
-  if (usual == 0 || *farthest <= kFarthestPoint * usual) return;
+  if (usual <= kRounding * *farthest || *farthest <= kFarthestPoint * usual) return;
   const ControlPoint& p = points[static_cast<std::size_t>(farthest - distance.begin())];
   throw Error(ExitCode::kGeometry,
               fmt::format("{}: {} {} has a point ({:.3g}, {:.3g}, {:.3g}), {:.1g} times as far away as half of the "

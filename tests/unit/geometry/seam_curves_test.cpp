@@ -115,8 +115,8 @@ TEST_P(BodiesWithPoles, are_whole_in_iges_files_with_curves_in_space_alone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, BodiesWithPoles,
-                         testing::Values("sphere", "ball_with_two_holes", "ball_with_notch", "spindle_with_fin",
-                                         "lemon_with_fin"),
+                         testing::Values("sphere", "ball_with_two_holes", "ball_with_notch", "ball_with_bore",
+                                         "spindle_with_fin", "lemon_with_fin"),
                          [](const auto& info) { return std::string(info.param); });
 
 }  // namespace

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRep_Builder.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <TColgp_Array2OfPnt.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <limits>
 #include <vector>
 
@@ -29,6 +33,15 @@ TopoDS_Shape patch(double z) {
 TEST(SoundGeometry, takes_points_that_are_far_away_but_not_absurd) {
   EXPECT_NO_THROW(occt::require_sound_geometry(patch(1), "a.step"));
   EXPECT_NO_THROW(occt::require_sound_geometry(patch(5e5), "a.step"));
+}
+
+TEST(SoundGeometry, takes_a_cone_whose_rim_has_two_points_but_for_rounding) {
+  BRep_Builder builder;
+  TopoDS_Compound cone;
+  builder.MakeCompound(cone);
+  for (const gp_Pnt& p : {gp_Pnt(0, 0, 12), gp_Pnt(5, 0, 0), gp_Pnt(5, 6e-16, 0)})
+    builder.Add(cone, BRepBuilderAPI_MakeVertex(p).Vertex());
+  EXPECT_NO_THROW(occt::require_sound_geometry(cone, "a.igs"));
 }
 
 TEST(SoundGeometry, refuses_points_that_are_not_finite_or_absurdly_far) {
