@@ -91,6 +91,15 @@ bool is_lost_pole(const TopoDS_Edge& edge, const TopoDS_Face& face, double harml
   return extent > std::max({harmless, 10 * kAccurate});
 }
 
+/// Whether a loop passes all around a pole: without it, the loop would go on where it came from.
+bool is_whole_pole(const TopoDS_Edge& edge, const TopoDS_Face& face, double harmless) {
+  double t0, t1;
+  const Handle(Geom2d_Curve) pcurve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  if (pcurve.IsNull() || is_lost_pole(edge, face, harmless)) return false;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  return surface->IsUPeriodic() && std::abs(pcurve->Value(t1).X() - pcurve->Value(t0).X()) > 0.5 * surface->UPeriod();
+}
+
 /// `surface`: of the face.
 bool is_lost_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, const Surface& surface, double harmless) {
   if (BRep_Tool::Degenerated(edge)) return is_lost_pole(edge, face, harmless);
@@ -137,13 +146,15 @@ LoopOfUses ring_of(std::vector<TopoDS_Edge> edges) {
   return is_ring ? ring : LoopOfUses();
 }
 
-bool collect_loops(Face& f) {
+/// False also where a pole would be lost.
+bool collect_loops(Face& f, double harmless) {
   for (TopoDS_Iterator w(f.face); w.More(); w.Next()) {
     if (w.Value().ShapeType() != TopAbs_WIRE) return false;
     std::vector<TopoDS_Edge> edges;
     for (TopExp_Explorer e(w.Value(), TopAbs_EDGE); e.More(); e.Next()) {
       const TopoDS_Edge edge = TopoDS::Edge(e.Current());
       if (is_constraint(edge)) return false;
+      if (BRep_Tool::Degenerated(edge) && is_whole_pole(edge, f.face, harmless)) return false;
       if (BRep_Tool::Degenerated(edge))
         f.poles.emplace_back(TopoDS::Wire(w.Value()), edge);
       else
@@ -267,7 +278,7 @@ std::optional<Face> rebuilt(const TopoDS_Face& face, double harmless, double ext
   f.surface = BRep_Tool::Surface(face);
   const GeomAdaptor_Surface adaptor(f.surface);
   f.period = {adaptor.IsUPeriodic() ? adaptor.UPeriod() : 0.0, adaptor.IsVPeriodic() ? adaptor.VPeriod() : 0.0};
-  if (!collect_loops(f)) return std::nullopt;
+  if (!collect_loops(f, harmless)) return std::nullopt;
   const Box2 bounds = natural_bounds(f, extent);
   const auto surface = make_surface(f.surface, bounds);
   const double tolerance = std::max(10 * harmless, 100 * kAccurate);

@@ -2,6 +2,7 @@
 
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
+#include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <Geom_Curve.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <Geom_TrimmedCurve.hxx>
@@ -45,6 +46,20 @@ class Distance {
     for (int k = 0; k <= kPieces; ++k)
       if (off_axis(at(k)).Crossed(side_).Magnitude() > Precision::Confusion()) return false;
     return true;
+  }
+  /// Where the meridian is nearest to a point that is turned into its plane, on either side of the axis.
+  std::optional<double> parameter_of(const gp_Pnt& p) const {
+    const gp_Vec to(axis_.Location(), p), along = to.Dot(axis_.Direction()) * gp_Vec(axis_.Direction());
+    std::optional<double> nearest;
+    double least = 1e300;
+    for (const double side : {1.0, -1.0}) {
+      const gp_Vec off = side * (to - along).Magnitude() * side_;
+      const GeomAPI_ProjectPointOnCurve foot(axis_.Location().Translated(along + off), curve_);
+      if (foot.NbPoints() == 0 || foot.LowerDistance() >= least) continue;
+      least = foot.LowerDistance();
+      nearest = foot.LowerDistanceParameter();
+    }
+    return nearest;
   }
 
  private:
@@ -97,20 +112,29 @@ std::optional<Range> tips_around(const Geom_SurfaceOfRevolution& surface, Range 
   return std::nullopt;
 }
 
-/// Adds where the edges of a face are on its surface; false where that is not known.
-bool extend(Range& range, const TopoDS_Face& face) {
+/// Adds where an edge of a face is on the meridian; false where that is not known.
+bool extend(Range& range, const TopoDS_Edge& edge, const TopoDS_Face& face, const Distance& distance) {
   constexpr int kPlaces = 8;
-  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
-    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
-    if (BRep_Tool::Degenerated(edge)) continue;
-    double t0, t1;
-    const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
-    if (curve.IsNull()) return false;
-    for (int k = 0; k <= kPlaces; ++k) {
-      const double v = curve->Value(t0 + k * (t1 - t0) / kPlaces).Y();
-      range = {std::min(range.first, v), std::max(range.second, v)};
-    }
+  double t0, t1;
+  const Handle(Geom2d_Curve) flat = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  Handle(Geom_Curve) curve;
+  if (flat.IsNull()) curve = BRep_Tool::Curve(edge, t0, t1);
+  if (flat.IsNull() && curve.IsNull()) return false;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double t = t0 + k * (t1 - t0) / kPlaces;
+    const std::optional<double> v = flat.IsNull() ? distance.parameter_of(curve->Value(t)) : flat->Value(t).Y();
+    if (!v) return false;
+    range = {std::min(range.first, *v), std::max(range.second, *v)};
   }
+  return true;
+}
+
+/// Adds where the edges of a face are on its surface; false where that is not known.
+bool extend(Range& range, const TopoDS_Face& face, const Geom_SurfaceOfRevolution& surface) {
+  const Distance distance(surface);
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
+    if (const TopoDS_Edge edge = TopoDS::Edge(e.Current()); !BRep_Tool::Degenerated(edge))
+      if (!extend(range, edge, face, distance)) return false;
   return true;
 }
 
@@ -123,7 +147,7 @@ int trim_meridians(std::span<const TopoDS_Face> faces) {
     const auto surface = Handle(Geom_SurfaceOfRevolution)::DownCast(BRep_Tool::Surface(face, location));
     if (surface.IsNull()) continue;
     std::optional<Range>& range = ranges.emplace(surface.get(), Range{1e300, -1e300}).first->second;
-    if (range && !extend(*range, face)) range.reset();
+    if (range && !extend(*range, face, *surface)) range.reset();
   }
   int n = 0;
   for (const auto& [surface, range] : ranges) {

@@ -4,9 +4,11 @@
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
 #include <Geom_ElementarySurface.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
+#include <ShapeAnalysis_Surface.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
@@ -69,20 +71,32 @@ std::optional<Loops> loops_of(const TopoDS_Face& face) {
   return loops;
 }
 
+/// The u of places on an edge, by its curve on the face, or by those in space nearest to which the surface is.
+std::vector<double> places_of(const TopoDS_Edge& edge, const TopoDS_Face& face, ShapeAnalysis_Surface& surface) {
+  constexpr int kPlaces = 32;
+  double t0, t1;
+  const Handle(Geom2d_Curve) flat = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  Handle(Geom_Curve) curve;
+  if (flat.IsNull()) curve = BRep_Tool::Curve(edge, t0, t1);
+  std::vector<double> places;
+  for (int k = 0; k <= kPlaces && !(flat.IsNull() && curve.IsNull()); ++k) {
+    const double t = t0 + k * (t1 - t0) / kPlaces;
+    places.push_back((flat.IsNull() ? surface.ValueOfUV(curve->Value(t), Precision::Confusion()) : flat->Value(t)).X());
+  }
+  return places;
+}
+
 /// The u of places on the holes, from 0 to the width of the bounds, ascending; empty where an edge has no curve.
 std::vector<double> places_of(const std::vector<TopoDS_Shape>& holes, const TopoDS_Face& face, const Bounds& bounds) {
-  constexpr int kPlaces = 32;
   const double width = bounds.u_max - bounds.u_min;
+  ShapeAnalysis_Surface surface(BRep_Tool::Surface(face));
   std::vector<double> places;
   for (const TopoDS_Shape& hole : holes)
     for (TopoDS_Iterator e(hole); e.More(); e.Next()) {
-      double t0, t1;
-      const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(TopoDS::Edge(e.Value()), face, t0, t1);
-      if (curve.IsNull()) return {};
-      for (int k = 0; k <= kPlaces; ++k) {
-        const double u = curve->Value(t0 + k * (t1 - t0) / kPlaces).X() - bounds.u_min;
-        places.push_back(u - width * std::floor(u / width));
-      }
+      const std::vector<double> of_edge = places_of(TopoDS::Edge(e.Value()), face, surface);
+      if (of_edge.empty()) return {};
+      for (const double u : of_edge)
+        places.push_back(u - bounds.u_min - width * std::floor((u - bounds.u_min) / width));
     }
   std::ranges::sort(places);
   return places;

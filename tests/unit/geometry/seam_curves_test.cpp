@@ -6,6 +6,8 @@
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_SphericalSurface.hxx>
+#include <Interface_Static.hxx>
+#include <STEPControl_Controller.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
@@ -88,6 +90,24 @@ TEST_P(BallsWithSeams, are_whole_in_step_files) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, BallsWithSeams, testing::Values("ball_with_notch", "ball_with_two_holes"),
+                         [](const auto& info) { return std::string(info.param); });
+
+class BodiesWithoutTrimmingCurves : public testing::TestWithParam<const char*> {};
+
+TEST_P(BodiesWithoutTrimmingCurves, are_whole_in_step_files) {
+  STEPControl_Controller::Init();
+  Interface_Static::SetIVal("write.surfacecurve.mode", 0);
+  const TemporaryDirectory dir;
+  test::expect_whole_in_step(GetParam(), dir);
+  Interface_Static::SetIVal("write.surfacecurve.mode", 1);
+  std::ostringstream text;
+  text << std::ifstream(dir / "a.step").rdbuf();
+  EXPECT_EQ(text.str().find("PCURVE"), std::string::npos);
+}
+
+INSTANTIATE_TEST_SUITE_P(, BodiesWithoutTrimmingCurves,
+                         testing::Values("ball_with_notch", "ball_with_two_holes", "spindle_with_fin", "lemon_with_fin",
+                                         "spindle_with_fin_beside", "lemon_with_fin_beside"),
                          [](const auto& info) { return std::string(info.param); });
 
 /// Takes the (u,v) curves out of the trimming curves (entity 142) of an IGES file.
