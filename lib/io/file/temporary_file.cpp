@@ -4,8 +4,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -14,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <random>
 
 #include "base/error.h"
@@ -31,6 +34,8 @@ struct Slot {
   char name[kNameLength];
 };
 std::array<Slot, kSlots> g_slots;
+
+constexpr const char* kSuffixesOfCad[] = {".step", ".stp", ".iges", ".igs", ".brep"};
 
 std::string directory_of(const std::string& path) {
   const std::size_t slash = path.rfind('/');
@@ -142,6 +147,14 @@ void remove_left_temporaries(const std::string& path) { remove_stale(path, std::
 
 namespace {
 
+/// A model where an output is meant: arguments in the wrong order would cost the user his CAD file.
+bool has_name_of_cad(const std::string& path) {
+  std::string name = base_of(path);
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  return std::any_of(std::begin(kSuffixesOfCad), std::end(kSuffixesOfCad),
+                     [&](const char* suffix) { return name.ends_with(suffix); });
+}
+
 /// See require_writable(), whatever is there.
 void require_place(const std::string& path) {
   if (path.empty()) throw Error(ExitCode::kOutput, "empty output name; give a file name with -o");
@@ -149,6 +162,7 @@ void require_place(const std::string& path) {
   struct stat info {};
   if (stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode)) fail(path, "is a directory", "give a file name");
   if (base_of(path).empty()) fail(path, "is a directory name", "give a file name");
+  if (has_name_of_cad(path)) fail(path, "is the name of a CAD file, which would be replaced", "choose another output");
   if (stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode))
     fail(path, "is a device, a pipe or a socket and would be replaced", "give the name of a file");
   if (stat(directory.c_str(), &info) != 0)

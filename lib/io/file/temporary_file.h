@@ -33,7 +33,7 @@ class TemporaryFile {
 };
 
 /// Throws Error(kOutput) now, before hours of work, when `path` cannot be written (directory missing, no permission, is
-/// a directory, a device, a pipe), and as require_replaceable() (output_files.h).
+/// a directory, a device, a pipe, has the name of a CAD file), and as require_replaceable() (output_files.h).
 void require_writable(const std::string& path);
 
 /// Removes the temporary files of this process; called by the signal handlers of the tools (async-signal-safe).

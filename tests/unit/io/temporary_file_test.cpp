@@ -74,6 +74,8 @@ TEST(TemporaryFile, is_refused_by_what_is_wrong_with_its_name) {
   for (const auto& [name, wrong] : {std::pair<std::string, const char*>("none/", "is a directory name"),
                                     {"pipe", "is a device, a pipe or a socket and would be replaced"},
                                     {"file/a", "file is not a directory"},
+                                    {"wing.STEP", "is the name of a CAD file"},
+                                    {"wing.igs", "is the name of a CAD file"},
                                     {std::string(224, 'n'), "the name is too long"}})
     EXPECT_ERROR(TemporaryFile(dir / name), kOutput, wrong);
   EXPECT_EQ(dir.files().size(), 2u);
