@@ -15,6 +15,8 @@
 #include "geometry/import/facet_air.h"
 #include "geometry/import/half_model.h"
 #include "geometry/import/model_unit.h"
+#include "geometry/import/sound_geometry.h"
+#include "geometry/import/taken_roles.h"
 #include "geometry/import/text_encoding.h"
 #include "geometry/import/topology_report.h"
 #include "geometry/model/group_selection.h"
@@ -92,6 +94,7 @@ ImportResult import_facets(FacetInput input, const ImportOptions& options, const
   const ModelUnit unit = choose_unit(std::nullopt, options.unit);
   ImportResult result;
   result.format = "facets";
+  occt::require_sound_nodes(input.x, path);
   try {
     join_equal_points(input);
     result.findings = repair_facets(input);
@@ -107,7 +110,9 @@ ImportResult import_facets(FacetInput input, const ImportOptions& options, const
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
   result.has_assumed_unit = true;
+  const FaceLabels labels_of_file = result.tables.labels;
   occt::report_groups(apply_groups(options.groups, result.tables, edge_boxes(result.facets, result.tables)), result);
+  say_taken_roles(options.groups, labels_of_file, result.tables);
   report(options, result);
   result.file_faces.assign(static_cast<std::size_t>(result.tables.n_faces()), kNone);
   if (options.require_closed) occt::require_closed(result, path);

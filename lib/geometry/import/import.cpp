@@ -42,6 +42,7 @@
 #include "geometry/import/sound_geometry.h"
 #include "geometry/import/space_curves.h"
 #include "geometry/import/split_vertices.h"
+#include "geometry/import/taken_roles.h"
 #include "geometry/import/topology_report.h"
 #include "geometry/import/touching_loops.h"
 #include "geometry/import/wrong_sides.h"
@@ -322,7 +323,9 @@ ImportResult import_cad(const std::string& path, const ImportOptions& options) {
   result.tables.unit = unit.name;
   result.tables.unit_in_m = unit.in_m;
   result.has_assumed_unit = unit.in_m && !file.unit_in_mm;
+  const FaceLabels labels_of_file = result.tables.labels;
   occt::report_groups(apply_groups(options.groups, result.tables, tables.measures.edge_box), result);
+  say_taken_roles(options.groups, labels_of_file, result.tables);
   require_sewn_faces(model, result.tables, options);
   const double small = resolve_length(parse_length(options.small, "--small"),
                                       {result.tables.reference_diagonal(), unit.in_m}, "--small");

@@ -27,7 +27,7 @@ namespace {
 
 struct ControlPoint {
   std::array<double, 3> xyz;
-  const char* kind;  ///< "face", "edge", "vertex"
+  const char* kind;  ///< "face", "edge", "vertex", "node"
   int number;        ///< from 1, in the shape
 };
 
@@ -47,6 +47,15 @@ class PointCollector {
     for (; number_ <= edges.Extent(); ++number_) add_edge(TopoDS::Edge(edges(number_)));
     begin("face");
     for (; number_ <= faces.Extent(); ++number_) add_face(TopoDS::Face(faces(number_)));
+  }
+
+  void add_nodes(std::span<const Vec3> nodes) {
+    points_.reserve(nodes.size());
+    begin("node");
+    for (const Vec3& x : nodes) {
+      add(gp_Pnt(x.x, x.y, x.z), 1);
+      ++number_;
+    }
   }
 
   const std::vector<ControlPoint>& points() const { return points_; }
@@ -132,12 +141,8 @@ std::array<double, 3> middle_of(const std::vector<ControlPoint>& points) {
   return middle;
 }
 
-}  // namespace
-
-void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path) {
-  PointCollector collector(path);
-  collector.add_shape(shape);
-  const std::vector<ControlPoint>& points = collector.points();
+/// No point lies absurdly far from most others.
+void require_close_points(const std::vector<ControlPoint>& points, const std::string& path) {
   if (points.empty()) return;
   const std::array<double, 3> middle = middle_of(points);
   std::vector<double> distance;
@@ -152,6 +157,20 @@ void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path) 
               fmt::format("{}: {} {} has a point ({:.3g}, {:.3g}, {:.3g}), {:.1g} times as far away as half of the "
                           "model's points ({:.3g}); the file is damaged, or that part is to be left out",
                           path, p.kind, p.number, p.xyz[0], p.xyz[1], p.xyz[2], *farthest / usual, usual));
+}
+
+}  // namespace
+
+void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path) {
+  PointCollector collector(path);
+  collector.add_shape(shape);
+  require_close_points(collector.points(), path);
+}
+
+void require_sound_nodes(std::span<const Vec3> nodes, const std::string& path) {
+  PointCollector collector(path);
+  collector.add_nodes(nodes);
+  require_close_points(collector.points(), path);
 }
 
 void require_sound_boxes(std::span<const Box3> face_box, const std::string& path) {

@@ -18,6 +18,9 @@ inline constexpr double kFarthestPoint = 1e6;
 /// could end on it. Linear in the number of points.
 void require_sound_geometry(const TopoDS_Shape& shape, const std::string& path);
 
+/// The same for the nodes of facets, which are named by their numbers from 1.
+void require_sound_nodes(std::span<const Vec3> nodes, const std::string& path);
+
 /// The same for faces whose edges and surfaces have no control points: throws Error(kGeometry) when one of their boxes
 /// goes beyond kLargestCoordinate.
 void require_sound_boxes(std::span<const Box3> face_box, const std::string& path);

@@ -31,6 +31,12 @@ TEST(FacetImport, asks_for_a_unit_and_refuses_what_needs_cad) {
   EXPECT_ERROR(import_facets(test::cube_facets(), options, "cube.stl"), kUsage, "--unite");
 }
 
+TEST(FacetImport, refuses_a_node_in_the_far_distance) {
+  FacetInput stray = test::torus_facets(48, 24);
+  stray.x[7].z = 1e30;
+  EXPECT_ERROR(import_facets(stray, in_metres(), "torus.stl"), kGeometry, "torus.stl: node 8 has a point");
+}
+
 TEST(FacetImport, puts_half_a_body_into_its_air) {
   ImportOptions options = in_metres();
   options.air.symmetry = "z=0", options.air.farfield = "sphere:3";

@@ -57,6 +57,17 @@ TEST(SoundGeometry, refuses_points_that_are_not_finite_or_absurdly_far) {
                kGeometry, "a coordinate beyond 1e+12");
 }
 
+TEST(SoundGeometry, refuses_nodes_of_facets_that_are_absurdly_far) {
+  const std::vector<Vec3> usual{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}, {0, 0, 1e5}};
+  EXPECT_NO_THROW(occt::require_sound_nodes(usual, "a.stl"));
+  EXPECT_NO_THROW(occt::require_sound_nodes({}, "a.stl"));
+  std::vector<Vec3> stray = usual;
+  stray[2].y = 1e9;
+  EXPECT_ERROR(occt::require_sound_nodes(stray, "a.stl"), kGeometry, "a.stl: node 3 has a point (0, 1e+09, 0)");
+  stray[2].y = 1e30;
+  EXPECT_ERROR(occt::require_sound_nodes(stray, "a.stl"), kGeometry, "a coordinate beyond 1e+12");
+}
+
 TEST(SoundGeometry, refuses_faces_that_reach_absurdly_far) {
   const Box3 usual{{0, 0, 0}, {1, 1, 1}}, huge{{-1e307, 0, 0}, {1, 1, 1}};
   EXPECT_NO_THROW(occt::require_sound_boxes(std::vector<Box3>{usual, usual}, "a.step"));
