@@ -49,10 +49,10 @@ REFUSED = {
         "--threads": ["0", "-1", "1.5", "4097"],
     },
     "st-prolong": {"--threads": ["0", "x"],
-                   "--slope": ["0", "2.1", "x"], "--scale": ["0", "-1"], "--family": ["1", "4.1", "x"],
+                   "--slope": ["0", "1e-300", "2.1", "x"], "--scale": ["0", "-1"], "--family": ["1", "4.1", "x"],
                    "--max-triangles": ["3", "x"],
                    "--target-triangles": ["3", "x"], "--transform": ["shear 2", "rotate 1 2 3"],
-                   "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=0", "WING=2.1", "WING=x"]},
+                   "--blank-side": ["top"], "--slope-of": ["WING", "=0.1", "WING=1e-9", "WING=2.1", "WING=x"]},
     "st-metric": {"--nodes": ["3", "x"], "--norm": ["0.9", "101"], "--max-aspect": ["0.9", "1001"],
                   "--lmin": ["0", "-1"], "--lmax": ["0", "x"], "--threads": ["0"]},
     "st-mesh": {"--enhance-rounds": ["-1", "11", "1.5"], "--merge-below": ["-0.1", "0.3"], "--max-turning": ["0", "61"],
@@ -208,6 +208,32 @@ class Usage(ToolTest):
         run = Run("st-raster", "g.hdf", "--quite-another")
         self.assertNotIn("did you mean", run.err)
 
+    def test_empty_name_of_a_file_is_2_wherever_one_is_meant(self):
+        for tool in TOOLS:
+            self.expect_error(USAGE, tool, *[""] * N_INPUTS[tool], *OUTPUTS.get(tool, []), says="is an empty name",
+                              cwd=self.folder)
+        for tool, option in (("st-raster", "--sizes"), ("st-prolong", "--sources"), ("st-prolong", "--background"),
+                             ("st-check", "--geometry"), ("st-check", "--report"), ("st-mesh", "--options"),
+                             ("st-run", "--keep"), ("st-run", "--report"), ("st-run", "--groups")):
+            self.expect_error(USAGE, tool, *inputs(tool), option, "", says=f"{option}: is an empty name",
+                              cwd=self.folder)
+        self.expect_nothing_left(self.folder)
+
+    def test_missing_input_is_named(self):
+        self.expect_error(USAGE, "st-diff", "a.hdf", says="the input 'b' is required; see st-diff --help")
+
+    def test_output_with_the_name_of_a_cad_file_is_6_and_the_file_stays(self):
+        (self.folder / "wing.STP").write_text("mine")
+        run = self.expect_error(OUTPUT, "st-run", MODELS / "box.step", "-o", "wing.STP", cwd=self.folder,
+                                says="wing.STP: is the name of a CAD file")
+        self.assertEqual((self.folder / "wing.STP").read_text(), "mine", run)
+
+    def test_option_that_is_given_twice_is_2_and_said_so(self):
+        for tool, option in (("st-raster", ["--lmax", "1%"]), ("st-mesh", ["--threads", "2"]),
+                             ("st-import", ["-o", "a.hdf"]), ("st-run", ["--slope", "0.1"])):
+            self.expect_error(USAGE, tool, *inputs(tool), *option, *option, says="is given more than once",
+                              cwd=self.folder)
+
     def test_abbreviated_option_is_2(self):
         self.expect_error(USAGE, "st-raster", "g.hdf", "--alph", "5", says="--alph")
         self.expect_error(USAGE, "st-merge", "p.hdf", "--allow", says="--allow")
@@ -278,6 +304,19 @@ class OptionFile(ToolTest):
         for value in ('"x"', "91", "true", "[1, 2]", "1979-05-27", "{ a = 1 }"):
             self.raster(f"\nalpha = {value}\n", USAGE, says="o.toml:2")
 
+    def test_slips_of_values_are_said_in_words(self):
+        for value in ("2%", "5mm", "0.3%chord  # of the wing"):
+            self.raster(f"\nlmax = {value}\n", USAGE, says=["o.toml:2", "stands in quotes"])
+        self.raster("\nmax-cells = 2.5\n", USAGE, says=["o.toml:2", "a whole number is needed"])
+        self.raster("\nlmax = [1, 2]\n", USAGE, says=["o.toml:2", "is given more than once"])
+
+    def test_option_of_a_stage_at_the_top_is_2_and_names_the_table(self):
+        for text, table in (('lmax = "2%"', "[st-raster]"), ('preset = "rans"', "[st-raster], [st-prolong]"),
+                            ("[st-run]\nslope = 0.1", "[st-prolong]")):
+            (self.folder / "o.toml").write_text(text + "\n")
+            self.expect_error(USAGE, "st-run", "missing.step", "--options", "o.toml", cwd=self.folder,
+                              says=f"is an option of a stage; write it below {table}")
+
     def test_table_of_the_tool_overrides_the_top_and_others_are_passed_over(self):
         self.raster("alpha = 500\n[st-raster]\nalpha = 5\n[st-mesh]\nmax-turning = 10\n", INPUT)
         self.raster("alpha = 5\n[st-raster]\nalpha = 500\n", USAGE, says="o.toml:3")
@@ -288,7 +327,7 @@ class OptionFile(ToolTest):
         self.raster("alpha = 5\n", USAGE, arguments=["--alpha", "500"])
 
     def test_options_help_and_version_are_no_keys(self):
-        for key in ("options", "help", "version", "print-options", "print-inputs"):
+        for key in ("options", "help", "help-all", "version", "print-options", "print-inputs"):
             self.raster(f'{key} = "x"\n', USAGE, says=f"'{key}'")
 
     def inputs_of(self, tool, text):

@@ -14,7 +14,9 @@
 
 #include "base/error.h"
 #include "base/nearest_name.h"
+#include "common/option_set.h"
 #include "io/toml/option_file_lists.h"
+#include "io/toml/toml_slips.h"
 
 namespace st {
 namespace {
@@ -23,7 +25,8 @@ const std::set<std::string> kTools = {"st-import", "st-edit",   "st-raster", "st
                                       "st-metric", "st-remesh", "st-merge",  "st-check",   "st-info",
                                       "st-diff",   "st-export", "st-report", "st-run"};
 /// Options that a file cannot set: they say where the options come from, or what to do instead of running.
-const std::set<std::string> kCommandLineOnly = {"help", "version", "options", "print-options", "print-inputs"};
+const std::set<std::string> kCommandLineOnly = {"help",          "version",      "options",
+                                                "print-options", "print-inputs", "help-all"};
 
 [[noreturn]] void fail(const std::string& where, const std::string& what) {
   throw Error(ExitCode::kUsage, where + ": " + what);
@@ -37,7 +40,7 @@ toml::table parse_text(const std::string& text, const std::string& path) {
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& e) {
-    fail(position(path, e.source()), std::string(e.description()));
+    fail(position(path, e.source()), std::string(e.description()) + say_toml_slip(text, e.source().begin.line));
   }
 }
 
@@ -92,7 +95,10 @@ std::vector<std::string> known_keys(const CLI::App& app) {
 }
 
 [[noreturn]] void refuse_key(const std::string& where, const std::string& key, const std::string& tool,
-                             const CLI::App& app) {
+                             const CLI::App& app, const TablesOf& tables_of) {
+  std::string tables;
+  for (const std::string& table : tables_of("--" + key)) tables += (tables.empty() ? "[" : ", [") + table + "]";
+  if (!tables.empty()) fail(where, "'" + key + "' is an option of a stage; write it below " + tables);
   const std::vector<std::string> known = known_keys(app);
   std::string list;
   for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
@@ -101,17 +107,17 @@ std::vector<std::string> known_keys(const CLI::App& app) {
 }
 
 void apply(const std::string& key, const toml::node& node, const std::string& path, const std::string& tool,
-           CLI::App& app) {
+           CLI::App& app, const TablesOf& tables_of) {
   const std::string where = position(path, node.source());
   CLI::Option* option = kCommandLineOnly.contains(key) ? nullptr : app.get_option_no_throw("--" + key);
-  if (!option) refuse_key(where, key, tool, app);
+  if (!option) refuse_key(where, key, tool, app, tables_of);
   if (option->count() > 0) return;
   for (const std::string& value : values_of(node, where, key)) option->add_result(value);
   if (option->count() == 0) return;
   try {
     option->run_callback();
   } catch (const CLI::Error& e) {
-    fail(where, e.what());
+    fail(where, said_by(e));
   }
 }
 
@@ -211,18 +217,19 @@ std::string option_file_settings(const std::vector<const CLI::Option*>& options)
   return text;
 }
 
-void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app, OptionFileTop top) {
-  apply_option_text(read_text(path), path, tool, app, top);
+void apply_option_file(const std::string& path, const std::string& tool, CLI::App& app, OptionFileTop top,
+                       const TablesOf& tables_of) {
+  apply_option_text(read_text(path), path, tool, app, top, tables_of);
 }
 
 void apply_option_text(const std::string& text, const std::string& path, const std::string& tool, CLI::App& app,
-                       OptionFileTop top) {
+                       OptionFileTop top, const TablesOf& tables_of) {
   const toml::table file = parse_text(text, path);
   const Settings settings = settings_for(tool, file, path, top);
   std::vector<std::pair<const toml::node*, CLI::Option*>> lists;
   for (const auto& [key, node] : settings.lists)
     if (CLI::Option* option = open_list_option(key, app)) lists.emplace_back(node, option);
-  for (const auto& [key, node] : settings.values) apply(key, *node, path, tool, app);
+  for (const auto& [key, node] : settings.values) apply(key, *node, path, tool, app, tables_of);
   for (const auto& [node, option] : lists) apply_list(*node, path, *option);
 }
 

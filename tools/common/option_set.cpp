@@ -51,42 +51,59 @@ CLI::Validator a_length(const std::string& flag) {
 
 }  // namespace
 
-std::string usage_message(const CLI::Error& e, const std::string& tool) {
+CLI::Validator a_name() {
+  return CLI::Validator(
+      [](std::string& text) { return text.empty() ? std::string("is an empty name; give a file") : std::string(); },
+      "");
+}
+
+std::string said_by(const CLI::Error& e) {
   std::string text = e.what();
   for (char& c : text)
     if (c == '\n') c = ' ';
   while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
-  return text + "; see " + tool + " --help";
+  if (const std::size_t at = text.find(": At Most 1 required"); at != std::string::npos)
+    text.replace(at, std::string::npos, ": is given more than once; give it once");
+  const std::string required = " is required";
+  if (text.ends_with(required) && !text.starts_with('-'))
+    text = "the input '" + text.substr(0, text.size() - required.size()) + "'" + required;
+  const bool is_no_number = dynamic_cast<const CLI::ConversionError*>(&e);  // others have been refused before
+  return is_no_number ? "a whole number is needed: " + text : text;
+}
+
+std::string usage_message(const CLI::Error& e, const std::string& tool) {
+  return said_by(e) + "; see " + tool + " --help";
 }
 
 OptionSet::OptionSet(std::string name, const std::string& description)
     : name_(std::move(name)), app_(description, name_) {}
 
 void OptionSet::input(const std::string& name, std::string& path, const std::string& help) {
-  input_options_.push_back(app_.add_option(name, path, help)->required()->type_name("FILE"));
+  input_options_.push_back(app_.add_option(name, path, help)->required()->type_name("FILE")->check(a_name()));
 }
 
 void OptionSet::inputs(const std::string& name, std::vector<std::string>& paths, const std::string& help) {
-  input_options_.push_back(app_.add_option(name, paths, help)->required()->type_name("FILE"));
+  input_options_.push_back(app_.add_option(name, paths, help)->required()->type_name("FILE")->check(a_name()));
 }
 
 void OptionSet::input_arrays(const std::string& name, std::vector<std::string>& arrays, const std::string& help) {
-  input_options_.push_back(app_.add_option(name, arrays, help)->required()->type_name(kArrayType));
+  input_options_.push_back(app_.add_option(name, arrays, help)->required()->type_name(kArrayType)->check(a_name()));
 }
 
 void OptionSet::optional_input(const std::string& flag, std::string& path, const std::string& help) {
-  input_options_.push_back(app_.add_option(flag, path, help)->type_name("FILE"));
+  input_options_.push_back(app_.add_option(flag, path, help)->type_name("FILE")->check(a_name()));
   file_options_.push_back(input_options_.back());
 }
 
 void OptionSet::optional_inputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
-  input_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
+  input_options_.push_back(
+      app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false)->check(a_name()));
   file_options_.push_back(input_options_.back());
   repeated_flags_.push_back(flag);
 }
 
 void OptionSet::optional_array(const std::string& flag, std::string& value, const std::string& help) {
-  input_options_.push_back(app_.add_option(flag, value, help)->type_name(kArrayType));
+  input_options_.push_back(app_.add_option(flag, value, help)->type_name(kArrayType)->check(a_name()));
   file_options_.push_back(input_options_.back());
 }
 
@@ -97,7 +114,8 @@ void OptionSet::output(std::string& path, const std::string& help) {
 }
 
 void OptionSet::output_option(const std::string& flag, std::string& path, const std::string& help) {
-  output_options_.push_back(app_.add_option(flag, path, help)->capture_default_str()->type_name("FILE"));
+  output_options_.push_back(
+      app_.add_option(flag, path, help)->capture_default_str()->type_name("FILE")->check(a_name()));
 }
 
 void OptionSet::output_instead(const std::string& flag, std::string& path, const std::string& help) {
@@ -106,11 +124,12 @@ void OptionSet::output_instead(const std::string& flag, std::string& path, const
 }
 
 void OptionSet::outputs(const std::string& flag, std::vector<std::string>& paths, const std::string& help) {
-  output_options_.push_back(app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false));
+  output_options_.push_back(
+      app_.add_option(flag, paths, help)->type_name("FILE")->allow_extra_args(false)->check(a_name()));
 }
 
 void OptionSet::folder(const std::string& flag, std::string& path, const std::string& help) {
-  app_.add_option(flag, path, help)->capture_default_str()->type_name("FOLDER");
+  app_.add_option(flag, path, help)->capture_default_str()->type_name("FOLDER")->check(a_name());
 }
 
 void OptionSet::length(const std::string& flag, std::string& value, const std::string& default_text,

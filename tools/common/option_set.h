@@ -13,8 +13,13 @@
 
 namespace st {
 
-/// What CLI11 says, on one line.
+/// What CLI11 says, on one line and in our words.
+std::string said_by(const CLI::Error& e);
+/// The same, and where to read on.
 std::string usage_message(const CLI::Error& e, const std::string& tool);
+
+/// Refuses an empty name: that of a variable that a script forgot to set. To go on without the file would be worst.
+CLI::Validator a_name();
 
 /// Type of an option that names an array in a file.
 inline constexpr const char* kArrayType = "FILE:ARRAY";

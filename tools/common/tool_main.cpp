@@ -129,7 +129,8 @@ ToolMain::ToolMain(std::string name, const std::string& description, Kind kind)
   app_.set_version_flag("--version", name_ + " " ST_VERSION, "print the version and exit");
   app_.add_option("--options", options_file_,
                   "read options from this file (TOML, long names without dashes); the command line wins")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(a_name());
   app_.add_flag_function(
           "--print-options", [](std::int64_t) {},
           "print an option file that lists every option with its default, and exit")
@@ -305,15 +306,18 @@ std::optional<std::string> ToolMain::parse(int argc, char** argv) {
     return std::string(e.what()) + "\n";
   } catch (const CLI::ExtrasError&) {
     refuse_argument(app_.remaining().front(), long_names(), name_);
-  } catch (const CLI::ConversionError& e) {  // what is no number at all has been refused before
-    throw Error(ExitCode::kUsage, std::string("a whole number is needed: ").append(usage_message(e, name_)));
   } catch (const CLI::ParseError& e) {
     if (!app_.remaining().empty())
       refuse_argument(app_.remaining().front(), long_names(), name_);  // the cause of what is missing
     throw Error(ExitCode::kUsage, usage_message(e, name_));
   }
   if (!options_file_.empty()) {
-    apply_file(options_file_, OptionFileTop::kHolds);
+    const auto tables_of = [&](const std::string& flag) {
+      std::vector<std::string> tables;
+      for (const OptionSet* stage : stages_with(flag)) tables.push_back(stage->name());
+      return tables;
+    };
+    apply_option_file(options_file_, name_, app_, OptionFileTop::kHolds, tables_of);
     for (OptionSet* set : stages_) set->apply_file(options_file_, OptionFileTop::kIsOfAnother);
   }
   settings_ = settings_by_table();

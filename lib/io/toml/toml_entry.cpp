@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "io/toml/option_file_lists.h"
+#include "io/toml/toml_slips.h"
 
 namespace st {
 
@@ -26,7 +27,8 @@ toml::table parse_toml(const std::string& path, const std::string& text, ExitCod
   try {
     return toml::parse(text, path);
   } catch (const toml::parse_error& e) {
-    throw Error(code, toml_place(path, e.source()) + ": " + std::string(e.description()));
+    throw Error(code, toml_place(path, e.source()) + ": " + std::string(e.description()) +
+                          say_toml_slip(text, e.source().begin.line));
   }
 }
 
