@@ -121,6 +121,11 @@ class Run {
       best = *p.target_triangles;
     }
     if (miss() > least) make_for(best);
+    if (miss() > kOffTarget)
+      log_warning(
+          fmt::format("{}: {:.0f} triangles instead of the {:.0f} asked for; no scale that was tried came "
+                      "nearer: take this mesh, or ask for another number",
+                      o_.output, json_["st-mesh"]["triangles"].get<double>(), target));
   }
 
   void merge() {

@@ -373,6 +373,17 @@ class Campaign(RunTest):
         self.assertEqual(more[:3], rows)
         self.assertEqual([r["name"] for r in more], ["box", "box_2", "bad", "new"])
 
+    def test_a_number_of_triangles_that_no_scale_meets_is_said(self):
+        run = must("st-run", "box.step", "--target-triangles", "4", cwd=self.folder)
+        self.assertRegex(run.err, "warning: mesh.hdf: [0-9]+ triangles instead of the 4 asked for")
+        run = must("st-run", "box.step", "--target-triangles", "2000", cwd=self.folder)
+        self.assertNotIn("instead of", run.err)
+
+    def test_a_folder_for_models_is_used_for_one_too(self):
+        must("st-run", "box.step", "--into", "one", cwd=self.folder)
+        self.assertTrue((self.folder / "one/box/mesh.hdf").is_file())
+        self.assertFalse((self.folder / "mesh.hdf").exists())
+
     def test_a_mesh_that_cannot_be_read_has_no_picture(self):
         self.ran_again()
         (self.folder / "runs/box/mesh.hdf").write_text("damaged")

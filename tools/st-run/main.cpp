@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     if (tool.n_ranks() < 1) throw st::Error(st::ExitCode::kUsage, "--np: the number of ranks must be 1 or more");
     st::require_run_inputs(o);
     o.model = c.models[0];
-    if (c.is_asked_for()) campaign.emplace(c);
+    if (c.is_asked_for() || tool.is_set("--into")) campaign.emplace(c);
     campaign ? campaign->prepare(tool) : run.prepare(tool);
   };
   return tool.run_in_worker(

@@ -106,12 +106,15 @@ const Format& chosen_format(const std::string& path, const ExportOptions& option
                 "--format: unknown format '" + options.format + "'; use a suffix of " + suffixes_with(0));
   const std::size_t dot = name.rfind('.');
   const std::string suffix = dot == std::string::npos ? "" : name.substr(dot);
+  if (suffix == ".vtm" || suffix == ".sol")
+    throw Error(ExitCode::kUsage, path + ": " + suffix + " is made of a finished mesh: st-export mesh.hdf -o " + name);
   std::vector<std::string> known;
   for (const Format& f : kFormats) known.emplace_back(f.suffix);
   if (std::find(known.begin(), known.end(), name) != known.end())
     throw Error(ExitCode::kUsage, path + ": is a suffix without a name; write mesh" + name);
   throw Error(ExitCode::kUsage, path + ": unknown suffix '" + suffix + "'" + did_you_mean(suffix, known) +
-                                    " for an export; use one of " + suffixes_with(0));
+                                    " for an export; use one of " + suffixes_with(0) +
+                                    ", with st-export also .vtm, .sol");
 }
 
 const Format& format_of(const std::string& path, const ExportOptions& options) {

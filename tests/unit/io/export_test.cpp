@@ -28,6 +28,8 @@ TEST(Export, refuses_unknown_suffixes_before_writing) {
     EXPECT_ERROR(export_mesh(dir / name, sample_mesh().mesh), kUsage, name);
   }
   EXPECT_ERROR(require_export_format("folder.stl/m", {}), kUsage, "unknown suffix ''");
+  EXPECT_ERROR(require_export_format("a/m.vtm", {}), kUsage,
+               ".vtm is made of a finished mesh: st-export mesh.hdf -o m.vtm");
   EXPECT_TRUE(dir.files().empty());
 }
 
