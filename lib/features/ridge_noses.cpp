@@ -24,6 +24,7 @@ constexpr double kAlong = 0.95;    // cosine between noses that follow each othe
 constexpr double kSharp = 30;      // as kLeastBend: of noses that run along the chord, as a strake's
 constexpr double kJump = 6;        // of the step along the trailing edge: a nose swept by 80 degrees
 constexpr int kHalvings = 6;       // of a step
+constexpr double kOff = 0.002;     // of the chord, from the surface: twice the length that rans asks for at noses
 
 /// A place on a face.
 struct Place {
@@ -42,6 +43,7 @@ class RidgeMover {
     const FaceSurface& own = surface_of(s.nose_face);
     const std::optional<Place> nose = place_at(*own.surface, closest_point(*own.surface, s.nose).uv);
     if (!nose) return true;
+    if (distance(nose->x, s.nose) > kOff * s.chord) s.nose = nose->x;  // it lay on a facet
     const double step = kStep * s.chord;
     std::vector<Place> way = walk(own, *nose, -nose->across, step);
     const std::size_t at = way.size();

@@ -10,8 +10,8 @@ bool jumps(const ChordStation& a, const ChordStation& b);
 
 /// Noses beside which the surface is much more curved, as where a profile was cut obliquely or along the face of a
 /// pylon, are moved to where it is most so, across the flattest direction and on their face. What is no further apart
-/// than that belongs to one nose: rows cannot begin at two lines that cross. Noses alone may be left out. Others stay,
-/// to the bit. Local.
+/// than that belongs to one nose: rows cannot begin at two lines that cross. Noses alone may be left out. Those that
+/// facets put clearly off the surface are put onto it. Others stay, to the bit. Local.
 void put_on_ridges(const Model& model, LiftingSurface& wing);
 
 }  // namespace st

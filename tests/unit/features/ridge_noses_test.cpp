@@ -44,6 +44,17 @@ TEST(RidgeNoses, move_to_the_ridge_beside_them) {
   EXPECT_LT(distance(w.station(0).nose, nose), 0.01) << "a thousandth of the chord";
 }
 
+TEST(RidgeNoses, are_put_onto_the_surface_where_facets_put_them_off_it) {
+  RidgeWing w;
+  const Vec3 nose = w.station(0).nose, before = w.station(1).nose;
+  w.station(0).nose = nose - Vec3{0.03, 0, 0};     // 0.3 % of the chord
+  w.station(1).nose = before - Vec3{0.001, 0, 0};  // 0.01 %
+  const Vec3 beside = w.station(1).nose;
+  put_on_ridges(w.model, w.wing);
+  EXPECT_LT(distance(w.station(0).nose, nose), 0.001);
+  EXPECT_EQ(w.station(1).nose, beside) << "hardly off it";
+}
+
 TEST(RidgeNoses, are_none_along_the_chord_where_the_surface_is_nearly_flat) {
   RidgeWing w;
   for (const std::size_t i : {0, 1, 2}) w.put_nose(i, 0.2 + 4.8 * static_cast<double>(i), 0.5);
