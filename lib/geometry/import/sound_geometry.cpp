@@ -21,9 +21,12 @@
 
 #include "base/error.h"
 #include "base/similarity.h"
+#include "base/threads.h"
 
 namespace st::occt {
 namespace {
+
+constexpr std::size_t kPointsPerPiece = 8'192;
 
 struct ControlPoint {
   std::array<double, 3> xyz;
@@ -45,8 +48,7 @@ class PointCollector {
     for (; number_ <= vertices.Extent(); ++number_) add(BRep_Tool::Pnt(TopoDS::Vertex(vertices(number_))), 1);
     begin("edge");
     for (; number_ <= edges.Extent(); ++number_) add_edge(TopoDS::Edge(edges(number_)));
-    begin("face");
-    for (; number_ <= faces.Extent(); ++number_) add_face(TopoDS::Face(faces(number_)));
+    add_faces(faces);
   }
 
   void add_nodes(std::span<const Vec3> nodes) {
@@ -80,6 +82,20 @@ class PointCollector {
                       "damaged, or not in the unit it should be: export it again from the CAD system",
                       path_, kind_, number_, p.X(), p.Y(), p.Z(), kLargestCoordinate));
     points_.push_back({{p.X(), p.Y(), p.Z()}, kind_, number_});
+  }
+
+  /// The points of surfaces are most of all. An error is that of the first face that has one.
+  void add_faces(const TopTools_IndexedMapOfShape& faces) {
+    constexpr std::size_t kFacesPerPiece = 4;
+    const auto n = static_cast<std::size_t>(faces.Extent());
+    std::vector<PointCollector> pieces((n + kFacesPerPiece - 1) / kFacesPerPiece, PointCollector(path_));
+    parallel_for(n, kFacesPerPiece, [&](std::size_t begin, std::size_t end) {
+      PointCollector& own = pieces[begin / kFacesPerPiece];
+      own.kind_ = "face";
+      for (own.number_ = static_cast<int>(begin) + 1; own.number_ <= static_cast<int>(end); ++own.number_)
+        own.add_face(TopoDS::Face(faces(own.number_)));
+    });
+    for (const PointCollector& own : pieces) points_.insert(points_.end(), own.points_.begin(), own.points_.end());
   }
 
   void add_edge(const TopoDS_Edge& edge) {
@@ -133,11 +149,11 @@ double median(std::vector<double> values) {
 
 std::array<double, 3> middle_of(const std::vector<ControlPoint>& points) {
   std::array<double, 3> middle{};
-  std::vector<double> coordinate(points.size());
-  for (std::size_t d = 0; d < 3; ++d) {
+  parallel_for(3, 1, [&](std::size_t d, std::size_t) {
+    std::vector<double> coordinate(points.size());
     std::transform(points.begin(), points.end(), coordinate.begin(), [d](const ControlPoint& p) { return p.xyz[d]; });
-    middle[d] = median(coordinate);
-  }
+    middle[d] = median(std::move(coordinate));
+  });
   return middle;
 }
 
@@ -145,9 +161,13 @@ std::array<double, 3> middle_of(const std::vector<ControlPoint>& points) {
 void require_close_points(const std::vector<ControlPoint>& points, const std::string& path) {
   if (points.empty()) return;
   const std::array<double, 3> middle = middle_of(points);
-  std::vector<double> distance;
-  for (const ControlPoint& p : points)
-    distance.push_back(std::hypot(p.xyz[0] - middle[0], p.xyz[1] - middle[1], p.xyz[2] - middle[2]));
+  std::vector<double> distance(points.size());
+  parallel_for(points.size(), kPointsPerPiece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& x = points[i].xyz;
+      distance[i] = std::hypot(x[0] - middle[0], x[1] - middle[1], x[2] - middle[2]);
+    }
+  });
   const auto farthest = std::max_element(distance.begin(), distance.end());
   constexpr double kRounding = 1e-14;  // of the farthest: half of the points are at one place
   const double usual = median(distance);
