@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -43,11 +44,6 @@ struct Axis {
   }
 };
 
-/// A place of an axis and its (u,v).
-struct Seed {
-  Vec2 st, uv;
-};
-
 /// A part of a surface by its places about an axis.
 class SeenSurface final : public Surface {
  public:
@@ -58,7 +54,8 @@ class SeenSurface final : public Surface {
 
   void add(Vec3 x, Vec2 uv) {
     const Vec2 st = axis_.place_of(x);
-    seeds_.push_back({st, uv});
+    seed_st_.push_back(st);
+    seed_uv_.push_back(uv);
     u_min_ = std::min(u_min_, st.x), u_max_ = std::max(u_max_, st.x);
     v_min_ = std::min(v_min_, st.y), v_max_ = std::max(v_max_, st.y);
   }
@@ -70,7 +67,7 @@ class SeenSurface final : public Surface {
 
   /// Of the point at a place; nullopt: not found.
   std::optional<Foot> foot(Vec2 st) const {
-    Vec2 uv = nearest_seed(st).uv;
+    Vec2 uv = seed_uv_[nearest_seed(st)];
     SurfacePoint p = surface_.evaluate(uv);
     Vec2 miss = st - axis_.place_of(p.x);
     const double enough = kFound * std::hypot(u_max_ - u_min_, v_max_ - v_min_);
@@ -110,17 +107,25 @@ class SeenSurface final : public Surface {
   }
 
  private:
-  /// The first of the nearest ones.
-  const Seed& nearest_seed(Vec2 st) const {
-    const Seed* nearest = &seeds_.front();
-    double least2 = std::numeric_limits<double>::infinity(), least = least2;
-    for (const Seed& seed : seeds_) {
-      const Vec2 way = seed.st - st;
-      const double distance2 = dot(way, way);
-      if (distance2 < least2 && std::sqrt(distance2) < least)
-        nearest = &seed, least2 = distance2, least = std::sqrt(distance2);
-    }
-    return *nearest;
+  /// The first of the nearest ones: distances count, not their squares. Four least squares at a time, as each waits for
+  /// the one before.
+  std::size_t nearest_seed(Vec2 st) const {
+    constexpr std::size_t kAtOnce = 4;
+    constexpr double kSameRoot = 1 + 8 * std::numeric_limits<double>::epsilon();  // of squares: no root of more is less
+    const auto distance2 = [&](std::size_t i) {
+      const Vec2 way = seed_st_[i] - st;
+      return dot(way, way);
+    };
+    const std::size_t n = seed_st_.size();
+    std::array<double, kAtOnce> least;
+    least.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i + kAtOnce <= n; i += kAtOnce)
+      for (std::size_t k = 0; k < kAtOnce; ++k) least[k] = std::min(least[k], distance2(i + k));
+    for (std::size_t i = n / kAtOnce * kAtOnce; i < n; ++i) least[0] = std::min(least[0], distance2(i));
+    const double nearest2 = std::min({least[0], least[1], least[2], least[3]}), nearest = std::sqrt(nearest2);
+    for (std::size_t i = 0; i < n; ++i)
+      if (const double d = distance2(i); d <= kSameRoot * nearest2 && std::sqrt(d) == nearest) return i;
+    return 0;  // none is at a distance that is a number
   }
   /// Of (s,t) per (u,v).
   Eigen::Matrix2d change_of(const SurfacePoint& p) const {
@@ -135,7 +140,7 @@ class SeenSurface final : public Surface {
 
   const Surface& surface_;
   const Axis axis_;
-  std::vector<Seed> seeds_;
+  std::vector<Vec2> seed_st_, seed_uv_;
 };
 
 /// The axis that points with these normals are seen from best; nullopt: none sees them all.
