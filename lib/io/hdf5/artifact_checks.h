@@ -9,10 +9,13 @@
 #include "base/error.h"
 #include "base/finite.h"
 #include "base/ids.h"
+#include "base/threads.h"
 #include "base/vec.h"
 #include "io/hdf5/hdf5_file.h"
 
 namespace st {
+
+constexpr std::size_t kCheckedAtOnce = 16'384;  // rows of a piece
 
 /// Older versions lack what this build needs: throws Error(kInput) that says which tool is to run again.
 inline void require_version(const Hdf5Reader& file, int version, const std::string& tool) {
@@ -29,8 +32,10 @@ void require_offsets(const Hdf5Reader& reader, const std::string& name, std::spa
                      std::size_t n_items) {
   if (offsets.empty() || offsets.front() != 0 || static_cast<std::size_t>(offsets.back()) != n_items)
     reader.fail(name, "does not fit the array it points into");
-  for (std::size_t i = 1; i < offsets.size(); ++i)
-    if (offsets[i] < offsets[i - 1]) reader.fail(name, "decreases at row " + std::to_string(i));
+  parallel_for(offsets.size() - 1, kCheckedAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i <= end; ++i)
+      if (offsets[i] < offsets[i - 1]) reader.fail(name, "decreases at row " + std::to_string(i));
+  });
 }
 template <class Offset>
 void require_offsets(const Hdf5Reader& reader, const std::string& name, const std::vector<Offset>& offsets,
@@ -38,15 +43,16 @@ void require_offsets(const Hdf5Reader& reader, const std::string& name, const st
   require_offsets(reader, name, std::span<const Offset>(offsets), n_items);
 }
 
-/// Every row is as `is_good` wants it. Throws Error(kInput) naming the dataset and its first bad row. One pass.
+/// Every row is as `is_good` wants it. Throws Error(kInput) naming the dataset and its first bad row.
 template <class T, class IsGood>
 void require_rows_to_be(const Hdf5Reader& reader, const std::string& name, std::span<const T> rows, const char* what,
                         const IsGood& is_good) {
-  bool is_all_good = true;
-  for (const T& row : rows) is_all_good &= is_good(row);
-  if (is_all_good) return;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (!is_good(rows[i])) reader.fail(name, "row " + std::to_string(i) + " is not " + what);
+  parallel_for(rows.size(), kCheckedAtOnce, [&](std::size_t begin, std::size_t end) {
+    bool is_all_good = true;
+    for (std::size_t i = begin; i < end; ++i) is_all_good &= is_good(rows[i]);
+    for (std::size_t i = begin; !is_all_good && i < end; ++i)
+      if (!is_good(rows[i])) reader.fail(name, "row " + std::to_string(i) + " is not " + what);
+  });
 }
 
 /// Numbers and places are finite.
@@ -71,10 +77,12 @@ inline void require_ranges(const Hdf5Reader& reader, const std::string& name, co
 /// Ids are in [lowest, n). Throws Error(kInput) naming the dataset.
 inline void require_ids(const Hdf5Reader& reader, const std::string& name, std::span<const std::int32_t> ids,
                         std::size_t n, std::int32_t lowest = 0) {
-  for (std::size_t i = 0; i < ids.size(); ++i)
-    if (ids[i] < lowest || (ids[i] >= 0 && static_cast<std::size_t>(ids[i]) >= n))
-      reader.fail(name,
-                  "row " + std::to_string(i) + " names entity " + std::to_string(ids[i]) + " of " + std::to_string(n));
+  parallel_for(ids.size(), kCheckedAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (ids[i] < lowest || (ids[i] >= 0 && static_cast<std::size_t>(ids[i]) >= n))
+        reader.fail(
+            name, "row " + std::to_string(i) + " names entity " + std::to_string(ids[i]) + " of " + std::to_string(n));
+  });
 }
 
 }  // namespace st

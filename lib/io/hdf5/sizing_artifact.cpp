@@ -82,10 +82,12 @@ void require_site_cones(const Hdf5Reader& file, const char* first_name, const ch
     file.fail(first_name, "does not fit the number of cells");
   require_offsets(file, first_name, first, cones.size());
   require_ids(file, name, cones, data.cones.cone.size());
-  for (std::size_t site = 0; site + 1 < first.size(); ++site)
-    for (std::int32_t k = first[site] + 1; k < first[site + 1]; ++k)
-      if (data.cones.cone[cones[k]].length < data.cones.cone[cones[k - 1]].length)
-        file.fail(name, "row " + std::to_string(k) + " names a shorter cone than the row before");
+  parallel_for(first.size() - 1, kCheckedAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t site = begin; site < end; ++site)
+      for (std::int32_t k = first[site] + 1; k < first[site + 1]; ++k)
+        if (data.cones.cone[cones[k]].length < data.cones.cone[cones[k - 1]].length)
+          file.fail(name, "row " + std::to_string(k) + " names a shorter cone than the row before");
+  });
 }
 
 void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
