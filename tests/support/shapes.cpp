@@ -17,6 +17,7 @@
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
@@ -768,6 +769,11 @@ const std::map<std::string, Factory>& factories() {
          return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(8).Shape(),
                                 moved(BRepPrimAPI_MakeCylinder(2, 30).Shape(), 3, 0, -15))
              .Shape();
+       }},
+      {"spline_ball_with_pit",  // a cone's, with its floor
+       [] {
+         const TopoDS_Shape ball = BRepBuilderAPI_NurbsConvert(BRepPrimAPI_MakeSphere(5).Shape()).Shape();
+         return BRepAlgoAPI_Cut(ball, moved(BRepPrimAPI_MakeCone(2, 0.5, 8).Shape(), -1.5, 1, 1)).Shape();
        }},
       {"ball_with_bore", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(10), bore_along_x(2)).Shape(); }},
       {"ring_with_ball",
