@@ -39,12 +39,14 @@ std::vector<FacePair> pairs_of_file(const std::string& path, const ModelTables& 
   return all;
 }
 
-void tell(const ModelTables& t, const std::vector<FacePair>& pairs) {
+/// Pairs that were searched for may be others than the user thinks of: an inlet and an outlet, say.
+void tell(const ModelTables& t, const std::vector<FacePair>& pairs, bool are_found) {
+  const auto say = are_found ? log_report : log_info;
   for (const FacePair& p : pairs) {
     const bool is_translation = p.motion.rotation == Similarity().rotation;
     const Vec3 d = p.motion.translation;
-    log_info(fmt::format(
-        "pair: {} has the mesh of {}, {}", t.face_label(p.b), t.face_label(p.a),
+    say(fmt::format(
+        "  pair: {} has the mesh of {}, {}", t.face_label(p.b), t.face_label(p.a),
         is_translation ? fmt::format("moved by {:.10g} {:.10g} {:.10g}", d.x, d.y, d.z) : std::string("rotated")));
   }
 }
@@ -54,7 +56,7 @@ void tell(const ModelTables& t, const std::vector<FacePair>& pairs) {
 PeriodicPairs read_pairs(const std::string& option, const Model& model) {
   if (option.empty()) return {};
   PeriodicPairs pairs(model, option == "auto" ? find_pairs(model) : pairs_of_file(option, model.tables()));
-  tell(model.tables(), pairs.pairs());
+  tell(model.tables(), pairs.pairs(), option == "auto");
   return pairs;
 }
 

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+
 #include "base/error.h"
+#include "base/log.h"
 #include "io/file/text_file.h"
 #include "io/hdf5/artifact.h"
 #include "mesh/pair_match.h"
@@ -16,6 +20,19 @@ TEST(PairInput, is_nothing_without_the_option_and_three_pairs_with_auto) {
   const Model box = test::make_model("box");
   EXPECT_TRUE(read_pairs("", box).empty());
   EXPECT_EQ(read_pairs("auto", box).pairs().size(), 3u);
+}
+
+TEST(PairInput, that_are_found_are_said) {
+  const Model box = test::make_model("box");
+  const Verbosity before = verbosity();
+  set_verbosity(Verbosity::kNormal);
+  testing::internal::CaptureStderr();
+  read_pairs("auto", box);
+  const std::string said = testing::internal::GetCapturedStderr();
+  set_verbosity(before);
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 3) << said;
+  EXPECT_NE(said.find("  pair: face "), std::string::npos) << said;
+  EXPECT_NE(said.find(", moved by "), std::string::npos) << said;
 }
 
 TEST(PairInput, names_the_line_of_a_group_that_is_not_there) {
