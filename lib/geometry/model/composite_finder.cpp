@@ -253,7 +253,7 @@ class CompositeFinder {
     auto uv = flatten_whole(u.x, u.corners, u.topology);
     if (!uv) return "they cannot be laid into a plane";
     align_chart(cad_, facets_, u.triangles, u.x, u.corners, *uv);
-    Chart chart{u.x, std::vector<Vec3>(u.x.size(), Vec3{0, 0, 1}), *uv, u.corners};
+    Chart chart{u.x, {}, *uv, u.corners};
     std::vector<Rim> rims = rims_of(faces, u);
     const std::string why = fault(faces, u, chart, rims);
     if (why.empty()) record(faces, u, chart, rims);

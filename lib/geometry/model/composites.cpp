@@ -41,9 +41,7 @@ Chart Composites::chart(std::int32_t i) const {
   const auto part = [&](const auto& values, const std::vector<std::int32_t>& offsets) {
     return std::decay_t<decltype(values)>(values.begin() + offsets[i], values.begin() + offsets[i + 1]);
   };
-  Chart chart{part(node_xyz, node_offsets), {}, part(node_uv, node_offsets), part(triangle_nodes, triangle_offsets)};
-  chart.normal.assign(chart.x.size(), Vec3{0, 0, 1});
-  return chart;
+  return {part(node_xyz, node_offsets), {}, part(node_uv, node_offsets), part(triangle_nodes, triangle_offsets)};
 }
 
 std::string Composites::contradiction(const ModelTables& t) const {

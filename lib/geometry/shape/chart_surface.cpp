@@ -76,10 +76,12 @@ struct ChartSurface::Data {
   }
 
   /// A grid of about as many cells as triangles; for each the triangle where a walk to its middle ends, from the cell
-  /// before.
+  /// before. Under a composite triangles are few, slender and asked for often.
   void find_seeds() {
-    const double n = std::ceil(std::sqrt(static_cast<double>(chart.corners.size())));
-    n_cells = static_cast<std::int32_t>(std::min(n, 1000.0));
+    constexpr double kCellsUnderComposite = 64, kMostCells = 1000;  // along each axis
+    const double n = std::ceil(std::sqrt(static_cast<double>(chart.corners.size()))),
+                 least = chart.normal.empty() ? kCellsUnderComposite : 1;
+    n_cells = static_cast<std::int32_t>(std::clamp(n, least, kMostCells));
     std::int32_t at = 0;
     for (std::int32_t row = 0; row < n_cells; ++row)
       for (std::int32_t column = 0; column < n_cells; ++column) {

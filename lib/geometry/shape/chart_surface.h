@@ -13,7 +13,7 @@ namespace st {
 /// A patch in the plane, as flatten() makes it.
 struct Chart {
   std::vector<Vec3> x;           ///< [n_nodes] model unit
-  std::vector<Vec3> normal;      ///< [n_nodes] unit; of the surface that the facets stand for, outward
+  std::vector<Vec3> normal;      ///< [n_nodes] unit, outward, of what facets stand for; empty: no evaluate2()
   std::vector<Vec2> uv;          ///< [n_nodes] model unit; triangles are counter-clockwise there
   std::vector<Corners> corners;  ///< [n_triangles] counter-clockwise seen from outside
 };

@@ -129,15 +129,16 @@ std::optional<Vec2> CompositeSurface::refined(Vec3 p, std::optional<Vec2> start)
   constexpr int kSteps = 12;
   constexpr double kSmall = 1e-11;  // of the bounds: as near as (u,v) can tell
   Vec2 best = *start, uv = best;
-  double best2 = norm2(point(best) - p);
+  SurfacePoint s = evaluate(uv);
+  double best2 = norm2(s.x - p);
   const double small = kSmall * std::max(u_max_ - u_min_, v_max_ - v_min_);
   for (int i = 0; i < kSteps; ++i) {
-    const SurfacePoint s = evaluate(uv);
     const auto step = tangent_step(s.du, s.dv, p - s.x);
     if (!step) break;
     uv = uv + *step;
     uv = {std::clamp(uv.x, u_min_, u_max_), std::clamp(uv.y, v_min_, v_max_)};
-    if (const double d2 = norm2(point(uv) - p); d2 < best2) best = uv, best2 = d2;
+    s = evaluate(uv);
+    if (const double d2 = norm2(s.x - p); d2 < best2) best = uv, best2 = d2;
     if (std::abs(step->x) + std::abs(step->y) <= small) break;
   }
   return best;
