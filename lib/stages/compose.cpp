@@ -217,12 +217,18 @@ void keep_smooth(const ModelTables& t, JoinRequest& request, SmoothEdges& is_smo
   });
 }
 
+/// Takes an edge out of what may be joined; says so where it does harm.
+void keep(const ModelTables& t, EdgeId e, const char* why, JoinRequest& request) {
+  if (request.may_join[e] && request.urgency[e] > 0) log_info("  stays: " + t.edge_label(e) + ": " + why);
+  request.may_join[e] = 0;
+}
+
 /// Narrow faces between edges that stay are apart: their widths ask for lengths, and those of a composite would not.
 void keep_strips(const ModelTables& t, JoinRequest& request) {
   for (const StripSides& strip : find_strip_sides(t)) {
     const auto stays = [&](const StripSides::Side& side) { return !request.may_join[side.edge]; };
     if (request.may_join[strip.single] || !std::ranges::all_of(strip.across, stays)) continue;
-    for (const EdgeId e : t.edges_of(strip.face)) request.may_join[e] = 0;
+    for (const EdgeId e : t.edges_of(strip.face)) keep(t, e, "its face is narrow between edges that stay", request);
   }
 }
 
@@ -263,10 +269,10 @@ JoinRequest join_request(const Model& cad, bool is_harm_only) {
   keep_smooth(t, request, is_smooth);
   if (is_harm_only) keep_strips(t, request);
   if (std::ranges::count(request.may_join, 1) == 0) return request;
-  for (const WingEdge& w : wing_edges_to_see(cad)) request.may_join[w.edge] = 0;
+  for (const WingEdge& w : wing_edges_to_see(cad)) keep(t, w.edge, "a leading or trailing edge", request);
   const std::vector<std::uint8_t> is_ridge = find_ridge_edges(cad, request.may_join);
   for (EdgeId e = 0; e < t.n_edges(); ++e)
-    if (is_ridge[e]) request.may_join[e] = 0;
+    if (is_ridge[e]) keep(t, e, "along a nose", request);
   request.must_end.assign(static_cast<std::size_t>(t.n_vertices()), 0);
   for (const EntityGroup& g : t.labels.vertex_groups)
     for (const VertexId v : g.ids) request.must_end[v] = 1;
@@ -283,7 +289,11 @@ std::string compose(GeometryArtifact& geometry, bool is_harm_only) {
     Progress progress("joining faces", 1);
     progress.step("charts", 0);
     const Model cad(geometry.tables, geometry.brep);
-    found = find_composites(cad, join_request(cad, is_harm_only));
+    JoinRequest request = join_request(cad, is_harm_only);
+    found = find_composites(cad, request);
+    for (EdgeId e = 0; e < geometry.tables.n_edges(); ++e)
+      if (!std::ranges::binary_search(found.composites.joined_edges, e))
+        keep(geometry.tables, e, "its faces cannot be one", request);
   }
   if (!found.composites.empty()) {
     geometry.composites = std::move(found.composites);

@@ -99,7 +99,11 @@ class CompositeFinder {
       can_join_[e] = 1;
       for (std::size_t i = 0; i < a.size(); ++i) across_[a[i]] = b[i], across_[b[i]] = a[i];
     }
-    for (FaceId f = 0; f < t_.n_faces(); ++f) part_of_[f] = f, parts_[f] = {f};
+    for (FaceId f = 0; f < t_.n_faces(); ++f) {
+      part_of_[f] = f, parts_[f] = {f};
+      if (is_wanted[f] && facets_.face_offsets[f] == facets_.face_offsets[f + 1])
+        found_.refused.push_back(named({f}) + ": no facets fill it");
+    }
   }
 
   void grow(std::vector<EdgeId> edges, std::int32_t most_faces) {
@@ -159,11 +163,7 @@ class CompositeFinder {
         if (!is_usable(faces)) is_joined_[others[i]] = 0;
       }
     }
-    if (!is_ok) {
-      set(others, 0);
-      is_joined_[e] = 0;
-      return;
-    }
+    if (!is_ok) return set(others, 0), set({e}, 0);
     const FaceId keep = std::min(a, b), gone = std::max(a, b);
     for (const FaceId f : faces) part_of_[f] = keep;
     parts_[gone].clear();

@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "base/log.h"
 #include "geometry/model/joined_tables.h"
 #include "io/hdf5/artifact.h"
 #include "stages/cad_view.h"
@@ -90,6 +91,15 @@ TEST(Compose, leaves_narrow_faces_between_edges_that_stay_apart) {
   const Model disc = test::make_model("disc_of_16");
   EXPECT_EQ(std::ranges::count(join_request(disc, true).may_join, 1), 0);
   EXPECT_EQ(std::ranges::count(join_request(disc, false).may_join, 1), 16);
+}
+
+TEST(Compose, says_which_harmful_edges_stay_and_why) {
+  set_verbosity(Verbosity::kVerbose);
+  testing::internal::CaptureStderr();
+  join_request(test::make_model("disc_of_16"), true);
+  const std::string said = testing::internal::GetCapturedStderr();
+  set_verbosity(Verbosity::kNormal);
+  EXPECT_NE(said.find(": its face is narrow between edges that stay"), std::string::npos) << said;
 }
 
 TEST(Compose, leaves_groups_and_named_edges_apart) {
