@@ -22,6 +22,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace st::occt {
@@ -131,12 +132,9 @@ bool give_curves(const TopoDS_Edge& seam, const TopoDS_Face& face, ShapeAnalysis
 
 /// Gives curves to the seams that `seams_of` finds in the loops of faces that are closed in u and have poles.
 template <class SeamsOf>
-int give_curves_in_loops(const TopoDS_Shape& shape, SeamsOf seams_of) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+int give_curves_in_loops(std::span<const TopoDS_Face> faces, SeamsOf seams_of) {
   int n = 0;
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
+  for (const TopoDS_Face& face : faces) {
     const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face);
     if (geometry.IsNull() || !geometry->IsUClosed()) continue;
     const std::vector<gp_Pnt> poles = poles_of(*geometry);
@@ -221,24 +219,21 @@ std::vector<TopoDS_Edge> join_ways_back(TopoDS_Shape& wire, const TopoDS_Face& f
 
 }  // namespace
 
-int give_seams_curves(const TopoDS_Shape& shape) {
-  return give_curves_in_loops(shape, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>& poles) {
+int give_seams_curves(std::span<const TopoDS_Face> faces) {
+  return give_curves_in_loops(faces, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>& poles) {
     return bare_seams_of(wire, face, poles);
   });
 }
 
-int make_seams(const TopoDS_Shape& shape) {
-  return give_curves_in_loops(shape, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>&) {
+int make_seams(std::span<const TopoDS_Face> faces) {
+  return give_curves_in_loops(faces, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>&) {
     return join_ways_back(wire, face);
   });
 }
 
-int move_curves_between_poles(const TopoDS_Shape& shape) {
-  TopTools_IndexedMapOfShape faces;
-  TopExp::MapShapes(shape, TopAbs_FACE, faces);
+int move_curves_between_poles(std::span<const TopoDS_Face> faces) {
   int n = 0;
-  for (int f = 1; f <= faces.Extent(); ++f) {
-    const TopoDS_Face face = TopoDS::Face(faces(f).Oriented(TopAbs_FORWARD));
+  for (const TopoDS_Face& face : faces) {
     TopLoc_Location location;
     const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, location);
     if (surface.IsNull() || !surface->IsKind(STANDARD_TYPE(Geom_SphericalSurface))) continue;

@@ -40,11 +40,7 @@ struct Pole {
 class FacetReader {
  public:
   FacetReader(const Model& model, UvFacets& facets)
-      : model_(model),
-        t_(model.tables()),
-        brep_(ModelEditor::brep(model)),
-        facets_(facets),
-        spans_poles_(edges_between_poles(t_)) {
+      : model_(model), t_(model.tables()), brep_(ModelEditor::brep(model)), facets_(facets) {
     facets_.rim_t.resize(t_.coedge_edge.size());
     facets_.rim_side.resize(t_.coedge_edge.size());
   }
@@ -302,7 +298,7 @@ class FacetReader {
   const ModelTables& t_;
   const Model::Impl& brep_;
   UvFacets& facets_;
-  std::vector<std::uint8_t> spans_poles_;  // edges
+  const std::vector<std::uint8_t> spans_poles_ = edges_between_poles(t_);  // by edge
 };
 
 bool has_turned_facet(const Surface& surface, const UvFacets& facets, std::int32_t first, std::int32_t end) {

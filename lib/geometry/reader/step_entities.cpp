@@ -58,11 +58,11 @@ class HealingOfLoops : public XSAlgo_AlgoContainer {
       const std::vector<TopoDS_Face> faces = faces_of(shape);
       trim_meridians(faces);
       bound_whole_surfaces(faces);
-      give_seams_curves(shape);
-      move_curves_between_poles(shape);
+      give_seams_curves(faces);
+      move_curves_between_poles(faces);
       swap_seams(faces);
     } else if (std::string(sequence) == "read.iges.sequence") {
-      make_seams(shape);
+      make_seams(faces_of(shape));
     }
     return XSAlgo_AlgoContainer::ProcessShape(shape, precision, tolerance, resource, sequence, info, progress,
                                               is_non_manifold);

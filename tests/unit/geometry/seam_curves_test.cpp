@@ -20,6 +20,7 @@
 
 #include <gtest/gtest.h>
 
+#include "geometry/brep/faces_of.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
 
@@ -47,7 +48,7 @@ TEST(SeamCurves, a_seam_gets_them_as_the_loop_passes_it) {
       const Handle(Geom2d_Curve) there = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
       const Handle(Geom2d_Curve) back = BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), face, t0, t1);
       BRep_Builder().UpdateEdge(edge, Handle(Geom2d_Curve)(), Handle(Geom2d_Curve)(), face, 1e-7);
-      EXPECT_EQ(occt::give_seams_curves(shape), 1);
+      EXPECT_EQ(occt::give_seams_curves(occt::faces_of(shape)), 1);
       const Handle(Geom2d_Curve) given = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
       const Handle(Geom2d_Curve) other = BRep_Tool::CurveOnSurface(TopoDS::Edge(edge.Reversed()), face, t0, t1);
       for (const double t : {t0, 0.3 * t0 + 0.7 * t1, t1}) {
@@ -57,12 +58,12 @@ TEST(SeamCurves, a_seam_gets_them_as_the_loop_passes_it) {
     }
   }
   EXPECT_EQ(n_seams, 1);
-  EXPECT_EQ(occt::give_seams_curves(shape), 0);
+  EXPECT_EQ(occt::give_seams_curves(occt::faces_of(shape)), 0);
 }
 
 TEST(SeamCurves, those_beyond_a_pole_are_moved_back) {
   const TopoDS_Shape shape = shape_of("ball_with_two_holes");
-  ASSERT_EQ(occt::move_curves_between_poles(shape), 0);
+  ASSERT_EQ(occt::move_curves_between_poles(occt::faces_of(shape)), 0);
   int n_moved = 0;
   for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {
     const TopoDS_Face face = TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD));
@@ -74,7 +75,7 @@ TEST(SeamCurves, those_beyond_a_pole_are_moved_back) {
       const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
       const gp_Pnt2d place = curve->Value(t0);
       curve->Translate(gp_Vec2d(0, n_moved % 2 ? 2 * M_PI : -4 * M_PI));
-      EXPECT_EQ(occt::move_curves_between_poles(shape), 1);
+      EXPECT_EQ(occt::move_curves_between_poles(occt::faces_of(shape)), 1);
       EXPECT_LT(BRep_Tool::CurveOnSurface(edge, face, t0, t1)->Value(t0).Distance(place), 1e-9);
       ++n_moved;
     }
