@@ -219,11 +219,7 @@ std::vector<TopoDS_Edge> join_ways_back(TopoDS_Shape& wire, const TopoDS_Face& f
 
 }  // namespace
 
-int give_seams_curves(std::span<const TopoDS_Face> faces) {
-  return give_curves_in_loops(faces, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>& poles) {
-    return bare_seams_of(wire, face, poles);
-  });
-}
+int give_seams_curves(std::span<const TopoDS_Face> faces) { return give_curves_in_loops(faces, bare_seams_of); }
 
 int make_seams(std::span<const TopoDS_Face> faces) {
   return give_curves_in_loops(faces, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>&) {
