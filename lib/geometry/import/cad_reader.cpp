@@ -26,6 +26,9 @@ namespace {
   throw Error(ExitCode::kInput, path + ": " + why);
 }
 
+constexpr const char* kNoModel =
+    "not a STEP, IGES, BREP, STL, OBJ or PLY file; export the model as STEP, or its facets as STL";
+
 /// "a PNG image, " for files that are often taken for another; empty for anything else.
 std::string what_else(const std::string& head) {
   static const std::pair<const char*, const char*> kKinds[] = {{"\x89PNG", "a PNG image"},
@@ -37,6 +40,9 @@ std::string what_else(const std::string& head) {
                                                                {"<html", "a web page"},
                                                                {"<?xml", "an XML file"},
                                                                {"solid", "an STL mesh"},
+                                                               {"OFF", "an OFF mesh"},
+                                                               {"\xff\xfe", "a text in UTF-16"},
+                                                               {"\xfe\xff", "a text in UTF-16"},
                                                                {"\x7f"
                                                                 "ELF",
                                                                 "a program"}};
@@ -87,8 +93,7 @@ std::string format_of(const std::string& path) {
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   head.resize(static_cast<std::size_t>(in.gcount()));
   if (head.empty()) fail(path, "empty file; export the model again");
-  if (const std::string kind = what_else(head); !kind.empty() && kind != "an STL mesh, ")
-    fail(path, kind + "not a STEP, IGES or BREP file; export the model as STEP");
+  if (const std::string kind = what_else(head); !kind.empty() && kind != "an STL mesh, ") fail(path, kind + kNoModel);
   if (head.find("ISO-10303-21") != std::string::npos) return "STEP";
   if (head.find("DBRep_DrawableShape") != std::string::npos || head.find("CASCADE Topology V") != std::string::npos)
     return "BREP";
@@ -99,7 +104,7 @@ std::string format_of(const std::string& path) {
     return "IGES";
   if (head.size() >= 80 && head[72] == 'S' && std::strchr(" 0123456789", head[79])) return "IGES";
   if (is_flite(head) || has_flite_suffix(path, head)) return "FLITE";
-  fail(path, what_else(head) + "not a STEP, IGES or BREP file; export the model as STEP");
+  fail(path, what_else(head) + kNoModel);
 }
 
 CadFile read_step(const std::string& path) {

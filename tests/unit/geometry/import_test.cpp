@@ -455,7 +455,11 @@ TEST(Import, refuses_what_is_no_model) {
   write_bytes(dir / "empty.step", "");
   EXPECT_ERROR(import_model(dir / "empty.step", {}), kInput, "empty");
   write_bytes(dir / "note.step", "Dear all,\nplease find the model attached.\n");
-  EXPECT_ERROR(import_model(dir / "note.step", {}), kInput, "not a STEP, IGES or BREP file");
+  EXPECT_ERROR(import_model(dir / "note.step", {}), kInput, "not a STEP, IGES, BREP, STL, OBJ or PLY file");
+  write_bytes(dir / "cube.off", "OFF\n8 12 0\n");
+  EXPECT_ERROR(import_model(dir / "cube.off", {}), kInput, "an OFF mesh");
+  write_bytes(dir / "box.obj", std::string("\xff\xfev\0 \0", 6));
+  EXPECT_ERROR(import_model(dir / "box.obj", {}), kInput, "UTF-16");
   write_bytes(dir / "mesh.hdf", "\x89HDF\r\n\x1a\n and more");
   EXPECT_ERROR(import_model(dir / "mesh.hdf", {}), kInput, "HDF5");
 }
