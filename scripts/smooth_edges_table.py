@@ -24,7 +24,7 @@ SMOOTH = table.COUNTS.index("smooth")
 def places_left(row):
     """Lines of triangles at smooth edges, the worst of each cause."""
     return [f"  left: {w['value']:.2f} degrees, {w['cause']}, face {w['face']}, edge {w['beside']['edge']}"
-            for w in row.worst if w["beside"]["edge"] and w["beside"]["normals_deg"] <= SMOOTH_DEG]
+            for w in row.worst if w.get("beside", {}).get("edge") and w["beside"]["normals_deg"] <= SMOOTH_DEG]
 
 
 def lines_of(model, rows):
