@@ -40,7 +40,8 @@ std::string what_else(const std::string& head) {
                                                                {"<html", "a web page"},
                                                                {"<?xml", "an XML file"},
                                                                {"solid", "an STL mesh"},
-                                                               {"OFF", "an OFF mesh"},
+                                                               {"OFF\n", "an OFF mesh"},
+                                                               {"OFF\r", "an OFF mesh"},
                                                                {"\xff\xfe", "a text in UTF-16"},
                                                                {"\xfe\xff", "a text in UTF-16"},
                                                                {"\x7f"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -446,6 +447,16 @@ TEST(Import, recognises_a_file_by_its_content) {
   const TemporaryDirectory dir;
   test::write_step("box", dir / "box.dat", "MM");
   EXPECT_EQ(import_model(dir / "box.dat", {}).format, "STEP");
+}
+
+TEST(Import, takes_an_iges_file_by_its_columns_whatever_its_title) {
+  const TemporaryDirectory dir;
+  test::write_iges("box", dir / "box.igs");
+  std::ifstream in(dir / "box.igs", std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  text.replace(0, 17, "OFFSHORE PLATFORM");
+  write_bytes(dir / "box.igs", text);
+  EXPECT_EQ(import_model(dir / "box.igs", {}).format, "IGES");
 }
 
 TEST(Import, refuses_what_is_no_model) {
