@@ -13,6 +13,7 @@
 
 #include "geometry/import/import.h"
 #include "support/shapes.h"
+#include "unit/geometry/occt_shapes.h"
 #include "unit/io/temporary_directory.h"
 
 namespace st {
@@ -21,13 +22,10 @@ namespace {
 /// A shape with its faces anew in `whole`, an empty compound or shell, as `change(face, number)` makes them.
 template <class Change>
 void add_faces(const std::string& shape, const Change& change, TopoDS_Shape& whole) {
-  const TemporaryDirectory dir;
-  test::write_brep(shape, dir / "a.brep");
-  TopoDS_Shape original;
   BRep_Builder builder;
-  BRepTools::Read(original, (dir / "a.brep").c_str(), builder);
   int n = 0;
-  for (TopExp_Explorer e(original, TopAbs_FACE); e.More(); e.Next()) builder.Add(whole, change(e.Current(), n++));
+  for (TopExp_Explorer e(test::occt_shape(shape), TopAbs_FACE); e.More(); e.Next())
+    builder.Add(whole, change(e.Current(), n++));
 }
 
 ImportResult import_brep(const TopoDS_Shape& shape) {

@@ -1,7 +1,6 @@
 // Seams that come out of the reader of STEP without trimming curves.
 #include "geometry/import/seam_curves.h"
 
-#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
@@ -23,20 +22,13 @@
 #include "geometry/brep/faces_of.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
+#include "unit/geometry/occt_shapes.h"
 
 namespace st {
 namespace {
 
-TopoDS_Shape shape_of(const std::string& name) {
-  const TemporaryDirectory dir;
-  test::write_brep(name, dir / "a.brep");
-  TopoDS_Shape shape;
-  BRepTools::Read(shape, (dir / "a.brep").c_str(), BRep_Builder());
-  return shape;
-}
-
 TEST(SeamCurves, a_seam_gets_them_as_the_loop_passes_it) {
-  const TopoDS_Shape shape = shape_of("ball_with_notch");
+  const TopoDS_Shape shape = test::occt_shape("ball_with_notch");
   int n_seams = 0;
   for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {
     const TopoDS_Face face = TopoDS::Face(f.Current().Oriented(TopAbs_FORWARD));
@@ -62,7 +54,7 @@ TEST(SeamCurves, a_seam_gets_them_as_the_loop_passes_it) {
 }
 
 TEST(SeamCurves, those_beyond_a_pole_are_moved_back) {
-  const TopoDS_Shape shape = shape_of("ball_with_two_holes");
+  const TopoDS_Shape shape = test::occt_shape("ball_with_two_holes");
   ASSERT_EQ(occt::move_curves_between_poles(occt::faces_of(shape)), 0);
   int n_moved = 0;
   for (TopExp_Explorer f(shape, TopAbs_FACE); f.More(); f.Next()) {

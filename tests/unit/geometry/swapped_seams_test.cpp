@@ -1,7 +1,6 @@
 // Seams whose two trimming curves have changed places.
 #include "geometry/import/swapped_seams.h"
 
-#include <BRepTools.hxx>
 #include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
@@ -17,17 +16,10 @@
 #include "geometry/brep/faces_of.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
+#include "unit/geometry/occt_shapes.h"
 
 namespace st {
 namespace {
-
-TopoDS_Shape shape_of(const std::string& name) {
-  const TemporaryDirectory dir;
-  test::write_brep(name, dir / "a.brep");
-  TopoDS_Shape shape;
-  BRepTools::Read(shape, (dir / "a.brep").c_str(), BRep_Builder());
-  return shape;
-}
 
 struct Seam {
   TopoDS_Edge edge;
@@ -54,7 +46,7 @@ std::vector<Seam> seams_of(const TopoDS_Shape& shape) {
 }
 
 TEST(SwappedSeams, curves_that_changed_places_do_so_again) {
-  const TopoDS_Shape shape = shape_of("spindle_with_fin");
+  const TopoDS_Shape shape = test::occt_shape("spindle_with_fin");
   const std::vector<Seam> seams = seams_of(shape);
   ASSERT_EQ(seams.size(), 2u);
   for (const Seam& seam : seams) {
@@ -72,7 +64,7 @@ TEST(SwappedSeams, curves_that_changed_places_do_so_again) {
 TEST(SwappedSeams, others_stay) {
   for (const char* name : {"sphere", "torus", "cylinder", "cone", "drilled_cylinder", "ball_with_stem", "ball_with_bar",
                            "ball_with_socket", "spindle_with_fin", "periodic_tube", "closed_tube"})
-    EXPECT_EQ(occt::swap_seams(occt::faces_of(shape_of(name))), 0) << name;
+    EXPECT_EQ(occt::swap_seams(occt::faces_of(test::occt_shape(name))), 0) << name;
 }
 
 class BodiesWithFins : public testing::TestWithParam<const char*> {};

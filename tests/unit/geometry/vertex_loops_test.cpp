@@ -1,8 +1,6 @@
 // Bodies from tip to tip whose faces have a point for their outer loop in STEP files.
 #include "geometry/import/vertex_loops.h"
 
-#include <BRepTools.hxx>
-#include <BRep_Builder.hxx>
 #include <fstream>
 #include <sstream>
 
@@ -11,6 +9,7 @@
 #include "geometry/brep/faces_of.h"
 #include "support/shapes.h"
 #include "unit/geometry/broken_import.h"
+#include "unit/geometry/occt_shapes.h"
 
 namespace st {
 namespace {
@@ -31,11 +30,7 @@ INSTANTIATE_TEST_SUITE_P(, BodiesWithHoles, testing::Values("spindle_with_fin_be
 TEST(VertexLoops, other_faces_stay) {
   for (const char* name : {"sphere", "torus", "cylinder", "cone", "two_balls", "ball_with_socket", "spindle_with_fin",
                            "spindle_with_fin_beside", "periodic_tube", "closed_tube", "square"}) {
-    const TemporaryDirectory dir;
-    test::write_brep(name, dir / "a.brep");
-    TopoDS_Shape shape;
-    BRepTools::Read(shape, (dir / "a.brep").c_str(), BRep_Builder());
-    EXPECT_EQ(occt::bound_whole_surfaces(occt::faces_of(shape)), 0) << name;
+    EXPECT_EQ(occt::bound_whole_surfaces(occt::faces_of(test::occt_shape(name))), 0) << name;
   }
 }
 
