@@ -44,20 +44,27 @@ struct Axis {
   }
 };
 
+/// A point of a surface, its place about an axis, and which of all seeds it is.
+struct Seed {
+  Vec2 st, uv;
+  std::size_t number;
+};
+
 /// A part of a surface by its places about an axis.
 class SeenSurface final : public Surface {
  public:
-  SeenSurface(const Surface& surface, const Axis& axis) : surface_(surface), axis_(axis) {
+  /// `nodes`: what searches begin at; some.
+  SeenSurface(const Surface& surface, const Axis& axis, const std::vector<const FaceNode*>& nodes)
+      : surface_(surface), axis_(axis) {
     u_min_ = v_min_ = 1e300;
     u_max_ = v_max_ = -1e300;
-  }
-
-  void add(Vec3 x, Vec2 uv) {
-    const Vec2 st = axis_.place_of(x);
-    seed_st_.push_back(st);
-    seed_uv_.push_back(uv);
-    u_min_ = std::min(u_min_, st.x), u_max_ = std::max(u_max_, st.x);
-    v_min_ = std::min(v_min_, st.y), v_max_ = std::max(v_max_, st.y);
+    for (const FaceNode* n : nodes) {
+      const Vec2 st = axis_.place_of(n->x);
+      seeds_.push_back({st, n->uv, seeds_.size()});
+      u_min_ = std::min(u_min_, st.x), u_max_ = std::max(u_max_, st.x);
+      v_min_ = std::min(v_min_, st.y), v_max_ = std::max(v_max_, st.y);
+    }
+    std::ranges::sort(seeds_, {}, [](const Seed& s) { return std::pair(s.st.x, s.number); });
   }
 
   struct Foot {
@@ -67,7 +74,7 @@ class SeenSurface final : public Surface {
 
   /// Of the point at a place; nullopt: not found.
   std::optional<Foot> foot(Vec2 st) const {
-    Vec2 uv = seed_uv_[nearest_seed(st)];
+    Vec2 uv = nearest_seed(st).uv;
     SurfacePoint p = surface_.evaluate(uv);
     Vec2 miss = st - axis_.place_of(p.x);
     const double enough = kFound * std::hypot(u_max_ - u_min_, v_max_ - v_min_);
@@ -107,25 +114,31 @@ class SeenSurface final : public Surface {
   }
 
  private:
-  /// The first of the nearest ones: distances count, not their squares. Four least squares at a time, as each waits for
-  /// the one before.
-  std::size_t nearest_seed(Vec2 st) const {
-    constexpr std::size_t kAtOnce = 4;
+  /// The first of the nearest ones: distances count, not their squares. Looks at seeds outward along s, while these may
+  /// be as near by that alone.
+  const Seed& nearest_seed(Vec2 st) const {
     constexpr double kSameRoot = 1 + 8 * std::numeric_limits<double>::epsilon();  // of squares: no root of more is less
-    const auto distance2 = [&](std::size_t i) {
-      const Vec2 way = seed_st_[i] - st;
-      return dot(way, way);
+    const Seed *const begin = seeds_.data(), *const end = begin + seeds_.size(), *nearest = nullptr;
+    const Seed* up = std::ranges::lower_bound(begin, end, st.x, {}, [](const Seed& s) { return s.st.x; });
+    const Seed* down = up;
+    double nearest2 = std::numeric_limits<double>::infinity(), least = nearest2;
+    const auto may_be_near = [&](const Seed& s) {
+      const double along = s.st.x - st.x;
+      return along * along <= kSameRoot * nearest2;
     };
-    const std::size_t n = seed_st_.size();
-    std::array<double, kAtOnce> least;
-    least.fill(std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i + kAtOnce <= n; i += kAtOnce)
-      for (std::size_t k = 0; k < kAtOnce; ++k) least[k] = std::min(least[k], distance2(i + k));
-    for (std::size_t i = n / kAtOnce * kAtOnce; i < n; ++i) least[0] = std::min(least[0], distance2(i));
-    const double nearest2 = std::min({least[0], least[1], least[2], least[3]}), nearest = std::sqrt(nearest2);
-    for (std::size_t i = 0; i < n; ++i)
-      if (const double d = distance2(i); d <= kSameRoot * nearest2 && std::sqrt(d) == nearest) return i;
-    return 0;  // none is at a distance that is a number
+    while (true) {
+      const bool goes_up = up != end && may_be_near(*up), goes_down = down != begin && may_be_near(down[-1]);
+      if (!goes_up && !goes_down) break;
+      const Seed& s = goes_up && (!goes_down || up->st.x - st.x < st.x - down[-1].st.x) ? *up++ : *--down;
+      const Vec2 way = s.st - st;
+      const double d2 = dot(way, way);
+      if (!(d2 <= kSameRoot * nearest2)) continue;
+      const double d = std::sqrt(d2);
+      if (!nearest || std::pair(d, s.number) < std::pair(least, nearest->number)) nearest = &s, least = d;
+      nearest2 = std::min(nearest2, d2);
+    }
+    return nearest ? *nearest : *std::ranges::find(seeds_, 0u, &Seed::number);  // none is at a distance that is a
+                                                                                // number
   }
   /// Of (s,t) per (u,v).
   Eigen::Matrix2d change_of(const SurfacePoint& p) const {
@@ -140,7 +153,7 @@ class SeenSurface final : public Surface {
 
   const Surface& surface_;
   const Axis axis_;
-  std::vector<Vec2> seed_st_, seed_uv_;
+  std::vector<Seed> seeds_;  // ascending in s
 };
 
 /// The axis that points with these normals are seen from best; nullopt: none sees them all.
@@ -265,16 +278,17 @@ class FoldRepair {
     std::vector<NodeId> nodes;
     for (const std::size_t t : place.triangles) nodes.insert(nodes.end(), triangles_[t].n, triangles_[t].n + 3);
     sort_once(nodes);
+    std::vector<const FaceNode*> of_place;
     std::vector<Vec3> points, normals;
     for (const NodeId n : nodes) {
       if (nodes_[n].is_pole) return false;
+      of_place.push_back(&nodes_[n]);
       points.push_back(nodes_[n].x);
       normals.push_back(normal_[n]);
     }
     const auto axis = find_axis(points, normals);
     if (!axis) return false;
-    SeenSurface seen(surface_, *axis);
-    for (const NodeId n : nodes) seen.add(nodes_[n].x, nodes_[n].uv);
+    const SeenSurface seen(surface_, *axis, of_place);
     FaceBoundary rim;
     for (std::size_t i = 0; i < place.loop.size(); ++i) {
       FaceNode n = nodes_[place.loop[i]];
