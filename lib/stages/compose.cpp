@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <span>
 #include <utility>
@@ -29,6 +30,7 @@ namespace {
 constexpr double kSharpCorner = radians(25);  // a triangle in it has no larger angle
 constexpr double kShort = 0.7;                // of the length: an edge or a width below it spoils triangles
 constexpr double kAcross = 1.5;               // widths: an edge across a narrow face is no longer
+constexpr double kMostEnds = 0.5;             // of its longest edge: edges at the ends of a strip together
 constexpr double kChartDeflection = 1e-3;     // of the diagonal
 constexpr double kChartAngle = radians(12);
 
@@ -223,12 +225,35 @@ void keep(const ModelTables& t, EdgeId e, const char* why, JoinRequest& request)
   request.may_join[e] = 0;
 }
 
+/// Whether the sides of a strip face each other along most of its rim: those of a crescent do not.
+bool has_short_ends(const ModelTables& t, const StripSides& strip) {
+  double sides = t.edge_length[strip.single], rim = 0;
+  for (const StripSides::Side& side : strip.across) sides += t.edge_length[side.edge];
+  for (const EdgeId e : t.edges_of(strip.face)) rim += t.edge_length[e];
+  return rim - sides <= kMostEnds * t.edge_length[strip.single];
+}
+
 /// Narrow faces between edges that stay are apart: their widths ask for lengths, and those of a composite would not.
+/// A narrower one across their end may go on in them.
 void keep_strips(const ModelTables& t, JoinRequest& request) {
-  for (const StripSides& strip : find_strip_sides(t)) {
+  std::vector<StripSides> strips = find_strip_sides(t);
+  std::erase_if(strips, [&](const StripSides& strip) { return !has_short_ends(t, strip); });
+  std::vector<double> across(static_cast<std::size_t>(t.n_edges()), std::numeric_limits<double>::infinity());  // width
+                                                                                                               // of a
+                                                                                                               // strip
+                                                                                                               // beside
+                                                                                                               // the
+                                                                                                               // edge
+  const auto narrow = [&](EdgeId side, double width) { across[side] = std::min(across[side], width); };
+  for (const StripSides& strip : strips) {
+    narrow(strip.single, strip.width);
+    for (const StripSides::Side& side : strip.across) narrow(side.edge, strip.width);
+  }
+  for (const StripSides& strip : strips) {
     const auto stays = [&](const StripSides::Side& side) { return !request.may_join[side.edge]; };
     if (request.may_join[strip.single] || !std::ranges::all_of(strip.across, stays)) continue;
-    for (const EdgeId e : t.edges_of(strip.face)) keep(t, e, "its face is narrow between edges that stay", request);
+    for (const EdgeId e : t.edges_of(strip.face))
+      if (!(across[e] < kShort * strip.width)) keep(t, e, "its face is narrow between edges that stay", request);
   }
 }
 

@@ -723,6 +723,40 @@ TopoDS_Shape plate_of_2_with_touching_hole() {
   return BRepAlgoAPI_Cut(plate, BRepPrimAPI_MakeCylinder(axis, 2, 3).Shape()).Shape();
 }
 
+/// A bar that ends in a sliver of the same section: its long sides are strips, the sliver's are narrower ones.
+TopoDS_Shape bar_with_sliver_end() {
+  return BRepAlgoAPI_Fuse(box(10, 3, 0.5), moved(box(0.02, 3, 0.5), 10, 0, 0)).Shape();
+}
+
+/// Two bars, and between them the part of a plate that a hole leaves on one side: a crescent, whose ends are tangent to
+/// the bars. Its two arcs are alike, but do not face each other.
+TopoDS_Shape crescent_between_bars() {
+  BRepBuilderAPI_MakePolygon rim;
+  for (const gp_Pnt& p : {gp_Pnt(0, -4, 0), gp_Pnt(4.2, -4, 0), gp_Pnt(4.45, 0, 0), gp_Pnt(4.2, 4, 0), gp_Pnt(0, 4, 0)})
+    rim.Add(p);
+  rim.Close();
+  const TopoDS_Shape plate = BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(rim.Wire()).Face(), gp_Vec(0, 0, 1)).Shape();
+  TopoDS_Shape all =
+      BRepAlgoAPI_Cut(plate, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, -1), gp_Dir(0, 0, 1)), 4, 3).Shape()).Shape();
+  for (const double y : {-5.0, 4.0}) all = BRepAlgoAPI_Fuse(all, moved(box(8.4, 1, 1), -4.2, y, 0)).Shape();
+  return all;
+}
+
+/// A wing with a dent along its leading edge, where two faces meet: each has a nose of its own beside the edge, at the
+/// same distance from the trailing edge. z is up.
+TopoDS_Shape wing_with_dented_nose(bool is_lower_first) {
+  BRepBuilderAPI_MakeWire section;
+  for (const double side : {is_lower_first ? -1.0 : 1.0, is_lower_first ? 1.0 : -1.0}) {
+    TColgp_Array1OfPnt poles(1, 4);
+    poles.SetValue(1, gp_Pnt(0.03, 0, 0));
+    poles.SetValue(2, gp_Pnt(-0.02, 0, 0.06 * side));
+    poles.SetValue(3, gp_Pnt(0.3, 0, 0.1 * side));
+    poles.SetValue(4, gp_Pnt(1, 0, 0));
+    section.Add(BRepBuilderAPI_MakeEdge(new Geom_BezierCurve(poles)).Edge());
+  }
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(section.Wire()).Face(), gp_Vec(0, 5, 0)).Shape();
+}
+
 /// The profile of a wing in two halves, ruled from the chord to either side: poles at both ends of the chord.
 TopoDS_Shape tip_of_2() {
   BRepBuilderAPI_Sewing sewing(1e-6);
@@ -889,6 +923,10 @@ const std::map<std::string, Factory>& factories() {
       {"wing_of_200", [] { return cut_wing(10, 20); }},
       {"melon", melon},
       {"plate_of_2_with_touching_hole", plate_of_2_with_touching_hole},
+      {"bar_with_sliver_end", bar_with_sliver_end},
+      {"crescent_between_bars", crescent_between_bars},
+      {"wing_with_dented_nose", [] { return wing_with_dented_nose(false); }},
+      {"wing_with_dented_nose_lower_first", [] { return wing_with_dented_nose(true); }},
       {"tip_of_2", tip_of_2},
       {"cylinder_of_8", [] { return cut_prism(new Geom_Circle(kZ, 5), 8, 1); }},
       {"disc_of_16", [] { return cut_prism(new Geom_Circle(kZ, 5), 16, 1, 0.05); }},  // its rim: strips and short

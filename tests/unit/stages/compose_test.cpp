@@ -93,6 +93,16 @@ TEST(Compose, leaves_narrow_faces_between_edges_that_stay_apart) {
   EXPECT_EQ(std::ranges::count(join_request(disc, false).may_join, 1), 16);
 }
 
+TEST(Compose, narrow_faces_go_on_into_narrower_ones_across_their_end) {
+  const Model bar = test::make_model("bar_with_sliver_end");
+  EXPECT_EQ(std::ranges::count(join_request(bar, true).may_join, 1), 4);
+}
+
+TEST(Compose, a_crescent_is_no_narrow_face) {
+  const Model plate = test::make_model("crescent_between_bars");
+  EXPECT_EQ(std::ranges::count(join_request(plate, true).may_join, 1), 4);  // at two tangent ends, above and below
+}
+
 TEST(Compose, says_which_harmful_edges_stay_and_why) {
   set_verbosity(Verbosity::kVerbose);
   testing::internal::CaptureStderr();
