@@ -66,6 +66,9 @@ constexpr double kNoseStrip = 0.02;            // of the chord: width of the fac
 constexpr double kNearNose = 0.05;             // of the chord: between nose and leading edge at most
 constexpr double kLeftAtTip = 1e-3;            // of the chord: from the last nose to a tip, as `rans` asks
 constexpr double kCovered = 1e-3;              // of the chord: from a nose to another face that is nearer, at least
+constexpr double kClearlyFurther = 1e-4;       // of the chord: of two noses side by side, the one that counts
+constexpr double kApart = 1e-3;                // of the chord: two noses, and not one on an edge
+constexpr Vec3 kUp{0.27, 0.53, 0.80};          // upper means so, in any position: no plane of symmetry is along it
 constexpr double kLens = 0.75;                 // of the way where the nose is on the edge itself: does not count
 
 constexpr const char *kRimOfEnd = "they are rims of a tip or a root",
@@ -616,19 +619,35 @@ class SurfaceMeasurer {
     station.chord = distance(station.nose, station.trailing);
   }
 
-  /// False: no surface that the profile crosses has a nose there, as where another body cuts it off, or covers it.
+  /// On the first face that has a nose, the one on facets before others. Faces that meet there may each have one: the
+  /// furthest is it, of equal ones the upper, so that numbers of faces do not count. False: no surface that the profile
+  /// crosses has a nose there, as where another body cuts it off, or covers it.
   bool put_on_surface(const Profile& profile, ChordStation& station) const {
     std::vector<FaceId> faces = {profile.nose_face};
     faces.insert(faces.end(), profile.faces.begin(), profile.faces.end());
+    const auto first =
+        std::ranges::find_if(faces, [&](FaceId f) { return put_on(f, profile, guess_[f], nullptr, station); });
+    if (first == faces.end()) return false;
+    for (const FaceId f : profile.near_nose)
+      if (f != *first) put_on(f, profile, second_guess_[f], &station.nose, station);
+    return true;
+  }
+
+  /// Whether the nose on a face is it, also where there is another one.
+  bool put_on(FaceId f, const Profile& profile, std::optional<Vec2>& guess, const Vec3* other,
+              ChordStation& station) const {
     const double near = std::max(reach_, kNearNose * profile.chord);
-    for (const FaceId f : faces) {
-      const auto nose = exact_nose(*model_.surface(f), station.trailing, profile, near, guess_[f], &grid_[f]);
-      if (!nose || is_behind_other(*nose, f, profile, near)) continue;
-      station.nose = *nose;
-      station.nose_face = f;
-      return true;
+    const auto nose = exact_nose(*model_.surface(f), station.trailing, profile, near, guess, &grid_[f]);
+    if (!nose || is_behind_other(*nose, f, profile, near)) return false;
+    if (other) {
+      const double more = distance(*nose, station.trailing) - distance(*other, station.trailing),
+                   clearly = kClearlyFurther * profile.chord;
+      const bool is_upper = dot(*nose - *other, kUp) > kApart * profile.chord;
+      if (!(more > clearly || (is_upper && more > -clearly))) return false;
     }
-    return false;
+    station.nose = *nose;
+    station.nose_face = f;
+    return true;
   }
 
   /// Whether a place on the surface of a face is behind another one, as a nose is behind ice on it.
@@ -769,7 +788,8 @@ class SurfaceMeasurer {
   const ChainLine& line_;
   mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
   mutable std::vector<FaceId> wrong_;                    // whose facets have a nose where their surface has none
-  mutable std::map<FaceId, std::optional<Vec2>> guess_;  // (u,v) of the last nose of each face
+  mutable std::map<FaceId, std::optional<Vec2>> guess_,  // (u,v) of the last nose of each face
+      second_guess_;                                     // likewise beside a nose of another one
   mutable std::map<FaceId, SurfaceGrid> grid_;           // of each face on which noses are looked for
   mutable std::map<FaceId, bool> is_plane_;              // of faces beside a corner
 };

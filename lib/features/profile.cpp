@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "base/boxes.h"
@@ -19,8 +18,7 @@ namespace {
 // Places along the chord, from the nose, and what a profile is like there. Thickness is over the largest one.
 constexpr std::array<double, 11> kPlaces = {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.97};
 constexpr double kThinnest = 0.01, kThickest = ProfileCutter::kThickestPart;  // largest thickness over the chord
-constexpr double kSharpNose = 0.03, kFlatNose = 0.85;  // thickness at the first place: a double wedge has 0.04, a plate
-                                                       // 1
+constexpr double kSharpNose = 0.03, kFlatNose = 0.85;  // thickness at the first place: a plate has 1, a wedge 0.04
 constexpr double kThickEnd = 0.6;                      // thickness at the last place, at most
 constexpr double kFirstThickest = 0.1, kLastThickest = 0.8;
 constexpr double kStraightSides = 0.01;  // of a wedge: its thickness over the way from its edge differs by less
@@ -28,6 +26,7 @@ constexpr std::size_t kFacetsPerBlock = 8, kBlocksPerBlock = 8;
 constexpr double kRounding = 1e-9;  // of the distance of a box and its diagonal: of heights above a plane
 constexpr double kThinFor = 5;      // largest over smallest distance from the edge at which a thin part is thin
 constexpr double kThinStep = 1.05;  // between two distances that are tried
+constexpr double kNearNose = 0.02;  // of the chord: faces so near may have the nose
 constexpr double kBehind = 0.02;    // of the chord: nothing lies further behind the edge
 
 /// Thickness across the chord at a place; nullopt unless the profile has two sides there.
@@ -272,9 +271,12 @@ std::optional<Profile> ProfileCutter::profile_of(const std::vector<Segment>& par
                   .nose_face = end_at_nose.face,
                   .chord = distance(end_at_nose.x, trailing_edge)};
   for (const Segment& s : part) {
-    profile.faces.push_back(facets_.face[s.facet]);
+    const FaceId face = facets_.face[s.facet];
+    profile.faces.push_back(face);
+    if (segment_distance(profile.nose, s.end[0], s.end[1]) <= kNearNose * profile.chord)
+      profile.near_nose.push_back(face);
     if (s.end[0] == profile.nose || s.end[1] == profile.nose)
-      profile.beside_nose.push_back({profile.faces.back(), 0.5 * (s.end[0] + s.end[1])});
+      profile.beside_nose.push_back({face, 0.5 * (s.end[0] + s.end[1])});
   }
   if (!(profile.chord > 0)) return std::nullopt;
   const Vec3 forward = (profile.nose - trailing_edge) / profile.chord, across = cross(normal, forward);
@@ -296,6 +298,7 @@ std::optional<Profile> ProfileCutter::profile_of(const std::vector<Segment>& par
       is_wedge(thickness))
     return std::nullopt;
   sort_once(profile.faces);
+  sort_once(profile.near_nose);
   return profile;
 }
 
@@ -349,8 +352,7 @@ std::optional<WholeCut> ProfileCutter::whole_cut(Vec3 edge, Vec3 normal, double 
   if (part.empty()) return std::nullopt;
   const CutPlace end = furthest_end(part, edge);
   const double furthest = distance(end.x, edge);
-  WholeCut cut{.is_own = is_own[end.face] != 0};
-  cut.whole = cut.own_alone = furthest;
+  WholeCut cut{.whole = furthest, .own_alone = furthest, .is_own = is_own[end.face] != 0};
   for (const Segment& s : part) {
     const FaceId face = facets_.face[s.facet];
     if (!is_own[face]) cut.others.push_back(face);

@@ -28,6 +28,7 @@ struct Profile {
   double chord = 0;                        ///< from the trailing edge to the nose, model unit
   double thickness = 0;                    ///< largest, over the chord
   std::vector<FaceId> faces = {};          ///< that the cut crosses, ascending
+  std::vector<FaceId> near_nose = {};      ///< likewise within 2 % of the chord of the nose
   std::vector<CutPlace> beside_nose = {};  ///< half way along the pieces of the cut that end at the nose
 };
 

@@ -213,6 +213,17 @@ TEST(LiftingSurface, has_its_noses_where_facets_miss_them) {
   EXPECT_GT(n_noses, 10);
 }
 
+TEST(LiftingSurface, with_two_equal_noses_has_the_upper_one_whatever_the_numbers_of_faces) {
+  for (const std::string shape : {"wing_with_dented_nose", "wing_with_dented_nose_lower_first"}) {
+    const std::vector<LiftingSurface> wings = wings_of(shape);
+    ASSERT_EQ(wings.size(), 1u) << shape;
+    for (const ChordStation& s : wings[0].trailing[0].stations)
+      if (s.is_measured) {
+        EXPECT_NEAR(s.nose.z, 0.0125, 0.002) << shape;
+      }
+  }
+}
+
 TEST(LiftingSurface, has_its_noses_on_the_ice_in_front_of_it) {
   const std::vector<LiftingSurface> wings = wings_of("iced_wing");
   ASSERT_EQ(wings.size(), 1u);
