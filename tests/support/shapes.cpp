@@ -20,6 +20,7 @@
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepOffsetAPI_MakePipeShell.hxx>
 #include <BRepOffsetAPI_ThruSections.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCone.hxx>
@@ -601,6 +602,17 @@ TopoDS_Shape cut_prism(const Handle(Geom_Curve) & curve, int n_chord, int n_span
 
 TopoDS_Shape cut_wing(int n_chord, int n_span) { return cut_prism(aerofoil(0.1036), n_chord, n_span); }
 
+/// A round rod of two legs, its corner a part of a ball that is made by turning a circle about its diameter.
+TopoDS_Shape bent_pipe() {
+  BRepBuilderAPI_MakePolygon spine(gp_Pnt(0, 0, 0), gp_Pnt(0, 0, 10), gp_Pnt(8, 0, 10));
+  BRepOffsetAPI_MakePipeShell pipe(spine.Wire());
+  pipe.SetTransitionMode(BRepBuilderAPI_RoundCorner);
+  pipe.Add(BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(kZ, 1))).Wire());
+  pipe.Build();
+  pipe.MakeSolid();
+  return pipe.Shape();
+}
+
 /// A long prism of a circle's segment: a flat side and an arched one, 0.1 apart at most, on two common edges of
 /// length 40.
 TopoDS_Shape shallow_prism() {
@@ -787,6 +799,7 @@ const std::map<std::string, Factory>& factories() {
          return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeCylinder(along_x, 1, 9)).Shape();
        }},
       {"ball_with_bar", ball_with_bar},
+      {"bent_pipe", bent_pipe},
       {"spindle_with_fin", [] { return with_fin(spindle(), -0.4); }},
       {"spindle_with_fin_beside", [] { return with_fin(spindle(), 0.4); }},
       {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},

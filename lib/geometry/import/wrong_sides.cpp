@@ -1,12 +1,9 @@
 #include "geometry/import/wrong_sides.h"
 
 #include <BRepTools_ReShape.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
-#include <Precision.hxx>
-#include <ShapeFix_Face.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
@@ -14,66 +11,16 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
-#include <TopoDS_Iterator.hxx>
-#include <TopoDS_Wire.hxx>
-#include <optional>
+#include <cmath>
+#include <vector>
 
 #include "geometry/brep/shape_queries.h"
+#include "geometry/import/other_side.h"
 #include "geometry/import/seam_loop.h"
 #include "geometry/model/imported_shape.h"
 
 namespace st::occt {
 namespace {
-
-/// Whether the line of constant v is a point.
-bool is_pole(const Handle(Geom_Surface) & surface, double u, double period, double v) {
-  constexpr int kStations = 4;
-  for (int k = 1; k < kStations; ++k)
-    if (surface->Value(u, v).Distance(surface->Value(u + k * period / kStations, v)) > Precision::Confusion())
-      return false;
-  return true;
-}
-
-bool has_no_border(const Handle(Geom_Surface) & surface) {
-  if (surface.IsNull() || !surface->IsUPeriodic()) return false;
-  if (surface->IsVPeriodic()) return true;
-  double u_min, u_max, v_min, v_max;
-  surface->Bounds(u_min, u_max, v_min, v_max);
-  if (Precision::IsInfinite(v_min) || Precision::IsInfinite(v_max)) return false;
-  const auto is_end = [&](double v) { return is_pole(surface, u_min, surface->UPeriod(), v); };
-  return is_end(v_min) && is_end(v_max);
-}
-
-/// The one loop of a face that has no seam and no pole on it.
-std::optional<TopoDS_Wire> plain_loop(const TopoDS_Face& face) {
-  std::optional<TopoDS_Wire> loop;
-  for (TopoDS_Iterator w(face); w.More(); w.Next()) {
-    if (w.Value().ShapeType() != TopAbs_WIRE || loop) return std::nullopt;
-    loop = TopoDS::Wire(w.Value());
-  }
-  if (!loop) return std::nullopt;
-  for (TopExp_Explorer e(*loop, TopAbs_EDGE); e.More(); e.Next()) {
-    const TopoDS_Edge edge = TopoDS::Edge(e.Current());
-    if (BRep_Tool::IsClosed(edge, face) || BRep_Tool::Degenerated(edge)) return std::nullopt;
-  }
-  return loop;
-}
-
-bool may_be_on_either_side(const TopoDS_Face& face) {
-  return has_no_border(BRep_Tool::Surface(face)) && plain_loop(face);
-}
-
-/// The rest of the surface, facing the other way, with the loop as its hole; its seam is far from that.
-TopoDS_Face other_side(const TopoDS_Face& face) {
-  const TopoDS_Face forward = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
-  const std::optional<TopoDS_Wire> loop = plain_loop(forward);
-  if (!loop) return {};
-  TopoDS_Shape rest = forward.EmptyCopied();
-  BRep_Builder().Add(rest, loop->Reversed());
-  ShapeFix_Face fix(TopoDS::Face(rest));
-  if (!fix.FixAddNaturalBound()) return {};
-  return TopoDS::Face(fix.Face().Oriented(TopAbs::Reverse(face.Orientation())));
-}
 
 /// Out of the face, at the middle of an edge; null where it has none.
 gp_Vec normal_at(const TopoDS_Edge& edge, const TopoDS_Face& face) {
@@ -88,9 +35,13 @@ gp_Vec normal_at(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   return face.Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal;
 }
 
-/// Whether a face goes on smoothly into another of its shell: its other side would be folded back onto that.
-bool is_smooth_beside(const TopoDS_Face& face, const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
+/// How a face goes on into the others of its shell: its other side would be folded back where it goes on smoothly.
+enum class GoesOn { kSmoothly, kFolded, kNeither };
+
+/// By the faces that can be on one side only, if there are any at its edges.
+GoesOn how_it_goes_on(const TopoDS_Face& face, const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
   constexpr double kSmooth = 0.5;  // radians: far below the angle of a stem and far above that of a fillet
+  bool is_folded = false;
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(e.Current());
     const int k = faces_of.FindIndex(edge);
@@ -98,10 +49,12 @@ bool is_smooth_beside(const TopoDS_Face& face, const TopTools_IndexedDataMapOfSh
     for (const TopoDS_Shape& other : faces_of(k)) {
       if (other.IsSame(face)) continue;
       const gp_Vec a = normal_at(edge, face), b = normal_at(edge, TopoDS::Face(other));
-      if (a.Magnitude() > 0 && b.Magnitude() > 0 && a.Angle(b) < kSmooth) return true;
+      if (a.Magnitude() == 0 || b.Magnitude() == 0) continue;
+      if (a.Angle(b) < kSmooth) return GoesOn::kSmoothly;
+      is_folded = is_folded || (a.Angle(b) > M_PI - kSmooth && !may_be_on_either_side(TopoDS::Face(other)));
     }
   }
-  return false;
+  return is_folded ? GoesOn::kFolded : GoesOn::kNeither;
 }
 
 /// What is known of the faces of a part, by their place among its faces.
@@ -119,28 +72,31 @@ struct PartFaces {
 };
 
 /// Faces of a shell that may be on either side of their loop, and are on the wrong one: those that had a seam in the
-/// file, and those that do not face as the file says, by what holds for the shell's other faces.
+/// file, those that are folded back onto others, and those that do not face as the file says, by what holds for the
+/// shell's other faces.
 std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFaces& faces) {
   std::vector<TopoDS_Face> wrong, agreeing, other;
   int n_agree = 0, n_other = 0;  // of those that can be on one side only
+  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   for (TopExp_Explorer f(shell, TopAbs_FACE); f.More(); f.Next()) {
     const TopoDS_Face face = TopoDS::Face(f.Current());
     const CadPart::FaceAttributes* in_file = faces.find(face);
     if (!in_file || !in_file->same_sense) continue;
     const bool agrees = (face.Orientation() == TopAbs_FORWARD) == *in_file->same_sense;
-    if (!may_be_on_either_side(face))
+    if (!may_be_on_either_side(face)) {
       ++(agrees ? n_agree : n_other);
-    else if (in_file->has_seam)
+      continue;
+    }
+    if (faces_of.IsEmpty()) TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, faces_of);
+    const GoesOn goes_on = how_it_goes_on(face, faces_of);
+    if (in_file->has_seam || goes_on == GoesOn::kFolded)
       wrong.push_back(face);
-    else
+    else if (goes_on == GoesOn::kNeither)  // files may err in what they say of a fillet's corner
       (agrees ? agreeing : other).push_back(face);
   }
+  if (n_agree == n_other) return wrong;  // the reader may have turned the whole shell
   const std::vector<TopoDS_Face>& turned = n_agree > n_other ? other : agreeing;
-  if (n_agree == n_other || turned.empty()) return wrong;  // the reader may have turned the whole shell
-  TopTools_IndexedDataMapOfShapeListOfShape faces_of;
-  TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, faces_of);
-  for (const TopoDS_Face& face : turned)  // files may err in what they say of a fillet's corner
-    if (!is_smooth_beside(face, faces_of)) wrong.push_back(face);
+  wrong.insert(wrong.end(), turned.begin(), turned.end());
   return wrong;
 }
 

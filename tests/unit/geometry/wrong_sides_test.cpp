@@ -35,6 +35,8 @@ TEST(WrongSides, balls_with_a_hole_at_their_seam_stay_balls) {
   expect_the_same("ball_with_socket", 1);  // its caps alone do not tell which is turned, the seam in the file does
 }
 
+TEST(WrongSides, round_corners_are_not_folded_back_into_their_pipe) { expect_the_same("bent_pipe", 1); }
+
 /// The text of a STEP file, its first loop without edges that it passes twice.
 std::string without_seam(std::string text) {
   std::smatch list, use;
