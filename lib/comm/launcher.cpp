@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 #include <thread>
 
 #include "base/error.h"
@@ -36,6 +37,15 @@ bool may_read_other_processes() {
   return process_vm_readv(getpid(), &local, 1, &remote, 1, 0) == 1;
 }
 
+/// Whether a program of this name stands in a folder of PATH.
+bool is_on_path(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
 /// What the ranks need of Open MPI. Settings of the user win (no overwriting).
 void set_launch_environment() {
   const std::pair<const char*, const char*> settings[] = {
@@ -51,6 +61,8 @@ void set_launch_environment() {
       {"PRTE_MCA_rmaps_default_mapping_policy", ":oversubscribe"},  // Open MPI 5
       {"PRTE_MCA_hwloc_default_binding_policy", "none"}};
   for (const auto& [name, value] : settings) setenv(name, value, 0);
+  // An mpirun that finds neither of them to reach other machines ends; told that there is none it does without.
+  if (!is_on_path("ssh") && !is_on_path("rsh")) setenv("OMPI_MCA_plm_rsh_agent", "", 0);
   setenv("OMPI_MCA_orte_execute_quiet", "0",
          1);  // its banners name the rank that a signal ended; they are not passed on
   if (!may_read_other_processes()) setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
