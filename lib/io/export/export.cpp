@@ -71,7 +71,7 @@ constexpr Format kFormats[] = {
     {".smesh", export_smesh, kNamed, kText},
     {".poly", export_poly, kNamed, kText},
     {".csv", export_csv, kNodesOnly | kNodeValues, kText},
-    {".emesh", export_emesh, kFeaturesOnly, kText},
+    {".eMesh", export_emesh, kFeaturesOnly, kText},
 };
 
 std::string suffixes_with(unsigned room) {
@@ -84,7 +84,7 @@ std::string suffixes_with(unsigned room) {
 /// Ends with the suffix, whatever its case.
 bool has_suffix(const std::string& path, const std::string& suffix) {
   return path.size() > suffix.size() && std::equal(suffix.rbegin(), suffix.rend(), path.rbegin(), [](char a, char b) {
-           return a == std::tolower(static_cast<unsigned char>(b));
+           return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
          });
 }
 

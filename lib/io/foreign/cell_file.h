@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -28,10 +29,17 @@ struct CellFile {
 inline constexpr const char* kUsualSizes[] = {"size", "metric"};
 /// The array of the cell data that holds their groups; `group:NAME` in the field data is the number of one with a name.
 inline constexpr const char* kGroups = "group";
-/// What a reader says where it finds none.
-inline std::string missing_sizes(const std::string& array) {
-  return array.empty() ? "has neither 'size' nor 'metric' among its point data; name its array of lengths: FILE:ARRAY"
-                       : "has no array '" + array + "' among its point or cell data";
+/// "; there are 'p', 'U'", behind what a reader says of an array that it does not find.
+inline std::string arrays_there(std::span<const std::string> names) {
+  std::string text;
+  for (const std::string& name : names) text.append(text.empty() ? "; there are '" : ", '").append(name).append("'");
+  return text.empty() ? "; there is none" : text;
+}
+/// What a reader says where it finds none; `names`: of the arrays of point and cell data.
+inline std::string missing_sizes(const std::string& array, std::span<const std::string> names) {
+  return (array.empty() ? "has neither 'size' nor 'metric' among its point data; name its array of lengths: FILE:ARRAY"
+                        : "has no array '" + array + "' among its point or cell data") +
+         arrays_there(names);
 }
 
 /// `array`: of the point data, else of the cell data; empty: one of kUsualSizes of the point data. All throw

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "io/foreign/cell_file.h"
 #include "io/foreign/triangulation_file.h"
 #include "io/hdf5/hdf5_open.h"
 
@@ -63,8 +64,11 @@ std::vector<double> read_hdf5(const std::string& path, const std::string& name, 
   std::optional<std::vector<double>> values;
   if (name.find('/') == std::string::npos) values = read_dataset(file, path, "/VTKHDF/PointData/" + name, expected);
   if (!values) values = read_dataset(file, path, name, expected);
+  const std::vector<std::string> names = values ? std::vector<std::string>() : names_in(file, "/VTKHDF/PointData");
   H5Fclose(file);
-  if (!values) fail(path, name, "is not in the file, neither as /VTKHDF/PointData/" + name + " nor by that path");
+  if (!values)
+    fail(path, name,
+         "is not in the file, neither as /VTKHDF/PointData/" + name + " nor by that path" + arrays_there(names));
   return *values;
 }
 

@@ -1,7 +1,9 @@
 // VTKHDF of other programs: an UnstructuredGrid in one part.
 #include <hdf5.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 
 #include "base/error.h"
@@ -59,7 +61,9 @@ class VtkhdfParser {
         add_groups(cells);
         return cells;
       }
-    fail(missing_sizes(array));
+    std::vector<std::string> names = names_in(file_, "/VTKHDF/PointData");
+    std::ranges::copy(names_in(file_, "/VTKHDF/CellData"), std::back_inserter(names));
+    fail(missing_sizes(array, names));
   }
 
  private:

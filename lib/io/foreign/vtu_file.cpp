@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <optional>
 #include <type_traits>
 
@@ -82,7 +83,7 @@ class VtuParser {
   std::vector<double> point_array(const std::string& name) {
     read_head();
     const auto array = find("PointData", name);
-    if (!array) fail("array '" + name + "' is not among the point data");
+    if (!array) fail("array '" + name + "' is not among the point data" + arrays_there(names({"PointData"})));
     return all_values<double>(*array);
   }
 
@@ -132,24 +133,41 @@ class VtuParser {
     return n;
   }
 
-  /// The array of a section; without a name its first.
-  std::optional<Array> find(const std::string& section, const std::string& name) const {
+  /// Calls `use(array)` for the arrays of a section until it returns true.
+  template <class Use>
+  void walk(const std::string& section, const Use& use) const {
     std::size_t at = xml_.find("<" + section);
     while (at != std::string_view::npos && at + 1 + section.size() < xml_.size() &&
            !ByteCursor::is_blank(xml_[at + 1 + section.size()]) && xml_[at + 1 + section.size()] != '>' &&
            xml_[at + 1 + section.size()] != '/')
       at = xml_.find("<" + section, at + 1);
-    if (at == std::string_view::npos) return std::nullopt;
+    if (at == std::string_view::npos) return;
     const std::size_t end = std::min(xml_.find("</" + section, at), xml_.size());
     while ((at = xml_.find("<DataArray", at)) < end) {
       const std::size_t close = xml_.find('>', at);
-      if (close >= end) break;
-      const std::string_view tag = xml_.substr(at, close - at);
-      if (name.empty() || attribute(tag, "Name") == name)
-        return Array{tag, xml_.substr(close + 1, xml_.find('<', close) - close - 1)};
+      if (close >= end) return;
+      if (use(Array{xml_.substr(at, close - at), xml_.substr(close + 1, xml_.find('<', close) - close - 1)})) return;
       at = close;
     }
-    return std::nullopt;
+  }
+
+  /// The array of a section; without a name its first.
+  std::optional<Array> find(const std::string& section, const std::string& name) const {
+    std::optional<Array> found;
+    walk(section, [&](const Array& array) {
+      if (name.empty() || attribute(array.tag, "Name") == name) found = array;
+      return found.has_value();
+    });
+    return found;
+  }
+  std::vector<std::string> names(std::initializer_list<const char*> sections) const {
+    std::vector<std::string> all;
+    for (const char* section : sections)
+      walk(section, [&](const Array& array) {
+        all.push_back(attribute(array.tag, "Name"));
+        return false;
+      });
+    return all;
   }
   Array require(const std::string& section, const std::string& name) const {
     const auto array = find(section, name);
@@ -304,7 +322,7 @@ class VtuParser {
     std::optional<Array> array;
     for (const char* usual : kUsualSizes)
       if (!array) array = find("PointData", name.empty() ? usual : name);
-    if (!array) fail(missing_sizes(name));
+    if (!array) fail(missing_sizes(name, names({"PointData", "CellData"})));
     return *array;
   }
 

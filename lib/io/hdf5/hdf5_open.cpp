@@ -103,6 +103,15 @@ std::optional<std::vector<std::string>> link_names(hid_t group, std::size_t most
   return names;
 }
 
+std::vector<std::string> names_in(hid_t file, const char* group) {
+  constexpr std::size_t kMost = 1000;
+  const hid_t opened = H5Gopen2(file, group, H5P_DEFAULT);
+  if (opened < 0) return {};
+  std::vector<std::string> names = link_names(opened, kMost).value_or(std::vector<std::string>());
+  H5Gclose(opened);
+  return names;
+}
+
 std::string link_defect(hid_t group, const std::string& name, Hdf5Origin origin) {
   H5L_info_t link{};
   if (H5Lget_info(group, name.c_str(), &link, H5P_DEFAULT) < 0) return "cannot be read";

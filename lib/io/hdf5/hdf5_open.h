@@ -20,6 +20,8 @@ hid_t open_hdf5(const std::string& path);
 /// Names of the links of a group, ascending. In one pass: asked for by number, HDF5 sorts all of them each time.
 /// nullopt: they cannot be read, or are more than `most`.
 std::optional<std::vector<std::string>> link_names(hid_t group, std::size_t most);
+/// Of the group of this path, for a message; empty where there is none, or it has more than 1000.
+std::vector<std::string> names_in(hid_t file, const char* group);
 
 /// What makes a link or the storage of a dataset lead out of the file, or need code from elsewhere; "" when nothing.
 /// Artifacts are plainer: hard links, contiguous data, no filters. Files of other programs may have soft links, chunks

@@ -25,6 +25,7 @@ TEST(Export, refuses_unknown_suffixes_before_writing) {
   TemporaryDirectory dir;
   for (const char* name : {"m.xyz", "m", "m.", "m.stl.gz"}) {
     EXPECT_ERROR(require_export_format(dir / name, {}), kUsage, "use one of .ascii.stl, .stl, .vtu");
+    EXPECT_ERROR(require_export_format(dir / name, {}), kUsage, ".csv, .eMesh, with st-export also .vtm");
     EXPECT_ERROR(export_mesh(dir / name, sample_mesh().mesh), kUsage, name);
   }
   EXPECT_ERROR(require_export_format("folder.stl/m", {}), kUsage, "unknown suffix ''");

@@ -200,8 +200,9 @@ TEST(ForeignDamage, of_lengths_at_nodes_is_told_apart) {
     EXPECT_EQ(read_node_lengths(path, "good", 4), (std::vector<double>{1, 2, 3, 4}));
     EXPECT_ERROR(read_node_lengths(path, "good", 5), kInput, "good' has 4 values, the mesh 5 nodes");
   }
-  EXPECT_ERROR(read_node_lengths(vtu, "none", 4), kInput, "array 'none' is not among the point data");
+  EXPECT_ERROR(read_node_lengths(vtu, "none", 4), kInput, "array 'none' is not among the point data; there are 'good'");
   EXPECT_ERROR(read_node_lengths(hdf, "none", 4), kInput, "array 'none' is not in the file");
+  EXPECT_ERROR(read_node_lengths(hdf, "none", 4), kInput, "nor by that path; there are 'endless', 'good', ");
   EXPECT_ERROR(read_node_lengths(hdf, "words", 4), kInput, "array 'words' cannot be read");
   EXPECT_ERROR(read_node_lengths(hdf, "negative", 4), kInput, "array 'negative' is -1.5 at node 2");
   EXPECT_ERROR(read_node_lengths(hdf, "zero", 4), kInput, "at node 0; lengths must be positive and finite");
