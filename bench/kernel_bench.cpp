@@ -14,7 +14,6 @@
 #include "mesh/quality.h"
 #include "meshing/face/face_mesher.h"
 #include "sizing/octree_field.h"
-#include "sizing/prolong.h"
 
 namespace {
 
@@ -162,14 +161,13 @@ std::unique_ptr<SizeField> make_octree_field(const Surface& s, double length) {
     }
   struct Storage {
     RasterOctree raster;
-    ProlongedLengths lengths;
+    std::vector<CellLength> cells;
   };
   const auto storage = std::make_shared<Storage>();
   storage->raster = build_octree(box, boxes);
-  const OctreeView octree = storage->raster.shape.view();
-  storage->lengths =
-      prolong(Neighbours(octree), storage->raster.stored_length, storage->raster.stored_cause, {0.2, length});
-  return std::make_unique<OctreeField>(OctreeFieldData{octree, storage->lengths.cells, storage->lengths.cause, 0.2, 1},
+  const auto most = static_cast<float>(length);
+  storage->cells.assign(storage->raster.shape.leaf_keys.size(), {most, {0, 0, 0}, most});
+  return std::make_unique<OctreeField>(OctreeFieldData{storage->raster.shape.view(), storage->cells, {}, 0.2, 1},
                                        storage);
 }
 

@@ -35,7 +35,6 @@
 #include "sizing/loop_tracer.h"
 #include "sizing/model_limits.h"
 #include "sizing/octree_field.h"
-#include "sizing/prolong.h"
 #include "sizing/raster_curve.h"
 #include "sizing/raster_face.h"
 #include "sizing/sample_seeds.h"
@@ -88,6 +87,20 @@ void time_queries(const OctreeField& field, const std::vector<RasterBox>& boxes)
   report("  (mean length {:.4g})\n", sum / kQueries / 3);
 }
 
+/// Of the samples of `boxes`, in the octree of `storage`, which gets cones and lengths.
+OctreeFieldData prolong_samples(const std::vector<RasterBox>& boxes, double largest, Storage& storage) {
+  const std::vector<LengthSample> samples = sorted_samples(boxes);
+  const std::vector<float> slope(samples.size(), static_cast<float>(kSlope));
+  const OctreeView octree = storage.raster.shape.view();
+  storage.cones = spread_cones(Neighbours(octree), samples, slope, largest, nullptr);
+  OctreeFieldData data{octree, {}, {}, kSlope, 1};
+  data.set_cones(storage.cones, largest);
+  storage.lengths = lengths_at_centers(data, storage.cones.at_center);
+  data.cells = storage.lengths.cells;
+  data.cause = storage.lengths.cause;
+  return data;
+}
+
 void time_octree(const Box3& root, const std::vector<RasterBox>& boxes, double far_length) {
   const auto storage = std::make_shared<Storage>();
   const Timer build_timer;
@@ -95,14 +108,13 @@ void time_octree(const Box3& root, const std::vector<RasterBox>& boxes, double f
   const double build = build_timer.seconds();
   const OctreeView octree = storage->raster.shape.view();
   const Timer prolong_timer;
-  storage->lengths =
-      prolong(Neighbours(octree), storage->raster.stored_length, storage->raster.stored_cause, {kSlope, far_length});
+  const OctreeFieldData data = prolong_samples(boxes, far_length, *storage);
   const double prolong_seconds = prolong_timer.seconds(), n = static_cast<double>(octree.n_leaves());
   report("octree  {} boxes -> {} cells in {:.3f} s ({:.2g} cells/s), {:.1f} bytes per cell\n", boxes.size(),
          octree.n_leaves(), build, n / build,
          sizeof(std::uint64_t) + 1 + 32.0 / 7 + sizeof(CellLength) + sizeof(std::int32_t));
   report("prolong {:.3f} s ({:.2g} cells/s)\n", prolong_seconds, n / prolong_seconds);
-  time_queries(OctreeField({octree, storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage), boxes);
+  time_queries(OctreeField(data, storage), boxes);
 }
 
 /// Samples of a model at default options.
@@ -149,21 +161,7 @@ void bench_accuracy(const std::string& path) {
     const std::vector<RasterBox> boxes = sample_boxes(model, roles, cell_per_length);
     const auto storage = std::make_shared<Storage>();
     storage->raster = build_octree(model.tables().box(), boxes);
-    std::vector<LengthSample> samples;
-    RasterOctree& raster = storage->raster;
-    if (cell_per_length > kStoredByCellUpTo) {
-      samples = sorted_samples(boxes);
-      forget_samples(raster);
-    }
-    const Neighbours neighbours(raster.shape.view());
-    storage->lengths = prolong(neighbours, raster.stored_length, raster.stored_cause, {kSlope, largest});
-    OctreeFieldData data{storage->raster.shape.view(), storage->lengths.cells, storage->lengths.cause, kSlope, 1};
-    if (!samples.empty()) {
-      const std::vector<float> slope(samples.size(), static_cast<float>(kSlope));
-      storage->cones = spread_cones(neighbours, samples, slope, largest, nullptr);
-      data.set_cones(storage->cones, largest);
-    }
-    const OctreeField field(data, storage);
+    const OctreeField field(prolong_samples(boxes, largest, *storage), storage);
     std::vector<double> errors;
     double bias = 0;
     for (int i = 0; i < kPoints; ++i) {

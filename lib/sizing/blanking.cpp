@@ -84,9 +84,8 @@ struct LinkRows {
 class Blanker {
  public:
   Blanker(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
-          std::span<const Triangle> open_edges, LinkKind kind)
+          std::span<const Triangle> open_edges)
       : open_edges_(open_edges),
-        kind_(kind),
         octree_(neighbours.octree()),
         neighbours_(neighbours),
         surface_(surface),
@@ -573,18 +572,14 @@ class Blanker {
 
   // --- links ---
 
-  /// Leaves that touch a cut cell or are cut, ascending.
+  /// Leaves that touch a cut cell at a face or are cut, ascending.
   std::vector<std::int32_t> near_leaves() const {
     std::vector<std::uint8_t> is_near(octree_.leaf_keys.size(), 0);
     const auto mark = [&](std::int32_t leaf) { std::atomic_ref(is_near[leaf]).store(1, std::memory_order_relaxed); };
     parallel_for(cut_.leaf.size(), kCellsPerPiece, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         mark(cut_.leaf[i]);
-        const auto mark_other = [&](std::int32_t other, const CellStep&) { mark(other); };
-        if (kind_ == LinkKind::kAll)
-          neighbours_.for_each(cut_.leaf[i], mark_other);
-        else
-          neighbours_.for_each_across_face(cut_.leaf[i], mark_other);
+        neighbours_.for_each_across_face(cut_.leaf[i], [&](std::int32_t other, const CellStep&) { mark(other); });
       }
     });
     std::vector<std::int32_t> near;
@@ -593,7 +588,7 @@ class Blanker {
     return near;
   }
 
-  /// Rows of all sites that touch a cut cell or are cut; those of second parts follow all others.
+  /// Rows of all sites that touch a cut cell at a face or are cut; those of second parts follow all others.
   void link_sites() {
     const std::int32_t n = octree_.n_leaves(), n_split = static_cast<std::int32_t>(result_.split_leaf.size());
     require_countable(result_.colour.size() + result_.split_leaf.size(), "cells and parts of cells");
@@ -621,14 +616,13 @@ class Blanker {
   }
 
   void add_row(std::int32_t site, std::int32_t leaf, int part, Scratch& scratch, LinkRows& rows) const {
-    OpenLinks open = open_links(leaf, part, kind_, scratch);
-    if (kind_ != LinkKind::kAll && (open.to_first | open.to_second) == 0)
-      open = open_links(leaf, part, LinkKind::kAll, scratch);
+    const OpenLinks across_faces = open_links(leaf, part, true, scratch);
+    const bool has_any = (across_faces.to_first | across_faces.to_second) != 0;
     rows.site.push_back(site);
-    rows.links.push_back(open);
+    rows.links.push_back(has_any ? across_faces : open_links(leaf, part, false, scratch));
   }
 
-  OpenLinks open_links(std::int32_t leaf, int part, LinkKind kind, Scratch& scratch) const {
+  OpenLinks open_links(std::int32_t leaf, int part, bool across_faces, Scratch& scratch) const {
     OpenLinks open;
     std::int32_t last = kNone;
     std::array<std::uint64_t, 2> last_open{};
@@ -639,11 +633,11 @@ class Blanker {
       open.to_second |= last_open[1] << n;
     };
     int n = 0;
-    if (kind == LinkKind::kAll)
-      neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { add(other, n++); });
-    else
+    if (across_faces)
       neighbours_.for_each_across_face_numbered(
           leaf, [&](std::int32_t other, const CellStep&, int of_all) { add(other, of_all); });
+    else
+      neighbours_.for_each(leaf, [&](std::int32_t other, const CellStep&) { add(other, n++); });
     return open;
   }
 
@@ -724,7 +718,6 @@ class Blanker {
   };
 
   const std::span<const Triangle> open_edges_;
-  const LinkKind kind_;
   const OctreeView& octree_;
   const Neighbours& neighbours_;
   const SurfaceView& surface_;
@@ -763,8 +756,8 @@ std::vector<Triangle> find_open_edges(const SurfaceView& surface) {
 }
 
 Blanking blank_cells(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
-                     std::span<const Triangle> open_edges, LinkKind kind) {
-  return Blanker(neighbours, surface, side, open_edges, kind).run();
+                     std::span<const Triangle> open_edges) {
+  return Blanker(neighbours, surface, side, open_edges).run();
 }
 
 }  // namespace st

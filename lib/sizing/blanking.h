@@ -15,12 +15,6 @@ enum class CellColour : std::uint8_t { kFlow = 0, kCut = 1, kBlanked = 2 };
 /// Which side of a closed surface is no flow.
 enum class BlankSide { kInside, kOutside };
 
-/// Which links of cells are asked for.
-enum class LinkKind {
-  kAll,
-  kAcrossFaces  ///< across faces of cells; across edges and corners, too, where none of these is open
-};
-
 /// A surface that separates flow from no flow, normals out of its inside.
 struct BlankSurface {
   std::vector<Vec3> points;
@@ -52,7 +46,7 @@ struct Blanking {
   std::vector<std::int32_t> split_leaf;  ///< [n_split] ascending
   std::vector<CellSplit> split;          ///< [n_split]
   std::vector<std::int32_t> site_links;  ///< [n_leaves + n_split] row of `links`; kNone: all links are open, to first
-                                         ///< parts
+                                         ///< parts. In rows those across faces alone, unless none of these is open
   std::vector<OpenLinks> links;
   // Not stored:
   std::vector<std::int32_t> cut_index;  ///< [n_leaves] kNone: not cut
@@ -69,10 +63,9 @@ struct Blanking {
 /// passes between flow and flow where the surface does not lie between, from flow to what is blanked, never from there
 /// to flow. Where the surface separates the flow in a cell, the cell has two parts (more are taken together).
 /// Precondition: oriented surface (normals out of its inside), closed but for `open_edges`: where these lie cells count
-/// as not cut, and if there are any nothing is blanked. Local; a few microseconds per cut cell. Where `kind` leaves out
-/// links of a cell with a row of `links`, these are not open.
+/// as not cut, and if there are any nothing is blanked. Local; a few microseconds per cut cell.
 Blanking blank_cells(const Neighbours& neighbours, const SurfaceView& surface, BlankSide side,
-                     std::span<const Triangle> open_edges = {}, LinkKind kind = LinkKind::kAll);
+                     std::span<const Triangle> open_edges = {});
 
 /// Edges along which not as many triangles run one way as the other, each as a triangle with a repeated node.
 /// Precondition: triangles that touch have common nodes.

@@ -67,13 +67,6 @@ struct ConeStretch {
 
   ConeStretch() = default;
   explicit ConeStretch(const SampleStretch& of_sample);
-
-  /// Of a cone of `length` what it asks for along `unit`, a unit vector.
-  float length_in(const float (&unit)[3], float length) const {
-    if (!(along > length)) return length;
-    const float part = unit[0] * direction[0] + unit[1] * direction[1] + unit[2] * direction[2], ratio = length / along;
-    return length / std::sqrt(1 - std::min(1.0F, part * part) * (1 - ratio * ratio));
-  }
 };
 
 static_assert(sizeof(Cone) == 13 * sizeof(float));

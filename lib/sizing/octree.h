@@ -103,12 +103,11 @@ struct RasterOctree {
   std::vector<std::int32_t> stored_cause;  ///< [n_leaves] its cause (the smallest of equal lengths'), kNone: none
 };
 
-/// Length inside one leaf: min(length + gradient . (x - centre), upper).
+/// Length of one leaf.
 struct CellLength {
   float length = 0;               ///< at the centre, model unit, > 0
-  float gradient[3] = {0, 0, 0};  ///< change of length per distance
-  float upper = 0;  ///< bound of all lengths in the leaf: the largest of it and its neighbours, or a sample's; model
-                    ///< unit; negated where a surface splits the leaf
+  float gradient[3] = {0, 0, 0};  ///< change of length per distance there
+  float upper = 0;                ///< bound of all lengths in the leaf, model unit; negated where a surface splits it
 
   /// At the centre, the bound taken.
   float at_centre() const { return std::min(length, std::abs(upper)); }

@@ -69,7 +69,8 @@ Vec3 OctreeField::from_center(std::int32_t leaf, const Place& x) const {
   return {from(x.on_grid.x), from(x.on_grid.y), from(x.on_grid.z)};
 }
 
-double OctreeField::cone_length(std::int32_t site, const Place& x, std::int32_t* winner) const {
+double OctreeField::length_at(std::int32_t site, const Place& x, std::int32_t* winner) const {
+  if (data_.cones.empty()) return static_cast<double>(cell_of(site).at_centre());
   const SplitPlace place(x.from_lo);
   const std::int32_t first = data_.cones.first[site];
   const std::int32_t* const own = data_.cones.of_site.data() + first;
@@ -161,11 +162,10 @@ LocalSize OctreeField::local_on(Vec3 xyz, Vec3 normal, int& hint) const {
 
 OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) const {
   Answer answer;
-  const double length = data_.cones.empty() ? cell_length(site, x) : cone_length(site, x, &answer.cone);
-  const std::int32_t n = data_.octree.n_leaves(), leaf = leaf_of(site);
+  const double length = length_at(site, x, &answer.cone);
   double least = length;
   if (data_.sources)
-    least = is_inside(x) ? data_.sources->size_below(x.xyz, length, sources_near(leaf), answer.source)
+    least = is_inside(x) ? data_.sources->size_below(x.xyz, length, sources_near(leaf_of(site)), answer.source)
                          : data_.sources->size_below(x.xyz, length, &answer.source);
   answer.length = scaled(least);
   if (answer.source != kNone) {
@@ -176,11 +176,6 @@ OctreeField::Answer OctreeField::answer_at(std::int32_t site, const Place& x) co
     const Cone& c = data_.cones.cone[answer.cone];
     answer.cause = data_.cones.cause[answer.cone];
     answer.gradient = data_.scale * c.slope * normalized(c.way_to(x.from_lo));
-  } else if (data_.cones.empty()) {
-    const CellLength& c = cell_of(site);
-    answer.cause = site < n ? data_.cause[site] : data_.second_cause[site - n];
-    const bool is_cut_off = length >= std::abs(static_cast<double>(c.upper)) || data_.scale * length <= min_size_;
-    if (!is_cut_off) answer.gradient = data_.scale * Vec3{c.gradient[0], c.gradient[1], c.gradient[2]};
   }
   return answer;
 }
@@ -240,7 +235,8 @@ SizeExplanation OctreeField::explain(Vec3 xyz, Vec3 normal) const {
   result.leaf = leaf;
   result.level = data_.octree.leaf_levels[leaf];
   result.cell_edge = data_.octree.cell_edge(result.level);
-  result.has_origin = answer.cone != kNone || answer.source != kNone;
+  result.origin = xyz;
+  result.origin_length = answer.length;
   if (answer.cone != kNone) {
     const Cone& c = data_.cones.cone[answer.cone];
     result.origin = xyz - c.way_to(x.from_lo);

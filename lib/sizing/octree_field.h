@@ -13,17 +13,25 @@
 #include "sizing/cone_kernels.h"
 #include "sizing/cones.h"
 #include "sizing/octree.h"
-#include "sizing/prolong.h"
 #include "sizing/size_field.h"
 #include "sizing/source_tree.h"
 
 namespace st {
 
+/// Lengths at the centres of all cells. Arrays are [n_leaves].
+struct ProlongedLengths {
+  std::vector<CellLength> cells;
+  std::vector<std::int32_t> cause;              ///< whose sample length it goes back to; kNone: the largest length
+  std::vector<CellLength> second_cells = {};    ///< [n_split] of the second parts of cells that a surface splits; their
+                                                ///< `upper` is negated in `cells`
+  std::vector<std::int32_t> second_cause = {};  ///< [n_split]
+};
+
 /// Arrays and numbers of a prolonged octree.
 struct OctreeFieldData {
   OctreeView octree;
   std::span<const CellLength> cells;    ///< [n_leaves]
-  std::span<const std::int32_t> cause;  ///< [n_leaves]; see pack_cause
+  std::span<const std::int32_t> cause;  ///< [n_leaves] of `cells`; see pack_cause
   double slope = 0;                     ///< largest change of length per distance
   double scale = 1;                     ///< multiplies every answer
   /// Leaves that a surface splits (Blanking), [n_split] each; `cells` and `cause` hold their first part.
@@ -32,7 +40,7 @@ struct OctreeFieldData {
   std::span<const CellLength> second_cells = {};
   std::span<const std::int32_t> second_cause = {};
   double max_aspect = 1;  ///< largest length along a direction over the length
-  ConeView cones = {};    ///< where there are any, they tell the lengths, and `cells` only which leaves are split
+  ConeView cones = {};    ///< they tell the lengths; without any, each leaf has one length, that of `cells`
   double max_length = 0;  ///< with cones: where nothing asks for less
   const SourceTree* sources = nullptr;  ///< in the octree's frame, before scale; asked everywhere. Null: none
 
@@ -49,25 +57,23 @@ struct SizeExplanation {
   Vec3 direction;
   Vec3 gradient;
   std::int32_t cause = kNone;  ///< see pack_cause
-  bool has_origin = false;     ///< the length goes back to a sample: its place and length
-  Vec3 origin;
-  double origin_length = 0;
+  Vec3 origin;                 ///< the place of the sample or source that it goes back to; of the largest length: here
+  double origin_length = 0;    ///< what is asked for there
 };
 
 /// By the cones of `data`: lengths, gradients and causes at the centres of all sites, before scale and without sources,
-/// and no length in a leaf above its `upper`. What `cells` are then; those of `data` are not looked at. `teller`
+/// and no length in a leaf above its `upper`. What `cells` are; those of `data` are not looked at. `teller`
 /// [n_sites]: the cones that tell the lengths there, see ConeTable.
 ProlongedLengths lengths_at_centers(const OctreeFieldData& data, std::span<const std::int32_t> teller);
 
-/// h(x) is the smallest of what the octree tells and of what the sources ask for at x, times scale. The octree tells,
-/// with cones: the smallest of length + slope * distance over the cones of the site at x, and of the largest length;
-/// beyond the root cube by the cones of the nearest leaf. Without: min(length + gradient . (x - centre), upper) of the
-/// leaf at x. Where a surface splits the leaf, that of the part that x lies in; the smaller one when that is not
-/// certain.
+/// h(x) is the smallest of what the octree tells and of what the sources ask for at x, times scale. The octree tells
+/// the smallest of length + slope * distance over the cones of the site at x, and of the largest length; beyond the
+/// root cube by the cones of the nearest leaf. Where a surface splits the leaf, the site is the part that x lies in;
+/// the smaller length counts when that is not certain.
 class OctreeField : public SizeField {
  public:
-  /// `owner` keeps the arrays alive (vectors, a mapped artifact). Precondition: arrays as prolong() makes them. O(n):
-  /// looks for the smallest length, unless `min_length` (before scale) is known.
+  /// `owner` keeps the arrays alive (vectors, a mapped artifact). O(n): looks for the smallest length, unless
+  /// `min_length` (before scale) is known.
   OctreeField(const OctreeFieldData& data, std::shared_ptr<const void> owner, double min_length = 0);
 
   using SizeField::size;
@@ -121,23 +127,12 @@ class OctreeField : public SizeField {
   std::int32_t find_site(std::int32_t leaf, const Place& x) const;
   LocalSize local_in(std::int32_t site, const Place& x) const;
   LocalSize cone_local(std::int32_t site, const Place& x) const;
-  static double length_in(const CellLength& cell, Vec3 d) {
-    const double rise = cell.gradient[0] * d.x + cell.gradient[1] * d.y + cell.gradient[2] * d.z;
-    return std::min<double>(cell.length + rise, std::abs(cell.upper));
-  }
   const CellLength& cell_of(std::int32_t site) const {
     const std::int32_t n = data_.octree.n_leaves();
     return site < n ? data_.cells[site] : data_.second_cells[site - n];
   }
-  double cell_length(std::int32_t site, const Place& x) const {
-    return length_in(cell_of(site), from_center(leaf_of(site), x));
-  }
   /// Before scale. `winner` (may be null): the cone that tells it, or kNone.
-  double cone_length(std::int32_t site, const Place& x, std::int32_t* winner = nullptr) const;
-  /// Before scale.
-  double length_at(std::int32_t site, const Place& x) const {
-    return data_.cones.empty() ? cell_length(site, x) : cone_length(site, x);
-  }
+  double length_at(std::int32_t site, const Place& x, std::int32_t* winner = nullptr) const;
   double scaled(double length) const { return std::max(data_.scale * length, min_size_); }
   Answer answer_at(std::int32_t site, const Place& x) const;
   /// Before scale: the smallest of `length` at x in a leaf and of what sources ask for there; see SourceTree.

@@ -154,15 +154,6 @@ std::vector<LengthSample> merged_samples(std::vector<std::vector<LengthSample>> 
   return sorted.empty() ? std::vector<LengthSample>() : std::move(sorted.front());
 }
 
-void forget_samples(RasterOctree& octree) {
-  for (std::size_t leaf = 0; leaf < octree.stored_cause.size(); ++leaf) {
-    std::int32_t& cause = octree.stored_cause[leaf];
-    if (cause == kNone || (cause_kind(cause) != CauseKind::kEdge && cause_kind(cause) != CauseKind::kFace)) continue;
-    octree.stored_length[leaf] = std::numeric_limits<float>::infinity();
-    cause = kNone;
-  }
-}
-
 void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
                        const std::function<void(std::int32_t, std::int32_t)>& f) {
   constexpr std::size_t kPerPiece = 2'048;  // samples

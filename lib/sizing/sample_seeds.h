@@ -6,13 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "sizing/blanking.h"
 #include "sizing/octree.h"
-#include "sizing/prolong.h"
 
 namespace st {
-
-/// Up to this cell_per_length lengths are stored by cell; where cells are larger, samples keep their places.
-inline constexpr double kStoredByCellUpTo = 2;
 
 /// A raster box without half its edge.
 struct LengthSample {
@@ -39,8 +36,5 @@ std::vector<LengthSample> merged_samples(std::vector<std::vector<LengthSample>> 
 /// a blanked leaf also the parts beside it, for the surface may bulge a little into what is blanked.
 void for_each_own_site(const Neighbours& neighbours, std::span<const LengthSample> samples, const Blanking* blanking,
                        const std::function<void(std::int32_t, std::int32_t)>& f);
-
-/// Takes away the lengths that edges and faces store, where samples with their places tell them.
-void forget_samples(RasterOctree& octree);
 
 }  // namespace st

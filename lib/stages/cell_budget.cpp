@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kShare = 0.8;  // of the memory
 constexpr double kUnlimited = 1e30;
+constexpr double kMeasuredAt = 2;  // lengths per cell: what kRasterBytesPerCell stands for
 
 /// What a cell takes, bytes.
 struct HostMemory {
@@ -50,7 +51,7 @@ HostMemory memory_of_hosts(const Communicator& comm) {
 
 /// Cells that are larger are fewer, by the square on a surface, for as many samples.
 double raster_bytes_per_cell(const ModelLimits& limits) {
-  const double larger = std::max(1.0, limits.far.cell_per_length / kStoredByCellUpTo);
+  const double larger = std::max(1.0, limits.far.cell_per_length / kMeasuredAt);
   return kRasterBytesPerCell * larger * larger;
 }
 
@@ -60,9 +61,7 @@ double fitting_cells(const HostMemory& memory, const ModelLimits& limits) {
 }
 
 double bytes_per_sample(const ModelLimits& limits) {
-  const bool keeps_places = limits.far.cell_per_length > kStoredByCellUpTo;
-  return static_cast<double>(sizeof(RasterBox) + (limits.wants_gaps ? sizeof(GapPatch) : 0) +
-                             (keeps_places ? sizeof(RasterBox) + sizeof(LengthSample) : 0));
+  return static_cast<double>(2 * sizeof(RasterBox) + sizeof(LengthSample) + (limits.wants_gaps ? sizeof(GapPatch) : 0));
 }
 
 }  // namespace

@@ -29,16 +29,6 @@ void warn_of_holes(std::vector<FaceFailure> failures) {
                           counted(failures.size(), "face has", "faces have"), failures.front().face + 1));
 }
 
-/// Collective. Rank 0's cells on every rank; their lengths are constant in each, so that one number says all of a cell.
-void share_lengths(const Executor& executor, std::vector<CellLength>& cells) {
-  if (!executor.has_listeners()) return;
-  std::vector<float> lengths;
-  for (const CellLength& cell : cells) lengths.push_back(cell.length);
-  share(executor, lengths);
-  if (executor.is_root()) return;
-  for (const float length : lengths) cells.push_back({length, {0, 0, 0}, length});
-}
-
 /// The lengths of an octree, which grow beyond its box at the same slope: far fields may lie outside.
 class GrowingField : public SizeField {
  public:
@@ -76,16 +66,17 @@ SurfaceMesh joined(const ModelTables& t, const MeshResult& result) {
 
 bool has_coarse_surface(const ModelTables& tables) { return is_closed(tables, report_edge_uses(tables)); }
 
-std::vector<CellLength> prolong_openly(const RasterArtifact& raster) {
-  return prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length, raster.octree.stored_cause,
-                 {kSlope, raster.numbers.far_length, {}, false, true})
-      .cells;
+std::vector<float> prolong_openly(const RasterArtifact& raster) {
+  return prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length,
+                 {kSlope, raster.numbers.far_length});
 }
 
 BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, const RasterArtifact& raster,
-                                 std::vector<CellLength> cells, const std::vector<Strip>& strips, double seconds,
+                                 std::vector<float> lengths, const std::vector<Strip>& strips, double seconds,
                                  const Executor& executor) {
-  share_lengths(executor, cells);
+  if (executor.has_listeners()) share(executor, lengths);
+  std::vector<CellLength> cells;
+  for (const float length : lengths) cells.push_back({length, {0, 0, 0}, length});
   OctreeFieldData data;
   data.octree = raster.octree.shape.view();
   data.cells = cells;

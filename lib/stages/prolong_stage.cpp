@@ -180,23 +180,13 @@ Barrier find_barrier(const ProlongStageOptions& o, RasterArtifact& raster, const
           {blank.file}};
 }
 
-/// Where lengths may pass; the stored lengths get second parts.
-void blank(const Barrier& barrier, LinkKind kind, const Neighbours& neighbours, RasterOctree& octree,
-           Blanking& blanking) {
-  if (barrier.surface.triangles.empty()) return;
-  blanking = blank_cells(neighbours, barrier.surface.view(), barrier.surface.side,
-                         find_open_edges(barrier.surface.view()), kind);
+/// Where lengths may pass.
+Blanking blank(const Barrier& barrier, const Neighbours& neighbours) {
+  if (barrier.surface.triangles.empty()) return {};
+  const SurfaceView surface = barrier.surface.view();
+  Blanking blanking = blank_cells(neighbours, surface, barrier.surface.side, find_open_edges(surface));
   blanking.flow_along_normals = barrier.flow_along_normals;
-  add_second_parts(blanking, octree);
-}
-
-/// Slope of each cell; empty: o.slope everywhere.
-std::vector<float> cell_slopes(const ProlongStageOptions& o, const std::optional<SlopeSeeds>& seeds,
-                               const Neighbours& neighbours, const RasterArtifact& raster, const Blanking* blanking) {
-  if (!seeds) return {};
-  return spread_slopes(neighbours, raster.octree.stored_length,
-                       seeds->of_sites(neighbours.octree(), raster.octree.stored_cause, blanking),
-                       {o.slope, raster.numbers.far_length}, blanking);
+  return blanking;
 }
 
 /// [n_samples]
@@ -208,10 +198,12 @@ std::vector<float> sample_slopes(const ProlongStageOptions& o, const std::option
   return slope;
 }
 
-/// Leaves the largest length alone.
-void forget_walls(RasterArtifact& raster) {
-  raster.samples.clear();
-  forget_samples(raster.octree);
+/// Rasters of older versions had lengths in cells alone where cells were small.
+void require_samples(const ProlongStageOptions& o, const RasterArtifact& raster) {
+  const std::vector<std::int32_t>& causes = raster.octree.stored_cause;
+  if (raster.samples.empty() && std::ranges::count(causes, kNone) != std::ssize(causes))
+    throw Error(ExitCode::kInput,
+                o.raster + ": an older st-raster left out the places of its samples; run st-raster again");
 }
 
 /// Prolongs what the raster asks for; `sizing` gets shape, lengths, blanking and slope.
@@ -223,15 +215,13 @@ void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress
     slope_seeds.emplace(named, raster);
     for (const NamedSlope& s : named) sizing.slope = std::max(sizing.slope, s.slope);
   }
-  const bool has_cones = !raster.samples.empty();
-  if (has_cones) forget_samples(raster.octree);
   progress.step("neighbours", 0.1);
   const Neighbours neighbours(raster.octree.shape.view());
   progress.step(barrier.surface.triangles.empty() ? "samples" : "blanking", 0.2);
-  blank(barrier, has_cones ? LinkKind::kAcrossFaces : LinkKind::kAll, neighbours, raster.octree, sizing.blanking);
+  sizing.blanking = blank(barrier, neighbours);
   const Blanking* blanking = sizing.blanking.colour.empty() ? nullptr : &sizing.blanking;
   progress.step("lengths", 0.4);
-  if (has_cones) {
+  if (!raster.samples.empty()) {
     const std::vector<float> slope = sample_slopes(o, slope_seeds, raster.samples);
     const bool is_stretched = sizing.numbers.max_aspect > 1;
     SampleSites sites;
@@ -239,12 +229,10 @@ void make_lengths(const ProlongStageOptions& o, const Barrier& barrier, Progress
                                 is_stretched ? &sites : nullptr);
     if (is_stretched) add_stretch(neighbours.octree(), raster.samples, slope, sites, sizing.cones);
   } else {
-    const std::vector<float> slope = cell_slopes(o, slope_seeds, neighbours, raster, blanking);
-    sizing.lengths = prolong(neighbours, raster.octree.stored_length, raster.octree.stored_cause,
-                             {o.slope, raster.numbers.far_length, slope}, blanking);
+    sizing.cones.at_center.assign(raster.octree.shape.leaf_keys.size() + sizing.blanking.split.size(), kNone);
   }
   sizing.shape = std::move(raster.octree.shape);
-  if (has_cones) sizing.lengths = lengths_at_centers(sizing.field_data(nullptr), sizing.cones.at_center);
+  sizing.lengths = lengths_at_centers(sizing.field_data(nullptr), sizing.cones.at_center);
 }
 
 /// A size field and what it requires of each group.
@@ -313,7 +301,10 @@ ProlongedSizes prolong_raster(const ProlongStageOptions& o, Progress& progress, 
   sizing.numbers = raster.numbers;
   Json options = octree_options(o, raster);
   const Barrier barrier = o.only ? Barrier{} : find_barrier(o, raster, moved.motion.inverse());
-  if (o.only) forget_walls(raster);
+  if (o.only)
+    raster.samples.clear();
+  else
+    require_samples(o, raster);
   make_lengths(o, barrier, progress, raster, sizing);
   sizing.model = std::move(raster.model);
   sizing.header = raster.header;

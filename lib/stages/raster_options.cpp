@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "base/required_unit.h"
 #include "base/text.h"
-#include "sizing/sample_seeds.h"
 
 namespace st {
 namespace {
@@ -128,12 +127,5 @@ std::string wing_options(const RasterStageOptions& o) {
 }
 
 bool asks_for_wings(const RasterStageOptions& o) { return o.asks_for_wings || !wing_options(o).empty(); }
-
-void require_places(const RasterStageOptions& o, const ModelLimits& limits) {
-  if (limits.max_aspect > 1 && o.cell_per_length <= kStoredByCellUpTo)
-    throw Error(ExitCode::kUsage,
-                fmt::format("--max-aspect {:g} needs --cell-per-length above {:g}: smaller cells keep no directions",
-                            limits.max_aspect, kStoredByCellUpTo));
-}
 
 }  // namespace st

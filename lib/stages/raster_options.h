@@ -39,7 +39,4 @@ SamplingLimits resolve_limits(const RasterStageOptions& o, const ModelTables& t,
 std::string wing_options(const RasterStageOptions& o);
 bool asks_for_wings(const RasterStageOptions& o);
 
-/// Throws Error(kUsage) for stretch in cells that keep no directions.
-void require_places(const RasterStageOptions& o, const ModelLimits& limits);
-
 }  // namespace st

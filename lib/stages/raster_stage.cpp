@@ -232,10 +232,10 @@ class RasterRun {
     artifact_.numbers = {limits_.min_length, wall_.max_length,          limits_.far_length, o_.alpha_deg,
                          o_.cell_per_length, roles_.reference_diagonal, limits_.max_aspect};
     const bool has_surface = !o_.no_surface && has_coarse_surface(in_.model.tables());
-    std::vector<CellLength> cells;  // on rank 0
+    std::vector<float> open_lengths;  // on rank 0
     const auto meanwhile = [&] {
       artifact_.samples = merged_samples(std::move(samples));
-      if (has_surface) cells = prolong_openly(artifact_);
+      if (has_surface) open_lengths = prolong_openly(artifact_);
     };
     artifact_.model.faces = locate_faces(sampled(), artifact_.octree.shape, meanwhile, trace_, counts_.n_failures);
     times_.end("faces");
@@ -243,7 +243,7 @@ class RasterRun {
     progress.step("surface", 0.7);
     if (has_surface)
       artifact_.surface =
-          make_coarse_surface(in_.model, roles_, artifact_, std::move(cells), strips_, o_.time_limit, trace_);
+          make_coarse_surface(in_.model, roles_, artifact_, std::move(open_lengths), strips_, o_.time_limit, trace_);
     times_.end("surface");
     trace_.begin_phase("write");
     times_.gather(comm_);
@@ -301,7 +301,6 @@ class RasterRun {
     if (comm_.is_root()) limits_ = find_limits(o_, in_.model, roles_, bases_, {wall_, in_.rules}, wings_);
     limits_.edge_is_smooth = std::move(is_smooth);
     share_limits(trace_, limits_);
-    require_places(o_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
     require_cells(least_cells(in_.model.tables(), limits_), budget_.max_cells);
     limit_samples(budget_.max_samples, limits_);
@@ -325,8 +324,7 @@ class RasterRun {
     const Box3 root = choose_octree_box(box, in_.model.tables().wall_box(), boxes, limits_.far_length, comm_);
     artifact_.octree = build_common_octree(root, boxes, budget_.max_cells, comm_);
     counts_.depth = gather_depth_limit(find_depth_limit(root, boxes), comm_);
-    std::vector<std::vector<LengthSample>> lengths;
-    if (o_.cell_per_length > kStoredByCellUpTo) lengths = gather_samples(boxes, origin_of_places(box), comm_);
+    std::vector<std::vector<LengthSample>> lengths = gather_samples(boxes, origin_of_places(box), comm_);
     times_.end("octree");
     return lengths;
   }

@@ -18,7 +18,6 @@
 #include "io/file/text_file.h"
 #include "io/hdf5/sizing_artifact.h"
 #include "sizing/near_faces.h"
-#include "sizing/size_origin.h"
 #include "stages/size_tally.h"
 
 namespace st {
@@ -99,7 +98,6 @@ GroupSizes sizes_of_faces(const std::string& name, const std::vector<std::uint8_
 struct PointSize {
   Vec3 x;
   SizeExplanation why;
-  SizeOrigin origin;  ///< of the cause, as the model is
   std::string cause;
   bool is_inside;  ///< the octree's box
   double slope;
@@ -113,19 +111,9 @@ Vec3 normal_at(const std::string& artifact, const OctreeField& field, Vec3 x) {
 }
 
 PointSize find_size(const std::string& artifact, const OctreeField& field, Vec3 x) {
-  const Similarity frame = field.frame();
-  PointSize p{x, field.explain(x, normal_at(artifact, field, x)), {}, "", false, field.slope()};
-  if (p.why.has_origin) {
-    p.origin.xyz = p.why.origin;
-    p.origin.length = p.why.origin_length;
-  } else {
-    p.origin = find_origin(field.data(), Neighbours(field.data().octree), p.why.leaf);
-    p.origin.xyz = frame(p.origin.xyz);
-    p.origin.length *= frame.scale;
-  }
-  p.cause = cause_text(read_cause_names(artifact), p.why.cause);
-  p.is_inside = is_inside(field.data().octree, frame.inverse()(x));
-  return p;
+  const SizeExplanation why = field.explain(x, normal_at(artifact, field, x));
+  const bool is_in_box = is_inside(field.data().octree, field.frame().inverse()(x));
+  return {x, why, cause_text(read_cause_names(artifact), why.cause), is_in_box, field.slope()};
 }
 
 /// `unit`: "" or " mm".
@@ -139,13 +127,13 @@ std::string size_text(const PointSize& p, const std::string& unit) {
       fmt::format("  gradient  {}, {:.3g} along it (slope {:g})\n", to_text(why.gradient), norm(why.gradient), p.slope);
   text += fmt::format("  cause     {}", p.cause);
   if (why.cause != kNone)
-    text += fmt::format(", which requires {:.6g}{} near {}, {:.4g}{} away", p.origin.length, unit,
-                        to_text(p.origin.xyz), distance(p.x, p.origin.xyz), unit);
+    text += fmt::format(", which requires {:.6g}{} near {}, {:.4g}{} away", why.origin_length, unit,
+                        to_text(why.origin), distance(p.x, why.origin), unit);
   return text + fmt::format("\n  cell      {}, level {}, edge {:.6g}{}", why.leaf + 1, why.level, why.cell_edge, unit);
 }
 
 Json size_json(const std::string& artifact, const PointSize& p) {
-  const double away = distance(p.x, p.origin.xyz);
+  const double away = distance(p.x, p.why.origin);
   return {{"tool", "st-info"},
           {"artifact", artifact},
           {"xyz", to_json(p.x)},
@@ -155,7 +143,7 @@ Json size_json(const std::string& artifact, const PointSize& p) {
           {"gradient", to_json(p.why.gradient)},
           {"slope", p.slope},
           {"cause", p.cause},
-          {"origin", {{"length", p.origin.length}, {"xyz", to_json(p.origin.xyz)}, {"distance", away}}},
+          {"origin", {{"length", p.why.origin_length}, {"xyz", to_json(p.why.origin)}, {"distance", away}}},
           {"cell", {{"id", p.why.leaf + 1}, {"level", p.why.level}, {"edge", p.why.cell_edge}}}};
 }
 

@@ -66,16 +66,12 @@ std::vector<NamedSlope> parse_slopes(const std::string& text) {
 }
 
 SlopeSeeds::SlopeSeeds(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster)
-    : raster_shape_(raster.octree.shape),
-      of_face_(face_slopes(slopes, raster)),
-      of_edge_(raster.model.edge_name.size(), 0),
-      of_leaf_(raster.octree.stored_cause.size(), 0) {
+    : of_face_(face_slopes(slopes, raster)), of_edge_(raster.model.edge_name.size(), 0) {
   const auto lower = [](double& slope, double other) { slope = slope > 0 ? std::min(slope, other) : other; };
   for (std::int32_t f = 0; f < raster.model.faces.n_faces(); ++f) {
     if (!(of_face_[f] > 0)) continue;
     for (std::int64_t i = raster.model.faces.offsets[f]; i < raster.model.faces.offsets[f + 1]; ++i) {
-      const std::int32_t leaf = raster.model.faces.leaf[i], cause = raster.octree.stored_cause[leaf];
-      lower(of_leaf_[leaf], of_face_[f]);
+      const std::int32_t cause = raster.octree.stored_cause[raster.model.faces.leaf[i]];
       if (cause != kNone && cause_kind(cause) == CauseKind::kEdge) lower(of_edge_[cause_id(cause)], of_face_[f]);
     }
   }
@@ -85,18 +81,6 @@ double SlopeSeeds::of_cause(std::int32_t cause) const {
   if (cause == kNone) return 0;
   if (cause_kind(cause) == CauseKind::kFace) return of_face_[cause_id(cause)];
   return cause_kind(cause) == CauseKind::kEdge ? of_edge_[cause_id(cause)] : 0;
-}
-
-std::vector<float> SlopeSeeds::of_sites(const OctreeView& octree, std::span<const std::int32_t> stored_cause,
-                                        const Blanking* blanking) const {
-  const OctreeView raster = raster_shape_.view();
-  std::vector<float> seeds;
-  for (std::int32_t site = 0; site < static_cast<std::int32_t>(stored_cause.size()); ++site) {
-    const std::int32_t leaf = site < octree.n_leaves() ? site : blanking->split_leaf[site - octree.n_leaves()];
-    const double own = of_cause(stored_cause[site]), crossing = of_leaf_[raster.find_leaf(octree.leaf_keys[leaf])];
-    seeds.push_back(static_cast<float>(own > 0 && crossing > 0 ? std::min(own, crossing) : std::max(own, crossing)));
-  }
-  return seeds;
 }
 
 }  // namespace st

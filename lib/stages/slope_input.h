@@ -20,19 +20,14 @@ std::vector<NamedSlope> parse_slopes(const std::string& text);
 /// Where the slopes of named faces start.
 class SlopeSeeds {
  public:
-  /// Throws Error(kUsage) for a name that no face, group or part has. `raster`: before it is refined or blanked.
+  /// Throws Error(kUsage) for a name that no face, group or part has.
   SlopeSeeds(const std::vector<NamedSlope>& slopes, const RasterArtifact& raster);
 
-  /// [n_sites] of `octree` (the raster's, or refined from it): the smallest slope of the named faces that pass through
-  /// the leaf or cause its length, or whose cells take their lengths from the edge that causes it; 0: there is none.
-  std::vector<float> of_sites(const OctreeView& octree, std::span<const std::int32_t> stored_cause,
-                              const Blanking* blanking) const;
   /// Of the named face that is the cause, or whose cells take their lengths from the edge that is; 0: none.
   double of_cause(std::int32_t cause) const;
 
  private:
-  OctreeShape raster_shape_;
-  std::vector<double> of_face_, of_edge_, of_leaf_;  // 0: not named
+  std::vector<double> of_face_, of_edge_;  // 0: not named
 };
 
 }  // namespace st

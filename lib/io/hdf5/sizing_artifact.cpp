@@ -104,6 +104,13 @@ void require_cones(const Hdf5Reader& file, const OctreeFieldData& data) {
   require_site_cones(file, kFirstAlong, kSiteAlong, data, data.cones.first_along, data.cones.along_of_site);
 }
 
+/// Without cones there is one length everywhere; older versions told others by cells.
+void require_no_cause(const Hdf5Reader& file, std::span<const std::int32_t> causes) {
+  if (std::ranges::count(causes, kNone) != std::ssize(causes))
+    throw Error(ExitCode::kInput,
+                file.path() + ": an older st-prolong made it without cones; run st-raster and st-prolong again");
+}
+
 /// Slope and scale of a sizing.
 std::pair<double, double> read_slope_and_scale(const Hdf5Reader& file) {
   const double slope = file.double_attribute(kSizing, "slope"), scale = file.double_attribute(kSizing, "scale");
@@ -180,7 +187,10 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   require_cells(file, kCell, data.cells);
   require_split(file, data.split_leaf, data.split, data.cells.size());
   require_cells(file, kSplitCell, data.second_cells);
-  if (file.has(kCone)) map_cones(file, *mapped, data);
+  if (file.has(kCone))
+    map_cones(file, *mapped, data);
+  else
+    require_no_cause(file, data.cause);
   const std::shared_ptr<const SourceTree> sources = read_sources(file).tree();
   mapped->owners.push_back(sources);
   data.sources = sources.get();
@@ -301,6 +311,8 @@ SizingArtifact read_sizing(const std::string& path) {
       sizing.cones.along_of_site = file.read<std::int32_t>(kSiteAlong);
     }
     require_cones(file, sizing.field_data(nullptr));
+  } else {
+    require_no_cause(file, sizing.lengths.cause);
   }
   sizing.face_weight = read_face_weight(file);
   sizing.sources = read_sources(file);

@@ -11,7 +11,6 @@
 #include "sizing/face_cells.h"
 #include "sizing/octree.h"
 #include "sizing/octree_field.h"
-#include "sizing/prolong.h"
 #include "sizing/sample_seeds.h"
 #include "sizing/source_set.h"
 #include "sizing/wing_record.h"
@@ -72,8 +71,7 @@ struct RasterArtifact {
   ArtifactHeader header;
   SizingNumbers numbers;
   RasterOctree octree;
-  std::vector<LengthSample> samples;  ///< all samples, where cell_per_length is larger than 2; else empty.
-                                      ///< Rounded from model.faces.origin
+  std::vector<LengthSample> samples;  ///< all samples; rounded from model.faces.origin
   BlankSurface surface;               ///< coarse triangles of a closed model; empty: not closed
   SizedModel model;
   std::int64_t n_not_sampled = 0;  ///< faces and batches of edges that could not be sampled; > 0: the raster is
@@ -90,8 +88,7 @@ struct SizingArtifact {
                      ///< are as before
   OctreeShape shape;
   ProlongedLengths lengths;
-  ConeTable cones;    ///< tell the lengths; `lengths` are those at the leaves' centres then. Empty: `lengths`
-                      ///< tell them
+  ConeTable cones;    ///< tell the lengths; `lengths` are those at the leaves' centres. Empty: one length everywhere
   SourceSet sources;  ///< count besides, everywhere
   Blanking blanking;  ///< colours and splits; empty: no surface blanks anything. Links are not stored
   SizedModel model;

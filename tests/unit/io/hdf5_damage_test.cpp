@@ -260,9 +260,11 @@ TEST(Hdf5Damage, of_the_place_of_an_array_is_refused) {
 template <class ArtifactKind>
 using ArtifactBreaks = std::vector<std::pair<const char*, std::function<void(ArtifactKind&)>>>;
 
-/// With two cells split by a surface, and moved.
+/// Of one length, with two cells split by a surface, and moved.
 SizingArtifact split_sizing() {
   SizingArtifact sizing = sample_sizing();
+  sizing.cones = {};
+  sizing.lengths.cause.assign(sizing.lengths.cause.size(), kNone);
   sizing.blanking.colour.assign(sizing.lengths.cells.size(), CellColour::kFlow);
   sizing.blanking.split_leaf = {3, 7};
   sizing.blanking.split.assign(2, {{0, 0, 1}, 0, 0});

@@ -38,12 +38,14 @@ inline SizingArtifact sample_sizing() {
   sizing.numbers = raster.numbers;
   sizing.slope = 0.2;
   sizing.scale = 1.5;
-  sizing.lengths = prolong(Neighbours(raster.octree.shape.view()), raster.octree.stored_length,
-                           raster.octree.stored_cause, {0.2, 0.2});
+  const std::vector<float> slope(raster.samples.size(), 0.2F);
+  const Neighbours neighbours(raster.octree.shape.view());
+  sizing.cones = spread_cones(neighbours, raster.samples, slope, raster.numbers.far_length, nullptr);
   sizing.face_weight = {12.5, 0};
   sizing.model = raster.model;
   sizing.source_name = {"wake"};
   sizing.shape = raster.octree.shape;
+  sizing.lengths = lengths_at_centers(sizing.field_data(nullptr), sizing.cones.at_center);
   sizing.sources.slope = 0.2;
   return sizing;
 }

@@ -161,8 +161,7 @@ TEST_F(SizingArtifacts, mapped_field_answers_like_the_one_in_memory) {
   const SizingArtifact sizing = sample_sizing();
   write_sizing(file("a.hdf"), sizing);
   const MappedSizing mapped = map_sizing(file("a.hdf"));
-  const OctreeField field({sizing.shape.view(), sizing.lengths.cells, sizing.lengths.cause, sizing.slope, sizing.scale},
-                          nullptr);
+  const OctreeField field(sizing.field_data(nullptr), nullptr);
   EXPECT_EQ(mapped.field->min_size(), field.min_size());
   EXPECT_EQ(mapped.field->slope(), field.slope());
   EXPECT_EQ(mapped.face_weight, sizing.face_weight);
@@ -172,6 +171,18 @@ TEST_F(SizingArtifacts, mapped_field_answers_like_the_one_in_memory) {
     const Vec3 x{uniform(random), uniform(random), uniform(random)};
     ASSERT_EQ(static_cast<const SizeField&>(*mapped.field).size(x), static_cast<const SizeField&>(field).size(x));
   }
+}
+
+TEST_F(SizingArtifacts, of_older_versions_without_cones_are_refused) {
+  SizingArtifact sizing = sample_sizing();
+  sizing.cones = {};
+  write_sizing(file("a.hdf"), sizing);
+  EXPECT_ERROR(read_sizing(file("a.hdf")), kInput, "without cones; run st-raster and st-prolong again");
+  EXPECT_ERROR(map_sizing(file("a.hdf")), kInput, "without cones; run st-raster and st-prolong again");
+  sizing.lengths.cause.assign(sizing.lengths.cause.size(), kNone);  // as with --only: the largest length alone
+  write_sizing(file("a.hdf"), sizing);
+  EXPECT_NO_THROW(read_sizing(file("a.hdf")));
+  EXPECT_NO_THROW(map_sizing(file("a.hdf")));
 }
 
 TEST_F(SizingArtifacts, mapped_field_outlives_the_name_of_its_file) {

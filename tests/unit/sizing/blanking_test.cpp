@@ -7,10 +7,7 @@
 #include <random>
 #include <set>
 
-#include "sizing/octree_field.h"
-#include "sizing/prolong.h"
-#include "sizing/sample_seeds.h"
-#include "unit/sizing/cases.h"
+#include "unit/sizing/sampled_field.h"
 
 namespace st {
 namespace {
@@ -49,32 +46,16 @@ BlankedSurface box_surface(Vec3 lo, Vec3 hi, int n) {
   return s;
 }
 
-struct Sized {
-  RasterOctree raster;
-  Blanking blanking;
-  ProlongedLengths lengths;
-  std::unique_ptr<OctreeField> field;
-};
-
 constexpr double kLargest = 0.5, kSlope = 0.2;
 
-std::unique_ptr<Sized> size_with(const std::vector<RasterBox>& boxes, const BlankedSurface* surface,
-                                 BlankSide side = BlankSide::kInside) {
-  auto s = std::make_unique<Sized>();
-  s->raster = build_octree(test::kUnitBox, boxes);
-  const OctreeView octree = s->raster.shape.view();
-  if (surface) s->blanking = blank_cells(Neighbours(octree), surface->view(), side);
-  if (surface) add_second_parts(s->blanking, s->raster);
-  s->lengths = prolong(Neighbours(octree), s->raster.stored_length, s->raster.stored_cause, {kSlope, kLargest},
-                       surface ? &s->blanking : nullptr);
-  s->field = std::make_unique<OctreeField>(
-      OctreeFieldData{octree, s->lengths.cells, s->lengths.cause, kSlope, 1, s->blanking.split_leaf, s->blanking.split,
-                      s->lengths.second_cells, s->lengths.second_cause},
-      nullptr);
-  return s;
+std::shared_ptr<test::SampledField> size_with(const std::vector<RasterBox>& boxes, const BlankedSurface* surface,
+                                              BlankSide side = BlankSide::kInside) {
+  return test::sample_field(boxes, kSlope, kLargest, [&](const Neighbours& neighbours, Blanking& blanking) {
+    if (surface) blanking = blank_cells(neighbours, surface->view(), side);
+  });
 }
 
-double size_at(const Sized& s, Vec3 x) { return static_cast<const SizeField&>(*s.field).size(x); }
+double size_at(const test::SampledField& s, Vec3 x) { return OctreeField(s.data, nullptr).SizeField::size(x); }
 
 /// A fine spot, and boxes that only make cells of their edge everywhere.
 std::vector<RasterBox> fine_spot(Vec3 at, float cell) {
@@ -167,8 +148,7 @@ TEST(Blanking, lengths_pass_around_the_rim_of_a_plate) {
   const BlankedSurface plate = box_surface({0.2, -0.5, z}, {0.8, 1.5, z + 0.006}, 40);
   const auto s = size_with(fine_spot({0.5, 0.5, 0.6}, 0.0625F), &plate);
   const double around = std::hypot(0.3, 0.13) + std::hypot(0.3, 0.05), at = size_at(*s, {0.5, 0.5, z - 0.05});
-  EXPECT_GT(at, 0.01 + 0.9 * kSlope * around);
-  EXPECT_LT(at, 0.01 + 1.35 * kSlope * around);
+  EXPECT_LT(at, 0.01 + kSlope * around);  // it comes around, and is that of the straight way
 }
 
 /// A thin shell (two spheres): curved, walls thinner than a cell.
@@ -240,9 +220,7 @@ struct ThinPlate {
   static constexpr double kThickness = 0.006;
   const std::int32_t above = pack_cause(CauseKind::kFace, 7), below = pack_cause(CauseKind::kFace, 8);
   const double z;
-  RasterOctree raster;
-  std::vector<LengthSample> samples;
-  Blanking blanking;
+  std::shared_ptr<test::SampledField> sampled;
 
   explicit ThinPlate(double z) : z(z) {
     const BlankedSurface plate = box_surface({-0.5, -0.5, z}, {1.5, 1.5, z + kThickness}, 40);
@@ -250,16 +228,14 @@ struct ThinPlate {
     boxes.erase(boxes.begin());
     boxes.push_back({{0.5, 0.5, z + kThickness}, 0.03F, 0.2F, above, SmallNormal({0, 0, 1})});
     boxes.push_back({{0.52, 0.5, z}, 0.03F, 0.02F, below, SmallNormal({0, 0, -1})});
-    raster = build_octree(test::kUnitBox, boxes);
-    forget_samples(raster);
-    blanking = blank_cells(Neighbours(octree()), plate.view(), BlankSide::kInside);
-    blanking.flow_along_normals = 1;
-    add_second_parts(blanking, raster);
-    samples = sorted_samples(boxes);
+    sampled = test::sample_field(boxes, kSlope, kLargest, [&](const Neighbours& neighbours, Blanking& blanking) {
+      blanking = blank_cells(neighbours, plate.view(), BlankSide::kInside);
+      blanking.flow_along_normals = 1;
+    });
   }
-  OctreeView octree() const { return raster.shape.view(); }
 
-  void expect_each_side_to_keep_its_own(const OctreeField& field) const {
+  void expect_each_side_to_keep_its_own() const {
+    const OctreeField field(sampled->data, sampled);
     for (const double off : {0.0005, 0.02, 0.1, 0.2}) {
       EXPECT_NE(field.explain({0.5, 0.5, z + kThickness + off}).cause, below) << z << " " << off;
       EXPECT_EQ(field.explain({0.5, 0.5, z - off}).cause, below) << z << " " << off;
@@ -271,54 +247,32 @@ struct ThinPlate {
 
 TEST(Blanking, sample_asks_for_its_length_on_its_side_of_a_thin_plate_only) {
   for (const double z : {0.4531, 0.4711, 0.4999}) {
-    const ThinPlate plate(z);
-    const std::vector<float> slope(plate.samples.size(), static_cast<float>(kSlope));
-    const ConeTable cones = spread_cones(Neighbours(plate.octree()), plate.samples, slope, kLargest, &plate.blanking);
-    OctreeFieldData data{plate.octree(), {}, {}, kSlope, 1, plate.blanking.split_leaf, plate.blanking.split};
-    data.set_cones(cones, kLargest);
-    const ProlongedLengths lengths = lengths_at_centers(data, cones.at_center);
-    data.cells = lengths.cells;
-    plate.expect_each_side_to_keep_its_own(OctreeField(data, nullptr));
+    ThinPlate(z).expect_each_side_to_keep_its_own();
   }
 }
 
-/// Links across faces alone are those of all links that lie across faces.
-TEST(Blanking, finds_links_across_faces_alone) {
+/// Rows have links across faces alone, but where none of these is open.
+TEST(Blanking, opens_links_across_faces_before_others) {
   const BlankedSurface box = box_surface({0.21, 0.32, 0.23}, {0.74, 0.81, 0.26}, 7);
   const RasterOctree raster = build_octree(test::kUnitBox, fine_spot({0.5, 0.5, 0.3}, 0.0625F));
-  const OctreeView octree = raster.shape.view();
-  const Neighbours neighbours(octree);
-  const Blanking all = blank_cells(neighbours, box.view(), BlankSide::kInside),
-                 few = blank_cells(neighbours, box.view(), BlankSide::kInside, {}, LinkKind::kAcrossFaces);
-  ASSERT_EQ(few.n_sites(), all.n_sites());
-  int n_faces = 0, n_others = 0;
-  for (std::int32_t site = 0; site < all.n_sites(); ++site) {
-    std::vector<std::int32_t> across, across_few, around;
-    for_each_link(&all, neighbours, site, [&](std::int32_t to, const CellStep& step) {
-      (test::is_across_face(step) ? across : around).push_back(to);
+  const Neighbours neighbours(raster.shape.view());
+  const Blanking blanking = blank_cells(neighbours, box.view(), BlankSide::kInside);
+  int n_faces = 0;
+  for (std::int32_t site = 0; site < blanking.n_sites(); ++site) {
+    std::set<std::int32_t> across, around;
+    for_each_link(&blanking, neighbours, site, [&](std::int32_t to, const CellStep& step) {
+      (test::is_across_face(step) ? across : around).insert(to);
     });
-    bool has_others = false;
-    for_each_link(&few, neighbours, site, [&](std::int32_t to, const CellStep& step) {
-      if (test::is_across_face(step))
-        across_few.push_back(to);
-      else
-        has_others = true;
-    });
-    // a larger cell comes once, though there are links to it in several directions
-    const std::set<std::int32_t> expected(across.begin(), across.end());
-    ASSERT_EQ(std::set<std::int32_t>(across_few.begin(), across_few.end()), expected) << site;
-    across_few.clear();
-    for_each_link_across_face(few, neighbours, site,
-                              [&](std::int32_t to, const CellStep&) { across_few.push_back(to); });
-    ASSERT_EQ(std::set<std::int32_t>(across_few.begin(), across_few.end()), expected) << site;
-    ASSERT_EQ(across_few.size(), expected.size()) << site;
+    std::vector<std::int32_t> each_once;  // a larger cell comes once, though it lies in several directions
+    for_each_link_across_face(blanking, neighbours, site,
+                              [&](std::int32_t to, const CellStep&) { each_once.push_back(to); });
+    ASSERT_EQ(std::set<std::int32_t>(each_once.begin(), each_once.end()), across) << site;
+    ASSERT_EQ(each_once.size(), across.size()) << site;
+    if (blanking.site_links[site] == kNone) continue;  // all are open
+    ASSERT_TRUE(across.empty() || around.empty()) << site;
     n_faces += static_cast<int>(across.size());
-    if (few.site_links[site] == kNone) continue;  // all are open
-    ASSERT_EQ(has_others, across.empty() && !around.empty()) << site;
-    n_others += static_cast<int>(around.size());
   }
   EXPECT_GT(n_faces, 1000);
-  EXPECT_GT(n_others, 1000);
 }
 
 /// Nothing is known at a hole, and nothing is blanked.

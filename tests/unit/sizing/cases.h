@@ -1,9 +1,12 @@
 // Octrees that several tests of the layer use.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
+#include "sizing/cones.h"
 #include "sizing/neighbours.h"
 #include "sizing/octree.h"
 
@@ -35,6 +38,14 @@ inline std::vector<RasterBox> wall_boxes(float length) {
   for (double y = 0; y <= 1; y += length)
     for (double z = 0; z <= 1; z += length) boxes.push_back({{0, y, z}, length, length, 0});
   return boxes;
+}
+
+/// What a stretched cone of `length` asks for along `unit`, a unit vector.
+inline float length_in(const ConeStretch& s, const float (&unit)[3], float length) {
+  if (!(s.along > length)) return length;
+  const float part = unit[0] * s.direction[0] + unit[1] * s.direction[1] + unit[2] * s.direction[2],
+              ratio = length / s.along;
+  return length / std::sqrt(1 - std::min(1.0F, part * part) * (1 - ratio * ratio));
 }
 
 }  // namespace st::test

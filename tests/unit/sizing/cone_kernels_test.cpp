@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "sizing/cone_cell.h"
+#include "unit/sizing/cases.h"
 
 namespace st {
 namespace {
@@ -123,9 +124,10 @@ TEST(ConeKernels, tell_lengths_along_the_directions_of_a_cell) {
       for (int i = 0; i < kProbes; ++i) {
         if (i == 6) continue;
         const float turning[3] = {directions[i], directions[kProbes + i], directions[2 * kProbes + i]};
-        EXPECT_NEAR(site.best[i],
-                    lengths[i / 4][i % 4] + stretch.length_in(turns == 0 ? turning : unit, cone.length) - cone.length,
-                    1e-6);
+        EXPECT_NEAR(
+            site.best[i],
+            lengths[i / 4][i % 4] + test::length_in(stretch, turns == 0 ? turning : unit, cone.length) - cone.length,
+            1e-6);
         EXPECT_EQ(site.winner[i], 7);
       }
       EXPECT_EQ(site.best[6], 0.1F * cone.length) << "what is shorter stays";
@@ -199,7 +201,7 @@ struct StretchedCones {
   float least_along(const std::vector<std::int32_t>& asked, std::int32_t of, Vec3 x, float least) const {
     for (const std::int32_t c : asked)
       least = std::min(least, static_cast<float>(cones[c].length_at(x)) - cones[c].length +
-                                  stretches[c].length_in(stretches[of].direction, cones[c].length));
+                                  test::length_in(stretches[c], stretches[of].direction, cones[c].length));
     return least;
   }
 };

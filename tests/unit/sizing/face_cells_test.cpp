@@ -6,8 +6,7 @@
 
 #include "base/threads.h"
 #include "geometry/shape/analytic.h"
-#include "sizing/prolong.h"
-#include "unit/sizing/cases.h"
+#include "unit/sizing/sampled_field.h"
 
 namespace st {
 namespace {
@@ -84,10 +83,9 @@ TEST(FaceCells, weigh_area_by_squared_length) {
 // The field grows from a wall across the plane: the octree of the areas may be much coarser than that of the field.
 TEST(FaceCells, weigh_area_in_a_finer_field_than_their_octree) {
   const RasterOctree coarse = build_octree(test::kUnitBox, std::vector<RasterBox>{{{0.5, 0.5, 0.5}, 0.15F, 0.3F, 0}});
-  const RasterOctree fine = build_octree(test::kUnitBox, test::wall_boxes(0.01F));
-  const ProlongedLengths lengths =
-      prolong(Neighbours(fine.shape.view()), fine.stored_length, fine.stored_cause, {0.2, 1});
-  const OctreeField field = field_on(fine, lengths, 1);
+  const auto sampled = test::sample_field(test::wall_boxes(0.01F), 0.2, 1);
+  const RasterOctree& fine = sampled->raster;
+  const OctreeField field(sampled->data, sampled);
   const PlaneSurface plane(kCellFrame, 0, 1, 0, 1);
   double expected = 0;
   constexpr int n = 1000;
@@ -99,7 +97,7 @@ TEST(FaceCells, weigh_area_in_a_finer_field_than_their_octree) {
     FaceCells faces;
     faces.append_face(locate_face(plane, {}, octree->shape.view(), 1));
     EXPECT_NEAR(face_weights(faces, octree->shape.view(), field)[0].uniform / expected, 1,
-                octree == &coarse ? 0.2 : 0.03);  // coarse: cells reach beyond the face
+                octree == &coarse ? 0.2 : 0.04);  // coarse: cells reach beyond the face
   }
 }
 
@@ -142,10 +140,9 @@ TEST(FaceCells, weigh_sources_smaller_than_their_cells) {
 }
 
 TEST(FaceCells, weigh_the_same_on_any_number_of_threads) {
-  const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(3000));
-  const ProlongedLengths lengths =
-      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {0.2, 1});
-  const OctreeField field = field_on(raster, lengths, 1);
+  const auto sampled = test::sample_field(test::sphere_boxes(3000), 0.2, 1);
+  const RasterOctree& raster = sampled->raster;
+  const OctreeField field(sampled->data, sampled);
   FaceCells faces;
   for (const double z : {0.1, 0.5, 0.9}) {
     faces.append_face({});
@@ -170,18 +167,20 @@ TEST(FaceCells, weigh_the_same_on_any_number_of_threads) {
 }
 
 TEST(FaceCells, weigh_gradients_along_the_face_only) {
-  const RasterOctree raster = build_octree(test::kUnitBox, {});
-  const ProlongedLengths graded{{{0.5F, {0.1F, 0, 0.1F}, 2}}, {kNone}};
-  const OctreeField field({raster.shape.view(), graded.cells, graded.cause, 0.2, 1}, nullptr, 1e-3);
+  // a sample far away, from which lengths grow by 0.1 along x and along z
+  const std::vector<RasterBox> far{{Vec3{-1000, 0.5, -1000}, 1, 1, 0}};
+  const auto sampled = test::sample_field(far, 0.1 * std::sqrt(2.0), 1e4);
+  const RasterOctree& raster = sampled->raster;
+  const OctreeField field(sampled->data, sampled);
   FaceCells faces;
   faces.append_face(std::vector<CellArea>{{0, 1, {0.5F, 0.5F, 0.5F}, {0, 0, 1}}});
   const FaceWeight w = face_weights(faces, raster.shape.view(), field)[0];
-  EXPECT_NEAR(w.graded / w.uniform, 0.1, 1e-6);
-  EXPECT_NEAR(w.steep / w.uniform, 0.01, 1e-6);
+  EXPECT_NEAR(w.graded / w.uniform, 0.1, 1e-3);
+  EXPECT_NEAR(w.steep / w.uniform, 0.01, 2e-4);
   for (const double scale : {0.5, 1.0, 3.0}) {  // the gradient is 0.1 * scale
     const double g = 0.1 * scale;
     EXPECT_NEAR(w.at(scale) * scale * scale / w.uniform, 1 + kTrianglesPerGradient * g + kTrianglesPerGradient2 * g * g,
-                1e-6);
+                1e-3);
   }
 }
 

@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "sizing/prolong.h"
-#include "unit/sizing/cases.h"
+#include "unit/sizing/sampled_field.h"
 
 namespace st {
 namespace {
@@ -16,19 +15,10 @@ namespace {
 constexpr double kSlope = 0.2;
 constexpr double kMaxLength = 0.06;
 
-struct Storage {
-  RasterOctree raster;
-  ProlongedLengths lengths;
-};
-
 std::unique_ptr<OctreeField> make_field(double scale = 1) {
-  auto storage = std::make_shared<Storage>();
-  storage->raster = build_octree(test::kUnitBox, test::sphere_boxes(4000));
-  const OctreeView view = storage->raster.shape.view();
-  storage->lengths =
-      prolong(Neighbours(view), storage->raster.stored_length, storage->raster.stored_cause, {kSlope, kMaxLength});
-  const OctreeFieldData data{view, storage->lengths.cells, storage->lengths.cause, kSlope, scale};
-  return std::make_unique<OctreeField>(data, storage);
+  const auto sampled = test::sample_field(test::sphere_boxes(4000), kSlope, kMaxLength);
+  sampled->data.scale = scale;
+  return std::make_unique<OctreeField>(sampled->data, sampled);
 }
 
 double cell_edge_at(const OctreeField& field, Vec3 x) { return field.explain(x).cell_edge; }
@@ -75,9 +65,11 @@ TEST(OctreeField, answers_the_same_whatever_the_hint) {
   }
 }
 
-TEST(OctreeField, clamps_points_outside_to_its_box) {
+TEST(OctreeField, asks_the_nearest_leaf_outside_its_box) {
   const auto field = make_field();
-  EXPECT_EQ(field->size(Vec3{-100, 0.5, 0.5}), field->size(Vec3{field->data().octree.lo.x, 0.5, 0.5}));
+  const double at_side = field->size(Vec3{field->data().octree.lo.x, 0.5, 0.5});
+  EXPECT_NEAR(field->size(Vec3{-0.02, 0.5, 0.5}), at_side + 0.02 * kSlope, 0.02 * kSlope);
+  EXPECT_FLOAT_EQ(static_cast<float>(field->size(Vec3{-100, 0.5, 0.5})), static_cast<float>(kMaxLength));
   EXPECT_TRUE(std::isfinite(field->size(Vec3{std::numeric_limits<double>::infinity(), 0, 0})));
   EXPECT_TRUE(std::isfinite(field->size(Vec3{std::numeric_limits<double>::quiet_NaN(), 0, 0})));
 }
@@ -91,14 +83,25 @@ TEST(OctreeField, scale_multiplies_lengths_and_slope) {
 }
 
 TEST(OctreeField, interpolates_growth_from_a_wall) {
-  auto storage = std::make_shared<Storage>();
-  storage->raster = build_octree(test::kUnitBox, test::wall_boxes(0.02F));
-  const OctreeView view = storage->raster.shape.view();
-  storage->lengths =
-      prolong(Neighbours(view), storage->raster.stored_length, storage->raster.stored_cause, {kSlope, 10});
-  const OctreeField field({view, storage->lengths.cells, storage->lengths.cause, kSlope, 1}, storage);
+  const auto sampled = test::sample_field(test::wall_boxes(0.02F), kSlope, 10);
+  const OctreeField field(sampled->data, sampled);
   for (double x = 0.05; x < 0.7; x += 0.01)
     EXPECT_NEAR(field.size(Vec3{x, 0.5, 0.5}), 0.02 + kSlope * x, 0.15 * (0.02 + kSlope * x));
+}
+
+TEST(OctreeField, has_one_length_in_each_cell_without_cones) {
+  const RasterOctree raster = build_octree(test::kUnitBox, test::wall_boxes(0.1F));
+  std::vector<CellLength> cells;
+  for (std::size_t i = 0; i < raster.shape.leaf_keys.size(); ++i) {
+    const float length = 1 + static_cast<float>(i);
+    cells.push_back({length, {0, 0, 0}, length});
+  }
+  const OctreeField field({raster.shape.view(), cells, {}, kSlope, 2}, nullptr);
+  for (const Vec3 x : {Vec3{0.01, 0.02, 0.03}, Vec3{0.5, 0.9, 0.2}, Vec3{0.51, 0.91, 0.21}}) {
+    int leaf = 0;
+    const double length = field.size(x, leaf);
+    EXPECT_EQ(length, 2 * cells[leaf].length);
+  }
 }
 
 }  // namespace

@@ -10,9 +10,8 @@
 
 #include "base/error.h"
 #include "sizing/octree_field.h"
-#include "sizing/prolong.h"
-#include "unit/sizing/cases.h"
 #include "unit/sizing/octree_balance.h"
+#include "unit/sizing/sampled_field.h"
 
 namespace st {
 namespace {
@@ -40,22 +39,19 @@ SourceSpec line_source() {
 class Refined {
  public:
   explicit Refined(const std::vector<SourceSpec>& specs, const std::vector<RasterBox>& boxes = {})
-      : raster_(build_octree(test::kUnitBox, boxes)),
-        lengths_(prolong(Neighbours(raster_.shape.view()), raster_.stored_length, raster_.stored_cause,
-                         {kRefinedSlope, kRefinedMost})) {
+      : sampled_(test::sample_field(boxes, kRefinedSlope, kRefinedMost)) {
     std::vector<SourceTree::Entry> entries;
     for (const SourceSpec& s : specs) entries.push_back({make_source(s, kRefinedSlope), 2});
     tree_ = std::make_unique<SourceTree>(std::move(entries));
-    OctreeFieldData data{raster_.shape.view(), lengths_.cells, lengths_.cause, kRefinedSlope, 1};
+    OctreeFieldData data = sampled_->data;
     if (!specs.empty()) data.sources = tree_.get();
     field_ = std::make_unique<OctreeField>(data, nullptr);
   }
   const OctreeField& field() const { return *field_; }
-  const RasterOctree& raster() const { return raster_; }
+  const RasterOctree& raster() const { return sampled_->raster; }
 
  private:
-  RasterOctree raster_;
-  ProlongedLengths lengths_;
+  std::shared_ptr<test::SampledField> sampled_;
   std::unique_ptr<SourceTree> tree_;
   std::unique_ptr<OctreeField> field_;
 };

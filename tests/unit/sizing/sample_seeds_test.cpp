@@ -8,19 +8,12 @@
 #include <random>
 #include <utility>
 
-#include "sizing/octree_field.h"
-#include "unit/sizing/cases.h"
+#include "unit/sizing/sampled_field.h"
 
 namespace st {
 namespace {
 
 constexpr double kSeedSlope = 0.2, kSeedLargest = 0.2;
-
-struct Prolonged {
-  RasterOctree raster;
-  ProlongedLengths lengths;
-  ConeTable cones;
-};
 
 TEST(SampleSeeds, keep_their_places_however_far_from_the_origin) {
   const Vec3 far{3e5, -2e5, 1e5};
@@ -77,22 +70,9 @@ std::vector<RasterBox> graded_sphere(double finest, double growth, double cell_p
   return boxes;
 }
 
-std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes, const std::vector<LengthSample>& samples) {
-  const auto p = std::make_shared<Prolonged>();
-  p->raster = build_octree(test::kUnitBox, boxes);
-  if (!samples.empty()) forget_samples(p->raster);
-  const Neighbours neighbours(p->raster.shape.view());
-  p->lengths = prolong(neighbours, p->raster.stored_length, p->raster.stored_cause, {kSeedSlope, kSeedLargest});
-  OctreeFieldData data{p->raster.shape.view(), p->lengths.cells, p->lengths.cause, kSeedSlope, 1};
-  if (!samples.empty()) {
-    const std::vector<float> slope(samples.size(), static_cast<float>(kSeedSlope));
-    p->cones = spread_cones(neighbours, samples, slope, kSeedLargest, nullptr);
-    data.set_cones(p->cones, kSeedLargest);
-    p->lengths = lengths_at_centers(data, p->cones.at_center);
-    data.cells = p->lengths.cells;
-    data.cause = p->lengths.cause;
-  }
-  return std::make_unique<OctreeField>(data, p);
+std::unique_ptr<OctreeField> make_field(const std::vector<RasterBox>& boxes) {
+  const auto sampled = test::sample_field(boxes, kSeedSlope, kSeedLargest);
+  return std::make_unique<OctreeField>(sampled->data, sampled);
 }
 
 /// Mean of |log(length / exact length)| at the samples.
@@ -111,29 +91,25 @@ double mean_error(const SizeField& field, const std::vector<RasterBox>& boxes) {
 TEST(SampleSeeds, keep_the_length_of_a_sphere_in_cells_many_times_as_large) {
   for (const double cell_per_length : {4.0, 8.0}) {
     const std::vector<RasterBox> boxes = graded_sphere(0.01, 0, cell_per_length);
-    const auto field = make_field(boxes, sorted_samples(boxes));
+    const auto field = make_field(boxes);
     for (const RasterBox& b : boxes) ASSERT_NEAR(static_cast<const SizeField&>(*field).size(b.center), 0.01, 0.0002);
   }
 }
 
-TEST(SampleSeeds, are_as_exact_in_large_cells_as_stored_lengths_in_small_ones) {
-  const std::vector<RasterBox> small = graded_sphere(0.004, 0.1, 1);
-  const auto fine = make_field(small, {});
-  const double fine_error = mean_error(*fine, small);
-  for (const double cell_per_length : {4.0, 8.0}) {
+TEST(SampleSeeds, are_as_exact_in_large_cells_as_in_small_ones) {
+  const auto fine = make_field(graded_sphere(0.004, 0.1, 1));
+  for (const double cell_per_length : {1.0, 4.0, 8.0}) {
     const std::vector<RasterBox> boxes = graded_sphere(0.004, 0.1, cell_per_length);
-    const auto field = make_field(boxes, sorted_samples(boxes)), without = make_field(boxes, {});
-    const double error = mean_error(*field, boxes);
-    EXPECT_LT(error, 0.01 * cell_per_length) << "cell_per_length 1 has " << fine_error;
-    EXPECT_LT(error, 0.5 * mean_error(*without, boxes));
-    EXPECT_LT(field->data().octree.n_leaves(), 1.5 / cell_per_length * fine->data().octree.n_leaves());
+    const auto field = make_field(boxes);
+    EXPECT_LT(mean_error(*field, boxes), 0.002) << cell_per_length;
+    EXPECT_LE(field->data().octree.n_leaves(), 1.5 / cell_per_length * fine->data().octree.n_leaves());
   }
 }
 
 TEST(SampleSeeds, never_let_a_sample_have_more_than_its_length) {
   std::vector<RasterBox> boxes = test::sphere_boxes(3000);
   for (RasterBox& b : boxes) b.half *= 3;
-  const auto field = make_field(boxes, sorted_samples(boxes));
+  const auto field = make_field(boxes);
   for (const RasterBox& b : boxes)
     ASSERT_LE(static_cast<const SizeField&>(*field).size(b.center), b.length * (1 + 0.0031));  // kClearlyNearby
 }
@@ -141,25 +117,14 @@ TEST(SampleSeeds, never_let_a_sample_have_more_than_its_length) {
 TEST(SampleSeeds, do_not_depend_on_the_order_of_boxes) {
   std::vector<RasterBox> boxes = test::sphere_boxes(2000);
   for (RasterBox& b : boxes) b.half *= 2;
-  const auto a = make_field(boxes, sorted_samples(boxes));
+  const auto a = make_field(boxes);
   std::shuffle(boxes.begin(), boxes.end(), std::mt19937(3));
-  const auto b = make_field(boxes, sorted_samples(boxes));
+  const auto b = make_field(boxes);
   for (std::size_t i = 0; i < a->data().cells.size(); ++i) {
     ASSERT_EQ(a->data().cells[i].length, b->data().cells[i].length);
     ASSERT_EQ(a->data().cells[i].gradient[0], b->data().cells[i].gradient[0]);
     ASSERT_EQ(a->data().cause[i], b->data().cause[i]);
   }
-}
-
-TEST(SampleSeeds, leave_the_lengths_of_sources_alone) {
-  const std::vector<RasterBox> boxes = {{{0.2, 0.2, 0.2}, 0.1F, 0.02F, pack_cause(CauseKind::kFace, 0)},
-                                        {{0.8, 0.8, 0.8}, 0.1F, 0.01F, pack_cause(CauseKind::kSource, 3)}};
-  RasterOctree octree = build_octree(test::kUnitBox, boxes);
-  forget_samples(octree);
-  const std::int32_t leaf =
-      octree.shape.view().find_leaf(morton::encode(octree.shape.view().grid_point(boxes[1].center)));
-  EXPECT_EQ(octree.stored_length[leaf], 0.01F);
-  EXPECT_EQ(octree.stored_cause[leaf], pack_cause(CauseKind::kSource, 3));
 }
 
 }  // namespace

@@ -9,8 +9,7 @@
 #include <random>
 
 #include "sizing/background.h"
-#include "sizing/octree_field.h"
-#include "unit/sizing/cases.h"
+#include "unit/sizing/sampled_field.h"
 
 namespace st {
 namespace {
@@ -253,11 +252,10 @@ TEST(SourceTree, knows_where_a_length_comes_from) {
 
 /// Sources count in the field exactly and everywhere: beside its cells, also outside the root cube.
 TEST(OctreeField, takes_the_smaller_of_octree_and_sources_everywhere) {
-  const RasterOctree raster = build_octree(test::kUnitBox, test::sphere_boxes(500));
-  const ProlongedLengths lengths =
-      prolong(Neighbours(raster.shape.view()), raster.stored_length, raster.stored_cause, {kTreeSlope, 0.1});
+  const auto sampled = test::sample_field(test::sphere_boxes(500), kTreeSlope, 0.1);
   const SourceTree tree = tree_of(random_sources(100));
-  OctreeFieldData data{raster.shape.view(), lengths.cells, lengths.cause, kTreeSlope, 3};
+  OctreeFieldData data = sampled->data;
+  data.scale = 3;
   const OctreeField plain(data, nullptr);
   data.sources = &tree;
   const OctreeField field(data, nullptr);

@@ -118,7 +118,7 @@ double exact_along(const Spread& p, Vec3 x, Vec3 t) {
   for (const LengthSample& s : p.samples) {
     const Cone cone(s, static_cast<float>(kSlope), lo);
     const double rise = cone.length_at(x - lo) - cone.length;
-    least = std::min(least, ConeStretch(s.stretch).length_in(unit, cone.length) + rise);
+    least = std::min(least, test::length_in(ConeStretch(s.stretch), unit, cone.length) + rise);
   }
   return least;
 }

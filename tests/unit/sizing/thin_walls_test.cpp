@@ -25,8 +25,7 @@ class WallInCells {
     center_ = octree().leaf_center(middle);
     edge_ = octree().cell_edge(octree().leaf_levels[middle]);
     add_plate(lower, upper);
-    blanking_ =
-        blank_cells(Neighbours(octree()), {points_, triangles_}, BlankSide::kInside, {}, LinkKind::kAcrossFaces);
+    blanking_ = blank_cells(Neighbours(octree()), {points_, triangles_}, BlankSide::kInside);
     blanking_.flow_along_normals = 1;
   }
 

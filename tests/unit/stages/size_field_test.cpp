@@ -82,15 +82,14 @@ TEST_P(SizeFieldOfModel, changes_by_the_slope_and_the_cells_at_most) {
   EXPECT_LE(worst, 1);
 }
 
-TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
+TEST_P(SizeFieldOfModel, differs_from_the_length_at_the_centre_by_the_slope_at_most) {
   const Neighbours neighbours(sizing_.shape.view());
-  const bool has_cones = GetParam().cell_per_length > kStoredByCellUpTo;
   constexpr double kLeftOut = 0.02;  // samples that lower a length by less may be missing in a cell
   for (int i = 0; i < 200'000; ++i) {
     int leaf = 0;
     const Vec3 x = random_point();
     const double h = octree_->size(x, leaf), own = sizing_.lengths.cells[leaf].length;
-    if (has_cones && sizing_.blanking.colour.empty()) {
+    if (sizing_.blanking.colour.empty()) {
       ASSERT_NEAR(h, own, sizing_.slope * distance(x, sizing_.shape.view().leaf_center(leaf)) + kLeftOut * own);
       continue;
     }
@@ -99,7 +98,7 @@ TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
       lo = std::min<double>(lo, sizing_.lengths.cells[other].length);
       hi = std::max<double>(hi, sizing_.lengths.cells[other].length);
     });
-    const double rise = has_cones ? sizing_.slope * 0.87 * edge_at(leaf) : 0;
+    const double rise = sizing_.slope * 0.87 * edge_at(leaf);
     ASSERT_GE(h, (lo - rise) * (1 - 1e-6));
     ASSERT_LE(h, (hi + rise) * (1 + 1e-6));
   }
@@ -107,15 +106,24 @@ TEST_P(SizeFieldOfModel, never_leaves_the_range_of_the_neighbourhood) {
 
 TEST_P(SizeFieldOfModel, is_nowhere_above_what_was_sampled_there) {
   const RasterArtifact raster = read_raster(staged_.raster.output);
-  const OctreeView octree = raster.octree.shape.view();
   const SizeField& field = *field_;
-  ASSERT_EQ(raster.samples.empty(), GetParam().cell_per_length <= kStoredByCellUpTo);
+  ASSERT_FALSE(raster.samples.empty());
   for (const LengthSample& s : raster.samples)
     ASSERT_LE(field.size(s.xyz), s.length * 1.02);  // a plane tells the parts of a cell
-  if (!raster.samples.empty()) return;
-  for (std::int32_t leaf = 0; leaf < octree.n_leaves(); ++leaf) {
-    if (!(raster.octree.stored_length[leaf] < std::numeric_limits<float>::infinity())) continue;
-    ASSERT_LE(field.size(octree.leaf_center(leaf)), raster.octree.stored_length[leaf] * (1 + 1e-6));
+}
+
+TEST(SizeFieldOfOldRaster, is_refused_where_samples_have_no_places) {
+  test::StagedModel staged;
+  staged.make_raster("box");
+  RasterArtifact raster = read_raster(staged.raster.output);
+  raster.samples.clear();
+  write_raster(staged.raster.output, raster);
+  try {
+    run_prolong(staged.prolong);
+    FAIL() << "taken";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.code(), ExitCode::kInput);
+    EXPECT_NE(std::string(e.what()).find("left out the places of its samples; run st-raster again"), std::string::npos);
   }
 }
 
