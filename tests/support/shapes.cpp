@@ -802,6 +802,7 @@ const std::map<std::string, Factory>& factories() {
       {"bent_pipe", bent_pipe},
       {"spindle_with_fin", [] { return with_fin(spindle(), -0.4); }},
       {"spindle_with_fin_beside", [] { return with_fin(spindle(), 0.4); }},
+      {"lemon", lemon},
       {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},
       {"lemon_with_fin_beside", [] { return with_fin(lemon(), 0.4); }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
@@ -828,6 +829,10 @@ const std::map<std::string, Factory>& factories() {
          const TopoDS_Shape ball = BRepPrimAPI_MakeSphere(gp_Pnt(8, -0.5, -1.5), 2).Shape();
          return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeTorus(7, 2.5).Shape(), ball).Shape();
        }},
+      {"ring_with_notch",  // across its outer rim, where v begins
+       [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(20, 6).Shape(), moved(box(8, 10, 5), -4, -30, -3)).Shape(); }},
+      {"ring_with_notch_at_seam",  // which one of its sides is on
+       [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(8, 3).Shape(), moved(box(4, 2, 6), 6, 0, 1)).Shape(); }},
       {"two_balls", [] { return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"cone_on_cylinder",
        [] {

@@ -1,5 +1,6 @@
 #include "geometry/import/meridians.h"
 
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
@@ -11,6 +12,7 @@
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -112,6 +114,66 @@ std::optional<Range> tips_around(const Geom_SurfaceOfRevolution& surface, Range 
   return std::nullopt;
 }
 
+/// Between tips that follow each other, around the whole meridian if it is closed.
+std::vector<Range> parts_of(const Geom_Curve& curve, const Distance& distance) {
+  std::vector<double> tips = tips_of(distance);
+  if (curve.IsPeriodic() && !tips.empty()) {
+    if (tips.back() - tips.front() > curve.Period() - 1e-9) tips.pop_back();
+    tips.push_back(tips.front() + curve.Period());
+  }
+  std::vector<Range> parts;
+  for (std::size_t k = 0; k + 1 < tips.size(); ++k) parts.emplace_back(tips[k], tips[k + 1]);
+  return parts;
+}
+
+/// Volume around which a forward face on a part of the meridian looks outward, as far as its sign: from r and z.
+double volume_within(const Geom_SurfaceOfRevolution& surface, const Distance& distance, Range part) {
+  double sum = 0;
+  const auto along = [&](double t) {
+    return gp_Vec(surface.Axis().Location(), surface.BasisCurve()->Value(t)).Dot(surface.Axis().Direction());
+  };
+  for (int k = 0; k < kPieces; ++k) {
+    const double t = part.first + k * (part.second - part.first) / kPieces,
+                 next = part.first + (k + 1) * (part.second - part.first) / kPieces, r = distance(0.5 * (t + next));
+    sum += r * r * (along(next) - along(t));
+  }
+  return sum;
+}
+
+/// Whether all edges of a face are seams or points.
+bool has_no_border(const TopoDS_Face& face) {
+  for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
+    if (const TopoDS_Edge edge = TopoDS::Edge(e.Current());
+        !BRep_Tool::Degenerated(edge) && !BRep_Tool::IsClosed(edge, face))
+      return false;
+  return true;
+}
+
+/// Leaves it to the healing to bound a face by its surface.
+void remove_loops(TopoDS_Shape face) {
+  std::vector<TopoDS_Shape> loops;
+  for (TopoDS_Iterator w(face, false); w.More(); w.Next()) loops.push_back(w.Value());
+  const bool was_free = face.Free();
+  face.Free(true);
+  for (const TopoDS_Shape& loop : loops) BRep_Builder().Remove(face, loop);
+  face.Free(was_free);
+}
+
+/// The part of its meridian around which a face without a border looks outward; nullopt where that is not one part of
+/// several.
+std::optional<Range> outward_part(const TopoDS_Face& face, const Geom_SurfaceOfRevolution& surface) {
+  const Distance distance(surface);
+  if (!distance.is_flat()) return std::nullopt;
+  std::optional<Range> outward;
+  const std::vector<Range> parts = parts_of(*surface.BasisCurve(), distance);
+  for (const Range& part : parts) {
+    if ((volume_within(surface, distance, part) > 0) == (face.Orientation() == TopAbs_REVERSED)) continue;
+    if (outward) return std::nullopt;
+    outward = part;
+  }
+  return parts.size() > 1 ? outward : std::nullopt;
+}
+
 /// Adds where an edge of a face is on the meridian; false where that is not known.
 bool extend(Range& range, const TopoDS_Edge& edge, const TopoDS_Face& face, const Distance& distance) {
   constexpr int kPlaces = 8;
@@ -155,6 +217,24 @@ int trim_meridians(std::span<const TopoDS_Face> faces) {
     const std::optional<Range> tips = tips_around(*surface, *range);
     if (!tips) continue;
     surface->SetBasisCurve(new Geom_TrimmedCurve(surface->BasisCurve(), tips->first, tips->second));
+    ++n;
+  }
+  return n;
+}
+
+int trim_bare_meridians(const TopoDS_Shape& shape) {
+  int n = 0;
+  for (TopExp_Explorer s(shape, TopAbs_SHELL); s.More(); s.Next()) {
+    const TopoDS_Shape shell = s.Current().Oriented(TopAbs_FORWARD);  // a cavity's faces look out of the cavity in it
+    if (shell.NbChildren() != 1) continue;
+    const TopoDS_Face face = TopoDS::Face(TopoDS_Iterator(shell).Value());
+    TopLoc_Location location;
+    const auto surface = Handle(Geom_SurfaceOfRevolution)::DownCast(BRep_Tool::Surface(face, location));
+    if (surface.IsNull() || !has_no_border(face)) continue;
+    const std::optional<Range> part = outward_part(face, *surface);
+    if (!part) continue;
+    surface->SetBasisCurve(new Geom_TrimmedCurve(surface->BasisCurve(), part->first, part->second));
+    remove_loops(face);
     ++n;
   }
   return n;

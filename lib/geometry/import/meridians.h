@@ -2,6 +2,7 @@
 #pragma once
 
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Shape.hxx>
 #include <span>
 
 namespace st::occt {
@@ -11,5 +12,10 @@ namespace st::occt {
 /// Such meridians end at the tips between which all faces on the surface lie, in the shape itself. Curves of edges on
 /// the surface stay as they are. Returns the number of surfaces changed.
 int trim_meridians(std::span<const TopoDS_Face> faces);
+
+/// A lemon or an apple alone has no edge in a STEP file, and its surface is both. Of a shell of one face without a
+/// border, the meridian becomes the part between two tips around which the face looks outward, in the shape itself, and
+/// its loops go. It stays where that is more than one part, or none. Returns the number of surfaces changed.
+int trim_bare_meridians(const TopoDS_Shape& shape);
 
 }  // namespace st::occt

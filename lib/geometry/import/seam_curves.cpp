@@ -22,6 +22,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -193,28 +194,98 @@ bool is_way_back(const TopoDS_Edge& edge, const TopoDS_Edge& other) {
   return true;
 }
 
-/// Puts the first edge in the place of another that is its way back; the edges that became seams.
-std::vector<TopoDS_Edge> join_ways_back(TopoDS_Shape& wire, const TopoDS_Face& face) {
-  std::vector<TopoDS_Edge> edges, seams;
-  double t0, t1;
+std::vector<TopoDS_Edge> edges_of(const TopoDS_Shape& wire) {
+  std::vector<TopoDS_Edge> edges;
   for (TopoDS_Iterator e(wire, false); e.More(); e.Next()) edges.push_back(TopoDS::Edge(e.Value()));
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    for (std::size_t k = i + 1; k < edges.size(); ++k) {
-      if (edges[i].IsSame(edges[k]) || !BRep_Tool::CurveOnSurface(edges[i], face, t0, t1).IsNull()) continue;
-      if (!is_way_back(edges[i], edges[k])) continue;
-      edges[k] = TopoDS::Edge(edges[i].Reversed());
-      seams.push_back(TopoDS::Edge(edges[i].Oriented(TopAbs_FORWARD)));
-    }
-  if (seams.empty()) return seams;
+  return edges;
+}
+
+void replace_edges(TopoDS_Shape& wire, const std::vector<TopoDS_Edge>& edges) {
   BRep_Builder builder;
   const bool was_free = wire.Free();
   wire.Free(true);
-  std::vector<TopoDS_Shape> all;
-  for (TopoDS_Iterator e(wire, false); e.More(); e.Next()) all.push_back(e.Value());
-  for (const TopoDS_Shape& e : all) builder.Remove(wire, e);
+  for (const TopoDS_Edge& e : edges_of(wire)) builder.Remove(wire, e);
   for (const TopoDS_Edge& e : edges) builder.Add(wire, e);
   wire.Free(was_free);
+}
+
+/// Puts the first edge in the place of another where `join(edge, other)` says so; the edges that became seams.
+template <class Join>
+std::vector<TopoDS_Edge> join_edges(TopoDS_Shape& wire, Join join) {
+  std::vector<TopoDS_Edge> edges = edges_of(wire), seams;
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (std::size_t k = i + 1; k < edges.size(); ++k) {
+      if (edges[i].IsSame(edges[k]) || !join(edges[i], edges[k])) continue;
+      edges[k] = TopoDS::Edge(edges[i].Reversed());
+      seams.push_back(TopoDS::Edge(edges[i].Oriented(TopAbs_FORWARD)));
+    }
+  if (!seams.empty()) replace_edges(wire, edges);
   return seams;
+}
+
+/// The vector from the way there to the way back where two edges of a loop lie a period of the face's surface apart.
+std::optional<gp_Vec2d> across_period(const TopoDS_Edge& edge, const TopoDS_Edge& other, const TopoDS_Face& face) {
+  constexpr double kSame = 1e-4;  // of the widths: files hold few digits
+  double u0, u1, v0, v1, t0, t1, s0, s1;
+  BRep_Tool::Surface(face)->Bounds(u0, u1, v0, v1);
+  const Handle(Geom2d_Curve) there = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  const Handle(Geom2d_Curve) back = BRep_Tool::CurveOnSurface(other, face, s0, s1);
+  if (there.IsNull() || back.IsNull()) return std::nullopt;
+  if (edge.Orientation() == TopAbs_REVERSED) std::swap(t0, t1);
+  if (other.Orientation() == TopAbs_REVERSED) std::swap(s0, s1);
+  const auto is_same = [&](gp_Vec2d a) {
+    return std::abs(a.X()) < kSame * (u1 - u0) && std::abs(a.Y()) < kSame * (v1 - v0);
+  };
+  for (const gp_Vec2d shift : {gp_Vec2d(u1 - u0, 0), gp_Vec2d(u0 - u1, 0), gp_Vec2d(0, v1 - v0), gp_Vec2d(0, v0 - v1)})
+    if (is_same(gp_Vec2d(there->Value(t0), back->Value(s1)) - shift) &&
+        is_same(gp_Vec2d(there->Value(t1), back->Value(s0)) - shift))
+      return shift;
+  return std::nullopt;
+}
+
+/// Whether an edge runs along the bounds of the face's surface.
+bool is_along_bounds(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  constexpr double kOnBound = 1e-4;  // of the width
+  double u0, u1, v0, v1, t0, t1;
+  BRep_Tool::Surface(face)->Bounds(u0, u1, v0, v1);
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  if (curve.IsNull()) return false;
+  const gp_Pnt2d p[] = {curve->Value(t0), curve->Value(0.5 * (t0 + t1)), curve->Value(t1)};
+  const auto all_near = [&](auto coordinate, double bound, double width) {
+    return std::ranges::all_of(p, [&](gp_Pnt2d q) { return std::abs(coordinate(q) - bound) < kOnBound * width; });
+  };
+  const auto u_of = [](gp_Pnt2d q) { return q.X(); };
+  const auto v_of = [](gp_Pnt2d q) { return q.Y(); };
+  return all_near(u_of, u0, u1 - u0) || all_near(u_of, u1, u1 - u0) || all_near(v_of, v0, v1 - v0) ||
+         all_near(v_of, v1, v1 - v0);
+}
+
+/// Whether each edge of a loop along the bounds has a way back a period apart: another one is a side of a notch.
+bool has_whole_seams(const TopoDS_Shape& wire, const TopoDS_Face& face) {
+  const std::vector<TopoDS_Edge> edges = edges_of(wire);
+  return std::ranges::all_of(edges, [&](const TopoDS_Edge& edge) {
+    return !is_along_bounds(edge, face) || std::ranges::any_of(edges, [&](const TopoDS_Edge& other) {
+      return !other.IsSame(edge) && across_period(edge, other, face);
+    });
+  });
+}
+
+/// Makes one seam of two edges of a loop that lie a period apart, with the curve of the first on either side.
+int join_across_periods(TopoDS_Shape wire, const TopoDS_Face& face) {
+  const auto join = [&](const TopoDS_Edge& edge, const TopoDS_Edge& other) {
+    const std::optional<gp_Vec2d> shift = across_period(edge, other, face);
+    if (!shift || !is_way_back(edge, other)) return false;
+    double t0, t1;
+    const Handle(Geom2d_Curve) there = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+    const auto back = Handle(Geom2d_Curve)::DownCast(there->Translated(*shift));
+    const bool is_forward = edge.Orientation() == TopAbs_FORWARD;
+    const TopoDS_Edge seam = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+    BRep_Builder().UpdateEdge(seam, is_forward ? there : back, is_forward ? back : there, face,
+                              BRep_Tool::Tolerance(edge));
+    BRep_Builder().Range(seam, face, t0, t1);
+    return true;
+  };
+  return static_cast<int>(join_edges(wire, join).size());
 }
 
 }  // namespace
@@ -222,9 +293,20 @@ std::vector<TopoDS_Edge> join_ways_back(TopoDS_Shape& wire, const TopoDS_Face& f
 int give_seams_curves(std::span<const TopoDS_Face> faces) { return give_curves_in_loops(faces, bare_seams_of); }
 
 int make_seams(std::span<const TopoDS_Face> faces) {
-  return give_curves_in_loops(faces, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>&) {
-    return join_ways_back(wire, face);
+  int n = give_curves_in_loops(faces, [](TopoDS_Shape wire, const TopoDS_Face& face, const std::vector<gp_Pnt>&) {
+    return join_edges(wire, [&](const TopoDS_Edge& edge, const TopoDS_Edge& other) {
+      double t0, t1;
+      return BRep_Tool::CurveOnSurface(edge, face, t0, t1).IsNull() && is_way_back(edge, other);
+    });
   });
+  for (const TopoDS_Face& face : faces) {
+    const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+    if (surface.IsNull() || !surface->IsUClosed() || !surface->IsVClosed()) continue;
+    for (TopoDS_Iterator w(face); w.More(); w.Next())
+      if (w.Value().ShapeType() == TopAbs_WIRE)
+        n += has_whole_seams(w.Value(), face) ? join_across_periods(w.Value(), face) : 0;
+  }
+  return n;
 }
 
 int move_curves_between_poles(std::span<const TopoDS_Face> faces) {

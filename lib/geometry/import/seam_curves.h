@@ -16,7 +16,9 @@ int give_seams_curves(std::span<const TopoDS_Face> faces);
 /// IGES files may hold the curves in space alone, and have a seam twice: once for each direction. OpenCASCADE gives
 /// both the same trimming curve, and the face of a body between two poles has no area. Of two edges of a loop without
 /// trimming curves that are each other's way back, the first takes the place of the other, and gets the two curves of a
-/// seam. Only on surfaces that are closed in u and have poles. Returns the number of such edges.
+/// seam, on surfaces that are closed in u and have poles. On those that are closed both ways (tori) edges with trimming
+/// curves a period apart become one, too: the healing takes a loop that runs into a notch on the one side of a seam,
+/// and on the other side goes on behind it, for the notch. Returns the number of such edges.
 int make_seams(std::span<const TopoDS_Face> faces);
 
 /// The curve of a meridian may start anywhere on its circle: then the trimming curves of a piece of a sphere's seam are

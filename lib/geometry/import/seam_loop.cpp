@@ -23,8 +23,9 @@ struct LoopEdge {
   TopoDS_Edge edge;
   Handle(Geom2d_Curve) curve;
   double t_min = 0, t_max = 0;
-  bool is_seam = false;  ///< or a pole, or along the bounds of a period
-  gp_Vec2d shift = {};   ///< of its curve
+  bool is_seam = false;   ///< or a pole, or the way back of another edge a period away
+  bool is_bound = false;  ///< along the bounds of a period
+  gp_Vec2d shift = {};    ///< of its curve
   bool is_turned = false;
 
   gp_Pnt2d point(double share) const {
@@ -46,6 +47,16 @@ struct Periods {
   bool is_inside(gp_Pnt2d p) const { return is_inside(p.X() - u_min, u) && is_inside(p.Y() - v_min, v); }
   /// By whole periods, the shift that brings a point inside.
   gp_Vec2d into(gp_Pnt2d p) const { return {-whole(p.X() - u_min, u), -whole(p.Y() - v_min, v)}; }
+  /// The shift of what is along one bound to the other.
+  gp_Vec2d across(gp_Pnt2d p) const { return {-other(p.X() - u_min, u), -other(p.Y() - v_min, v)}; }
+  /// Whether a line between two points passes a third one, a period away.
+  bool is_away(gp_Pnt2d p, gp_Pnt2d a, gp_Pnt2d b) const {
+    for (const gp_Vec2d shift : {gp_Vec2d(u, 0), gp_Vec2d(-u, 0), gp_Vec2d(0, v), gp_Vec2d(0, -v)}) {
+      const gp_Pnt2d moved = p.Translated(shift);
+      if (shift.Magnitude() > 0 && moved.Distance(a) + moved.Distance(b) < a.Distance(b) + close()) return true;
+    }
+    return false;
+  }
   double close() const { return kClose * std::max(u, v); }
   /// Whether a line between two points runs along the bounds: so do seams of files whose faces share no edges.
   bool is_along(gp_Pnt2d a, gp_Pnt2d middle, gp_Pnt2d b) const {
@@ -62,6 +73,11 @@ struct Periods {
   bool is_inside(double x, double period) const {
     return period == 0 || (x > -kClose * period && x < (1 + kClose) * period);
   }
+  static double other(double x, double period) {
+    return period == 0 || std::abs(x - period * std::round(x / period)) > kClose * period ? 0
+           : x < 0.5 * period                                                             ? -period
+                                                                                          : period;
+  }
   static double whole(double x, double period) { return period == 0 ? 0 : period * std::floor(x / period); }
 };
 
@@ -74,9 +90,14 @@ std::optional<Loop> loop_of(const TopoDS_Wire& wire, const TopoDS_Face& face, co
     use.edge = TopoDS::Edge(e.Value());
     use.curve = BRep_Tool::CurveOnSurface(use.edge, face, use.t_min, use.t_max);
     if (use.curve.IsNull()) return std::nullopt;
-    use.is_seam = BRep_Tool::IsClosed(use.edge, face) || BRep_Tool::Degenerated(use.edge) ||
-                  periods.is_along(use.point(0), use.point(0.5), use.point(1));
+    use.is_seam = BRep_Tool::IsClosed(use.edge, face) || BRep_Tool::Degenerated(use.edge);
+    use.is_bound = periods.is_along(use.point(0), use.point(0.5), use.point(1));
   }
+  for (LoopEdge& use : loop)  // others along the bounds are sides of notches that end there
+    use.is_seam =
+        use.is_seam || (use.is_bound && std::ranges::any_of(loop, [&](const LoopEdge& back) {
+                          return back.is_bound && periods.is_away(use.point(0.5), back.point(0), back.point(1));
+                        }));
   return loop;
 }
 
@@ -101,9 +122,14 @@ bool turn_chains(Loop& loop, const Periods& periods) {
   for (std::size_t first = 0; first < loop.size();) {
     std::size_t end = first;
     gp_XY middle(0, 0);
-    for (; end < loop.size() && !loop[end].is_seam; ++end) middle += loop[end].point(0.5).XY();
+    bool is_bound = true;
+    for (; end < loop.size() && !loop[end].is_seam; ++end) {
+      middle += loop[end].point(0.5).XY();
+      is_bound = is_bound && loop[end].is_bound;
+    }
     for (std::size_t i = first; i < end; ++i) {
-      loop[i].shift = periods.into(middle / static_cast<double>(end - first));
+      const gp_XY place = middle / static_cast<double>(end - first);
+      loop[i].shift = is_bound ? periods.across(place) : periods.into(place);
       loop[i].is_turned = true;
       if (!is_inside(loop[i], periods)) return false;
     }

@@ -57,6 +57,7 @@ class HealingOfLoops : public XSAlgo_AlgoContainer {
     if (std::string(sequence) == "read.step.sequence") {
       const std::vector<TopoDS_Face> faces = faces_of(shape);
       trim_meridians(faces);
+      trim_bare_meridians(shape);
       bound_whole_surfaces(faces);
       give_seams_curves(faces);
       move_curves_between_poles(faces);

@@ -72,4 +72,13 @@ inline void expect_whole_in_step(const std::string& shape, const TemporaryDirect
   EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
 }
 
+inline void expect_whole_in_iges(const std::string& shape, const TemporaryDirectory& dir) {
+  write_brep(shape, dir / "a.brep");
+  write_iges(shape, dir / "a.igs");
+  const ImportResult sound = import_model(dir / "a.brep", {}), r = import_model(dir / "a.igs", {});
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area);
+  EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
+}
+
 }  // namespace st::test

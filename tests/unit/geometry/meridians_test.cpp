@@ -2,11 +2,13 @@
 #include "geometry/import/meridians.h"
 
 #include <BRepBuilderAPI_MakeFace.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom_Circle.hxx>
 #include <Geom_SurfaceOfRevolution.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
+#include <TopoDS_Shell.hxx>
 #include <gp_Circ.hxx>
 
 #include <gtest/gtest.h>
@@ -15,15 +17,16 @@
 
 #include "base/vec.h"
 #include "geometry/brep/faces_of.h"
+#include "unit/geometry/broken_import.h"
 
 namespace st {
 namespace {
 
 /// Of a circle of radius 2 in the plane of x and z, its centre at x; between angles of the circle.
-TopoDS_Face revolved(double x, double from, double to) {
+TopoDS_Face revolved(double x, double from, double to, double angle = 1) {
   const gp_Ax2 axes(gp_Pnt(x, 0, 0), gp_Dir(0, -1, 0), gp_Dir(1, 0, 0));
   const Handle(Geom_Surface) surface = new Geom_SurfaceOfRevolution(new Geom_Circle(axes, 2), gp::OZ());
-  return BRepBuilderAPI_MakeFace(surface, 0, 1, from, to, 1e-7).Face();
+  return BRepBuilderAPI_MakeFace(surface, 0, angle, from, to, 1e-7).Face();
 }
 
 struct Bounds {
@@ -45,6 +48,31 @@ TEST(Meridians, end_at_the_tips_around_the_face) {
   EXPECT_NEAR(bounds_of(inner).v_max, 2 * kPi - tip, 1e-9);
   EXPECT_LT(BRep_Tool::Surface(inner)->Value(0.5, 3).Distance(before), 1e-12);
   EXPECT_EQ(occt::trim_meridians(occt::faces_of(inner)), 0) << "it ends there now";
+}
+
+/// A shell of one face: all around both ways, of a circle as above.
+TopoDS_Shape bare_shell(double x, TopAbs_Orientation side) {
+  TopoDS_Shell shell;
+  BRep_Builder().MakeShell(shell);
+  const TopoDS_Shape face = revolved(x, 0, 2 * kPi, 2 * kPi);
+  BRep_Builder().Add(shell, face.Oriented(side));
+  return shell;
+}
+
+TEST(Meridians, of_a_bare_face_become_what_it_bounds) {
+  const double tip = std::acos(-0.5);
+  const TopoDS_Shape apple = bare_shell(1, TopAbs_FORWARD), lemon = bare_shell(1, TopAbs_REVERSED);
+  EXPECT_EQ(occt::trim_bare_meridians(apple), 1);
+  EXPECT_NEAR(bounds_of(occt::faces_of(apple)[0]).v_max - bounds_of(occt::faces_of(apple)[0]).v_min, 2 * tip, 1e-9);
+  EXPECT_EQ(occt::trim_bare_meridians(lemon), 1);
+  EXPECT_NEAR(bounds_of(occt::faces_of(lemon)[0]).v_min, tip, 1e-9);
+  EXPECT_NEAR(bounds_of(occt::faces_of(lemon)[0]).v_max, 2 * kPi - tip, 1e-9);
+  EXPECT_EQ(occt::trim_bare_meridians(bare_shell(3, TopAbs_FORWARD)), 0) << "a ring";
+}
+
+TEST(Meridians, of_a_lemon_alone_make_it_whole_in_step_files) {
+  const TemporaryDirectory dir;
+  test::expect_whole_in_step("lemon", dir);
 }
 
 TEST(Meridians, that_do_not_cross_the_axis_stay) {

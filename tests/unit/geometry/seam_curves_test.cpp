@@ -114,6 +114,13 @@ void keep_curves_in_space(const std::string& path) {
   std::ofstream(path) << kept << rest;
 }
 
+TEST(SeamCurves, make_rings_with_a_notch_whole_in_iges_files) {
+  for (const char* shape : {"torus", "ring_with_notch", "ring_with_notch_at_seam"}) {
+    const TemporaryDirectory dir;
+    test::expect_whole_in_iges(shape, dir);
+  }
+}
+
 class BodiesWithPoles : public testing::TestWithParam<const char*> {};
 
 TEST_P(BodiesWithPoles, are_whole_in_iges_files_with_curves_in_space_alone) {
