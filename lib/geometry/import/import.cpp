@@ -1,5 +1,4 @@
 // import_model(), step by step.
-#include <BRepBuilderAPI_Transform.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "geometry/brep/kept_surfaces.h"
+#include "geometry/brep/scaled_shape.h"
 #include "geometry/import/air_roles.h"
 #include "geometry/import/body_relations.h"
 #include "geometry/import/cad_reader.h"
@@ -72,7 +72,7 @@ void scale_to_unit(ImportedShape& model, const ModelUnit& unit, std::vector<Impo
   const double factor = 1.0 / unit.shape_units;
   gp_Trsf scale;
   scale.SetScaleFactor(factor);
-  BRepBuilderAPI_Transform transform(model.shape, scale, true);
+  BRepBuilderAPI_Transform transform = occt::scaled_shape(model.shape, scale);
   TopTools_IndexedMapOfShape faces;
   TopExp::MapShapes(transform.Shape(), TopAbs_FACE, faces);
   if (faces.Extent() != model.faces.Extent())

@@ -1,6 +1,5 @@
 #include "geometry/model/edit_model.h"
 
-#include <BRepBuilderAPI_Transform.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom_Surface.hxx>
 #include <Standard_Failure.hxx>
@@ -17,6 +16,7 @@
 
 #include "base/error.h"
 #include "geometry/brep/compound.h"
+#include "geometry/brep/scaled_shape.h"
 #include "geometry/model/edge_faces.h"
 #include "geometry/model/model_editor.h"
 #include "geometry/model/model_impl.h"
@@ -214,7 +214,7 @@ Model transform(const Model& model, const Similarity& motion) {
   occt::ImportedShape moved;
   occt::ModelOfFile measured;
   try {
-    moved.shape = BRepBuilderAPI_Transform(ModelEditor::brep(model).shape, trsf, true).Shape();
+    moved.shape = occt::scaled_shape(ModelEditor::brep(model).shape, trsf).Shape();
     TopExp::MapShapes(moved.shape, TopAbs_FACE, moved.faces);
     moved.attributes.resize(moved.faces.Extent());
     measured = occt::make_tables(moved, "the transformed model");
