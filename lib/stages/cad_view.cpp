@@ -99,8 +99,17 @@ void add_edges(const Model& model, const FindingNumbers& findings, CellAdder& ce
 
 Facets facets_to_see(const Model& model) {
   const ModelTables& t = model.tables();
-  return make_facets(model, std::vector<std::uint8_t>(t.n_faces(), 1),
-                     {.deflection = kDeflection * t.reference_diagonal(), .angle = kFacetTurn, .is_exact = true});
+  std::vector<std::uint8_t> is_near, is_far;
+  for (const FaceRole role : face_roles(t).role) {
+    is_far.push_back(role == FaceRole::kFarfield);
+    is_near.push_back(!is_far.back());
+  }
+  const auto within = [](double diagonal) {
+    return FacetLimits{.deflection = kDeflection * diagonal, .angle = kFacetTurn, .is_exact = true};
+  };
+  Facets facets = make_facets(model, is_near, within(t.reference_diagonal()));
+  add_facets(model, is_far, within(t.box().diagonal()), SerialExecutor(), facets);
+  return facets;
 }
 
 std::vector<Vec3> line_to_see(const Curve& curve) {

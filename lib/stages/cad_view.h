@@ -19,8 +19,8 @@ namespace st {
 /// Faces that OpenCASCADE cannot triangulate are left out. Local; some microseconds per triangle.
 CellView view_cad(const Model& model, std::span<const ImportFinding> findings);
 
-/// Facets that the eye takes for the faces, within 0.02 % of the diagonal and 8 degrees. Local; some microseconds per
-/// facet.
+/// Facets that the eye takes for the faces, within 0.02 % of the diagonal, of a far field of its own, and 8 degrees.
+/// Local; some microseconds per facet.
 Facets facets_to_see(const Model& model);
 /// Points along a curve, so close that it turns by at most 5 degrees from one to the next, or 257 points.
 std::vector<Vec3> line_to_see(const Curve& curve);

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
+#include "geometry/import/import.h"
 #include "support/shapes.h"
+#include "unit/io/temporary_directory.h"
 
 namespace st {
 namespace {
@@ -40,6 +44,18 @@ TEST(CadView, shows_findings_at_their_place_and_on_what_has_them) {
     if (view.values[5].second[i] > 0) marked.insert({view.values[0].second[i], view.values[1].second[i]});
   EXPECT_EQ(marked, (std::set<std::pair<std::int32_t, std::int32_t>>{{0, 1}, {0, 2}, {1, 12}, {2, 2}}));
   EXPECT_TRUE(view.points[view.nodes.back()] == (Vec3{4, 5, 6}));
+}
+
+TEST(CadView, takes_no_facets_of_the_size_of_the_walls_for_a_far_field) {
+  const TemporaryDirectory dir;
+  test::write_brep("box", dir / "box.brep");
+  ImportOptions options;
+  options.air.farfield = "sphere:100";
+  ImportResult air = import_model(dir / "box.brep", options);
+  const Facets facets = facets_to_see(Model(std::move(air.tables), std::move(air.brep)));
+  EXPECT_LT(facets.triangle.size(), 20000u);
+  EXPECT_GT(facets.triangle.size(), 500u);
+  EXPECT_TRUE(std::is_sorted(facets.face.begin(), facets.face.end()));
 }
 
 TEST(CadView, knows_trailing_edges) {
