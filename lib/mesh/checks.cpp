@@ -28,30 +28,51 @@ DefectPlace at_triangle(const SurfaceMesh& mesh, TriangleId t, const OwnTriangle
   return {centroid(mesh, t), mesh.triangle_face[t], kNone, own.number(t)};
 }
 
-/// Finds the CAD edges that a mesh edge lies on, to see what the CAD allows there.
+/// Finds the CAD edges that a mesh edge lies on, to see what the CAD allows there. Vertices drawn together are one, and
+/// where a strip is closed its kept edge stands for the other one as well.
 class CadEdgeLookup {
  public:
-  CadEdgeLookup(const SurfaceMesh& mesh, const CadEdges& cad) : mesh_(mesh) {
-    for (std::size_t e = 0; 2 * e < cad.edge_vertices.size(); ++e)
-      edges_between_.emplace(std::minmax({cad.edge_vertices[2 * e], cad.edge_vertices[2 * e + 1]}),
-                             static_cast<EdgeId>(e));
+  CadEdgeLookup(const SurfaceMesh& mesh, const CadEdges& cad) : mesh_(mesh), vertices_(count_vertices(mesh, cad)) {
+    const auto vertex = [&](EdgeId e, int end) { return cad.edge_vertices[2 * e + end]; };
+    const auto n_edges = static_cast<EdgeId>(cad.edge_vertices.size() / 2);
+    if (n_edges == 0) return;
+    for (const EdgeId e : mesh.merged.edge) vertices_.join(vertex(e, 0), vertex(e, 1));
+    for (EdgeId e = 0; e < n_edges; ++e) edges_between_.emplace(ends(vertex(e, 0), vertex(e, 1)), e);
+    for (std::size_t i = 0; i < mesh.merged.strip_kept.size(); ++i)
+      also_.emplace(mesh.merged.strip_kept[i], mesh.merged.strip_closed[i]);
   }
   /// Whether `flags` is set for a CAD edge under the mesh edge (a, b).
-  bool is_allowed(std::span<const std::uint8_t> flags, NodeId a, NodeId b) const {
+  bool is_allowed(std::span<const std::uint8_t> flags, NodeId a, NodeId b) {
     if (flags.empty()) return false;
     if (dim(a) < dim(b)) std::swap(a, b);
     if (dim(a) == 1)
-      return dim(b) == 1 ? flags[mesh_.node_entity[a]] && mesh_.node_entity[a] == mesh_.node_entity[b]
-                         : flags[mesh_.node_entity[a]] != 0;
+      return (dim(b) == 0 || mesh_.node_entity[a] == mesh_.node_entity[b]) && has(flags, mesh_.node_entity[a]);
     if (dim(a) != 0) return false;
-    const auto [begin, end] = edges_between_.equal_range(std::minmax({mesh_.node_entity[a], mesh_.node_entity[b]}));
-    return std::any_of(begin, end, [&](const auto& pair) { return flags[pair.second] != 0; });
+    const auto [begin, end] = edges_between_.equal_range(ends(mesh_.node_entity[a], mesh_.node_entity[b]));
+    return std::any_of(begin, end, [&](const auto& pair) { return has(flags, pair.second); });
   }
 
  private:
+  static VertexId count_vertices(const SurfaceMesh& mesh, const CadEdges& cad) {
+    VertexId n = 0;
+    for (const VertexId v : cad.edge_vertices) n = std::max(n, v + 1);
+    for (NodeId i = 0; i < mesh.n_nodes(); ++i)
+      if (mesh.node_entity_dim[i] == 0) n = std::max(n, mesh.node_entity[i] + 1);
+    return n;
+  }
+  std::pair<VertexId, VertexId> ends(VertexId v, VertexId w) {
+    return std::minmax({vertices_.find(v), vertices_.find(w)});
+  }
+  bool has(std::span<const std::uint8_t> flags, EdgeId e) const {
+    const auto [begin, end] = also_.equal_range(e);
+    return flags[e] != 0 || std::any_of(begin, end, [&](const auto& pair) { return flags[pair.second] != 0; });
+  }
+
   int dim(NodeId n) const { return mesh_.node_entity_dim[n]; }
   const SurfaceMesh& mesh_;
+  DisjointSets vertices_;  // of the CAD, joined where they have one node
   std::multimap<std::pair<VertexId, VertexId>, EdgeId> edges_between_;
+  std::multimap<EdgeId, EdgeId> also_;
 };
 
 /// The node of a side's triangle that is not on the side.
@@ -135,7 +156,7 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, c
 TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad,
                               const OwnTriangles& own) {
   TopologyReport r;
-  const CadEdgeLookup lookup(mesh, cad);
+  CadEdgeLookup lookup(mesh, cad);
   DisjointSets corners(3 * mesh.n_triangles());
   const auto at_edge = [&](NodeId a, NodeId b, std::span<const SideId> sides) {
     return DefectPlace{0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3],

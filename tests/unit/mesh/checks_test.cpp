@@ -99,6 +99,33 @@ TEST(Checks, find_a_hole_and_its_place) {
   EXPECT_FALSE(t.passes());
 }
 
+/// A square of two triangles with its nodes on these vertices of the CAD.
+SurfaceMesh square_on(std::vector<std::int32_t> vertices) {
+  SurfaceMesh m = shapes::from({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, {{{0, 1, 2}}, {{0, 2, 3}}});
+  m.node_entity_dim.assign(4, 0);
+  m.node_entity = std::move(vertices);
+  return m;
+}
+
+TEST(Checks, know_where_the_cad_is_open_beside_edges_drawn_together) {
+  const std::vector<VertexId> edge_vertices{0, 1, 1, 2, 2, 3, 3, 4, 4, 0};
+  const std::vector<std::uint8_t> all(5, 1);
+  SurfaceMesh m = square_on({0, 1, 3, 4});
+  EXPECT_EQ(find_all(m, {edge_vertices, all, {}}), (Found{{"boundary", 1}})) << "from vertex 1 to 3";
+  m.merged.edge = {1};
+  EXPECT_EQ(find_all(m, {edge_vertices, all, {}}), Found{});
+}
+
+TEST(Checks, know_where_the_cad_is_open_beside_closed_strips) {
+  const std::vector<VertexId> edge_vertices{0, 1, 1, 2, 2, 3, 3, 0, 0, 1};
+  const std::vector<std::uint8_t> but_kept{0, 1, 1, 1, 1};
+  SurfaceMesh m = square_on({0, 0, 2, 3});
+  m.node_entity_dim[1] = 1;  // on the kept edge
+  EXPECT_EQ(find_all(m, {edge_vertices, but_kept, {}}).at("boundary"), 2);
+  m.merged.strip_kept = {0}, m.merged.strip_closed = {4};
+  EXPECT_EQ(find_all(m, {edge_vertices, but_kept, {}}), Found{});
+}
+
 TEST(Checks, find_a_fin_on_a_manifold_edge) {
   SurfaceMesh m = shapes::cube(2);
   std::vector<Vec3> points = m.node_xyz;
