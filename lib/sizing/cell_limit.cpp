@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "sizing/raster_face.h"
+
 namespace st {
 namespace {
 
@@ -39,6 +41,12 @@ void require_cells(double n_cells, std::uint64_t max_cells) {
                        " are allowed; " + kRemedy);
 }
 
+void require_room_for(double n_samples, std::uint64_t max_samples) {
+  if (n_samples > static_cast<double>(max_samples))
+    throw TooManyCells("sampling needs at least " + text_of("%.3g", n_samples) + " samples, and the cells that are " +
+                       "allowed have room for " + text_of("%.3g", static_cast<double>(max_samples)) + "; " + kRemedy);
+}
+
 void require_samples(std::uint64_t n_samples, std::uint64_t max_samples) {
   if (n_samples > max_samples)
     throw TooManyCells("sampling makes more than " + std::to_string(max_samples) +
@@ -53,6 +61,17 @@ double least_cells(const ModelTables& tables, const ModelLimits& limits) {
     if (!limits.face[f]) continue;
     const double cell = std::max(deepest, limits.face[f]->cell_per_length * limits.face[f]->max_length);
     n += tables.face_area[f] / (n_walls * largest_cut * cell * cell);
+  }
+  return n;
+}
+
+double least_samples(const ModelTables& tables, const ModelLimits& limits) {
+  constexpr double kLargestArea = 2;  // of a bent patch in a unit box; a plane one has 1.41 at most
+  double n = 0;
+  for (std::size_t f = 0; f < limits.face.size(); ++f) {
+    if (!limits.face[f]) continue;
+    const double side = largest_patch(*limits.face[f]);
+    n += tables.face_area[f] / (kLargestArea * side * side);
   }
   return n;
 }

@@ -28,12 +28,18 @@ class TooManyCells : public Error {
 /// and what to do.
 void require_cells(double n_cells, std::uint64_t max_cells);
 
+/// Throws TooManyCells when at least `n_samples` are needed and that passes `max_samples`: before any is made.
+void require_room_for(double n_samples, std::uint64_t max_samples);
+
 /// Throws TooManyCells when one curve or face has more than `max_samples`, or all have.
 void require_samples(std::uint64_t n_samples, std::uint64_t max_samples);
 
 /// Fewest cells that sampling can lead to, from the areas of the faces and their largest lengths; nothing is sampled.
 /// Two walls may share their cells.
 double least_cells(const ModelTables& tables, const ModelLimits& limits);
+
+/// Fewest samples of all faces, from their areas and largest lengths; nothing is sampled.
+double least_samples(const ModelTables& tables, const ModelLimits& limits);
 
 /// What asks for cells below the deepest level of the octree (kMaxLevel).
 struct DepthLimit {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "base/assert.h"
@@ -32,19 +33,26 @@ constexpr double kAligned = 0.9;         // cosine: pairs of probes that tell of
 constexpr double kLeastOfHalf = 0.2;     // of half a patch: ends nearer to its middle tell nothing
 constexpr double kCollapsed = 1e-9;  // derivative over the other one, scaled to the ranges, where a side has collapsed
 
+constexpr std::int64_t kBoxesPerNews = 1000;
+
+/// Largest extent of a patch over the length there.
+double patch_per_length(const SamplingLimits& limits) { return kFill * std::min(limits.cell_per_length, kProbeReach); }
+
 class FaceRaster {
  public:
   using CurvaturePatch = Patch<CurvatureProbe>;
 
   FaceRaster(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits, std::int32_t cause,
-             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches, const ChordLimit* chord)
+             std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches, const ChordLimit* chord,
+             const std::function<void(double)>& on_area)
       : surface_(surface),
         loops_(loops),
         limits_(limits),
         cause_(cause),
         boxes_(boxes),
         patches_(patches),
-        chord_(chord) {
+        chord_(chord),
+        on_area_(on_area) {
     range_u_ = surface.u_max() - surface.u_min();
     range_v_ = surface.v_max() - surface.v_min();
     const SurfaceType type = surface.type();
@@ -86,8 +94,8 @@ class FaceRaster {
     bool is_doubtful = false;
     const double curvature = patch.n_inside > 0 ? patch_curvature(patch, is_doubtful) : boundary_curvature(patch);
     const double length = allowed_length(curvature, size.center);
-    const bool is_large = size.extent > kFill * std::min(limits_.cell_per_length, kProbeReach) * length ||
-                          (is_free_ && size.extent > limits_.max_length);
+    const bool is_large =
+        size.extent > patch_per_length(limits_) * length || (is_free_ && size.extent > limits_.max_length);
     const bool may_doubt = is_doubtful && n_doubts < kDoubts && size.extent > limits_.min_length;
     if (is_large || may_doubt) {
       n_doubts += is_doubtful;
@@ -197,6 +205,8 @@ class FaceRaster {
                       reach_of(part.along_u, part.along_v)});
     if (patches_ && patch.probe[4].normal != Vec3{}) patches_->push_back(gap_patch(patch, length, way));
     report_.area += inside_area(patch);
+    if (on_area_ && (report_.n_patches + 1) % kBoxesPerNews == 0)
+      on_area_(report_.area - std::exchange(told_area_, report_.area));
     require_samples(static_cast<std::uint64_t>(++report_.n_patches), limits_.max_samples);
   }
 
@@ -288,12 +298,16 @@ class FaceRaster {
   std::vector<RasterBox>& boxes_;
   std::vector<GapPatch>* const patches_;
   const ChordLimit* const chord_;
+  const std::function<void(double)>& on_area_;
+  double told_area_ = 0;
   FaceRasterReport report_;
   double range_u_ = 1, range_v_ = 1;
   bool is_free_ = true;  // curvature varies freely: not a plane, cylinder, cone, sphere or torus
 };
 
 }  // namespace
+
+double largest_patch(const SamplingLimits& limits) { return patch_per_length(limits) * limits.max_length; }
 
 std::unique_ptr<Surface> whole_spline(const Surface& part) {
   const auto* spline = dynamic_cast<const BsplineSurface*>(&part);
@@ -302,18 +316,18 @@ std::unique_ptr<Surface> whole_spline(const Surface& part) {
 
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
                              std::int32_t cause, std::vector<RasterBox>& boxes, std::vector<GapPatch>* patches,
-                             const ChordLimit* chord) {
+                             const ChordLimit* chord, const std::function<void(double area)>& on_area) {
   ST_ASSERT(0 < limits.min_length && limits.min_length <= limits.max_length);
   ST_ASSERT(0 < limits.alpha && limits.alpha <= kPi / 2 && limits.cell_per_length >= 1);
   const auto* composite = dynamic_cast<const CompositeSurface*>(&surface);
-  if (!composite) return FaceRaster(surface, loops, limits, cause, boxes, patches, chord).run();
+  if (!composite) return FaceRaster(surface, loops, limits, cause, boxes, patches, chord, on_area).run();
   FaceRasterReport report;
   for (std::int32_t i = 0; i < composite->n_members(); ++i) {
     const std::size_t n_boxes = boxes.size(), n_patches = patches ? patches->size() : 0;
     const LoopPolygons rim(composite->rim_of_member(i));
     const std::unique_ptr<Surface> whole = whole_spline(composite->member(i));
     const FaceRasterReport own =
-        FaceRaster(whole ? *whole : composite->member(i), rim, limits, cause, boxes, patches, chord).run();
+        FaceRaster(whole ? *whole : composite->member(i), rim, limits, cause, boxes, patches, chord, on_area).run();
     report.area += own.area;
     report.n_patches += own.n_patches;
     report.n_evaluations += own.n_evaluations;

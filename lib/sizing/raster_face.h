@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -35,9 +36,14 @@ struct FaceRasterReport {
 /// depends on the place. Throws TooManyCells beyond max_samples boxes.
 ///
 /// Of a composite surface each member is halved by itself, in its own (u,v), as whole_spline(); `loops` are not asked.
+/// `on_area` gets the area of every thousand boxes: faces may have a hundred millions of them.
 FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, const SamplingLimits& limits,
                              std::int32_t cause, std::vector<RasterBox>& boxes,
-                             std::vector<GapPatch>* patches = nullptr, const ChordLimit* chord = nullptr);
+                             std::vector<GapPatch>* patches = nullptr, const ChordLimit* chord = nullptr,
+                             const std::function<void(double area)>& on_area = {});
+
+/// Longest side of the box around a patch that raster_face() leaves whole, at the largest length.
+double largest_patch(const SamplingLimits& limits);
 
 /// The spline that a face is a part of: patches of it are where they would be without the cut. nullptr where the
 /// surface is none, or goes beyond its knots.

@@ -303,7 +303,7 @@ class RasterRun {
     share_limits(trace_, limits_);
     budget_ = make_cell_budget(o_.max_cells, limits_, comm_);
     require_cells(least_cells(in_.model.tables(), limits_), budget_.max_cells);
-    limit_samples(budget_.max_samples, limits_);
+    limit_samples(in_.model.tables(), budget_.max_samples, limits_);
   }
 
   SampledModel sampled() { return {in_.model, limits_, strips_, o_.time_limit, loops_}; }

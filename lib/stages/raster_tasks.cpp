@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <mutex>
 #include <new>
@@ -43,23 +44,24 @@ class RasterTasks {
 
   std::int32_t count() const { return n_batches_ + model_.tables().n_faces(); }
 
-  /// Heaviest first, by the number of largest lengths that fit on the face; ties by task.
-  std::vector<std::int32_t> order() const {
+  /// [count()] of a face by the number of largest lengths that fit on it.
+  std::vector<double> work() const {
     std::vector<double> work(static_cast<std::size_t>(count()), 0.0);
     for (std::int32_t f = 0; f < model_.tables().n_faces(); ++f)
       work[n_batches_ + f] = face_work(static_cast<std::size_t>(f));
-    return heaviest_first(work);
+    return work;
   }
 
   /// Local. The boxes of one task; returns, packed, their number, what went wrong (empty: nothing) and the patches.
-  Bytes compute(std::int32_t task, std::vector<RasterBox>& boxes) const {
+  /// `on_share` gets what is done of the task meanwhile, 0 to 1 in sum.
+  Bytes compute(std::int32_t task, std::vector<RasterBox>& boxes, const std::function<void(double)>& on_share) const {
     std::vector<GapPatch> patches;
     std::string failure;
     try {
       if (task < n_batches_)
         raster_edges(task, boxes);
       else
-        raster_one_face(task - n_batches_, boxes, patches);
+        raster_one_face(task - n_batches_, boxes, patches, on_share);
     } catch (const TooManyCells&) {
       throw;
     } catch (const std::bad_alloc&) {
@@ -115,7 +117,8 @@ class RasterTasks {
     return first;
   }
 
-  void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches) const {
+  void raster_one_face(FaceId f, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches,
+                       const std::function<void(double)>& on_share) const {
     const CurrentWork at_face("face", f + 1, {seconds_, WhenLate::kThrow});
     const std::optional<SamplingLimits>& limits = limits_.face[f];
     if (!limits) return;
@@ -131,7 +134,8 @@ class RasterTasks {
     const auto whole = has_joined_faces ? whole_spline(*surface) : nullptr;
     raster_face(whole ? *whole : *surface, loops_[f].emplace(loop_polygons(model_, f, limits_)), own,
                 pack_cause(CauseKind::kFace, f), boxes, limits_.wants_gaps ? &patches : nullptr,
-                chord ? &*chord : nullptr);
+                chord ? &*chord : nullptr,
+                [&](double area) { on_share(area / std::max(model_.tables().face_area[f], 1e-300)); });
     if (is_reversed)
       for (std::size_t i = n_before; i < boxes.size(); ++i) boxes[i].normal = boxes[i].normal.reversed();
     for (GapPatch& patch : patches) {
@@ -185,6 +189,31 @@ class RasterTasks {
   std::int32_t n_batches_;
 };
 
+/// How far sampling has come: tasks by their work, large faces while they are sampled.
+class SharesDone {
+ public:
+  explicit SharesDone(const std::vector<double>& work)
+      : work_(work), told_(work.size(), 0), progress_("sampling", total(work)) {}
+
+  /// While a task runs; any thread, one for each task.
+  void add(std::int32_t task, double share) {
+    const double part = std::clamp(share, 0.0, 1 - told_[task]);
+    told_[task] += part;
+    progress_.advance(part * (work_[task] + kLeast));
+  }
+  /// It has ended, here or on another rank.
+  void end(std::int32_t task) { progress_.advance((1 - told_[task]) * (work_[task] + kLeast)); }
+
+ private:
+  static constexpr double kLeast = 1;  // work of any task
+  static double total(const std::vector<double>& work) {
+    return std::accumulate(work.begin(), work.end(), kLeast * static_cast<double>(work.size()));
+  }
+  const std::vector<double>& work_;
+  std::vector<double> told_;  // share of each task
+  Progress progress_;
+};
+
 /// Tasks of one rank run on several threads.
 void append_locked(const std::vector<RasterBox>& boxes, std::mutex& mutex, std::vector<RasterBox>& all) {
   const std::lock_guard lock(mutex);
@@ -229,15 +258,15 @@ Samples sample_model(const SampledModel& sampled, std::uint64_t max_samples, con
   samples.n_boxes.resize(n);
   samples.failures.resize(n);
   samples.patches.resize(n);
-  Progress progress("sampling", tasks.count());
-  std::int32_t n_done = 0;
+  const std::vector<double> work = tasks.work();
+  SharesDone shares(work);
   std::uint64_t n_samples = 0;
   std::mutex mutex;
   comm.run_tasks(
-      tasks.count(), tasks.order(),
+      tasks.count(), heaviest_first(work),
       [&](std::int32_t task) {
         std::vector<RasterBox> boxes;
-        Bytes result = tasks.compute(task, boxes);
+        Bytes result = tasks.compute(task, boxes, [&](double share) { shares.add(task, share); });
         append_locked(boxes, mutex, samples.own_boxes);
         return result;
       },
@@ -247,12 +276,13 @@ Samples sample_model(const SampledModel& sampled, std::uint64_t max_samples, con
         require_samples(n_samples += samples.n_boxes[task], max_samples);
         unpacker.get(samples.failures[task]);
         unpacker.get(samples.patches[task]);
-        progress.update(++n_done);
+        shares.end(task);
       });
   return samples;
 }
 
-void limit_samples(std::uint64_t max_samples, ModelLimits& limits) {
+void limit_samples(const ModelTables& tables, std::uint64_t max_samples, ModelLimits& limits) {
+  require_room_for(least_samples(tables, limits), max_samples);
   limits.far.max_samples = max_samples;
   for (auto* all : {&limits.face, &limits.edge})
     for (std::optional<SamplingLimits>& own : *all)

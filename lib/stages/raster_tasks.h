@@ -41,8 +41,8 @@ struct Samples {
 /// Collective. Edges, then faces. Throws TooManyCells beyond `max_samples`.
 Samples sample_model(const SampledModel& sampled, std::uint64_t max_samples, const Executor& comm);
 
-/// No curve and no face may make more.
-void limit_samples(std::uint64_t max_samples, ModelLimits& limits);
+/// No curve and no face may make more. Throws TooManyCells where the faces need more in any case.
+void limit_samples(const ModelTables& tables, std::uint64_t max_samples, ModelLimits& limits);
 
 /// Collective. Boxes of gaps stay on the rank that made them, as the others do; returns their number on rank 0. Throws
 /// TooManyCells beyond `max_samples`.

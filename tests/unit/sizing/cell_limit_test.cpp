@@ -59,6 +59,25 @@ TEST(CellLimit, stops_the_sampling_of_a_curve_and_of_a_face) {
   EXPECT_LE(boxes.size(), 501u);
 }
 
+TEST(CellLimit, of_samples_is_known_before_any_is_made) {
+  EXPECT_EQ(refusal([] { require_room_for(1e6, 1000000); }), "");
+  const std::string text = refusal([] { require_room_for(3e8, 1000000); });
+  EXPECT_TRUE(has(text, "at least 3e+08 samples") && has(text, "room for 1e+06") && has(text, "--lmax")) << text;
+  const AxialSurface sphere(SurfaceType::kSphere, kFrame, 10, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  ModelTables tables;
+  tables.face_area = {400 * kPi};
+  ModelLimits limits;
+  for (const double cell_per_length : {1.0, 2.0, 4.0})
+    for (const double length : {20.0, 1.0, 0.1}) {
+      limits.face = {SamplingLimits{length, length, radians(90), cell_per_length}};
+      std::vector<RasterBox> boxes;
+      raster_face(sphere, LoopPolygons(), *limits.face[0], 0, boxes);
+      const double least = least_samples(tables, limits), found = static_cast<double>(boxes.size());
+      EXPECT_LE(least, found) << length;
+      EXPECT_TRUE(length >= 1 || least > 0.1 * found) << cell_per_length;
+    }
+}
+
 TEST(CellLimit, is_estimated_below_what_sampling_makes) {
   ModelTables tables;
   tables.vertex_xyz = {{0, 0, 0}, {1, 1, 0}};

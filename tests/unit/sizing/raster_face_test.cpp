@@ -511,5 +511,18 @@ TEST(RasterFace, places_that_jump_between_facets_are_not_split_without_end) {
   EXPECT_LT(sample(ChartSurface(std::move(chart))).report.n_evaluations, 10'000'000);
 }
 
+TEST(RasterFace, tells_meanwhile_what_area_is_sampled) {
+  const AxialSurface sphere(SurfaceType::kSphere, kRasterFrame, 1, 0, 0, 2 * kPi, -kPi / 2, kPi / 2);
+  std::vector<RasterBox> boxes;
+  std::vector<double> news;
+  raster_face(sphere, LoopPolygons(), {0.01, 0.01, radians(10), 2}, 0, boxes, nullptr, nullptr,
+              [&](double area) { news.push_back(area); });
+  ASSERT_EQ(news.size(), boxes.size() / 1000);
+  ASSERT_GT(news.size(), 20u);
+  double sum = 0;
+  for (const double area : news) sum += area;
+  EXPECT_NEAR(sum, 4 * kPi, 0.05 * 4 * kPi);
+}
+
 }  // namespace
 }  // namespace st
