@@ -82,7 +82,7 @@ void RegionTasks::add_whole(const std::vector<std::int32_t>& regions, std::vecto
 }
 
 void RegionTasks::add_tiles(std::vector<Task>& tasks, Progress& progress) {
-  for (std::int32_t t = 0; t < tiled_.n_tiles(); ++t)
+  for (std::int32_t t = 0; t < tiled_.n_sections(); ++t)
     tasks.push_back({.label = tiled_.label_of_tile(steps_.tile, t),
                      .work = tiled_.weight(t),
                      .compute = [this, t] { return tiled_.compute(t, executor_.rank()); },
@@ -95,12 +95,11 @@ void RegionTasks::add_tiles(std::vector<Task>& tasks, Progress& progress) {
                      .restore = [this, t](Bytes&& whole) { return tiled_.restore(t, whole); }});
 }
 
-/// Collective. First those within groups of tiles. Returns the regions that are to be made as a whole, ascending, on
-/// rank 0.
+/// Collective. Returns the regions that are to be made as a whole, ascending, on rank 0.
 std::vector<std::int32_t> RegionTasks::make_seams() {
   std::vector<std::int32_t> failed;
   if (tiled_.cut_regions().empty()) return failed;
-  tiled_.mesh_groups(executor_, made_from_);
+  tiled_.share_places(executor_);
   std::vector<Task> tasks;
   for (const std::int32_t r : tiled_.cut_regions())
     tasks.push_back({.label = tiled_.label(steps_.seams, r),

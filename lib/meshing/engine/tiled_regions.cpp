@@ -61,18 +61,9 @@ void TiledRegions::share_cuts(const Executor& executor) {
   for (std::size_t i = 0; i < chosen_.size(); ++i) {
     if (chosen_cuts_[i].tiles.empty()) continue;
     const std::int32_t region = chosen_[i];
-    TileGroups groups(chosen_cuts_[i]);
-    const std::int32_t n_tiles = groups.n_tiles();
-    std::vector<SplitPiece> meshes(static_cast<std::size_t>(n_tiles + groups.n_groups()));
-    regions_cut_.emplace(region, RegionCut{std::move(chosen_cuts_[i]), std::move(groups), std::move(meshes),
-                                           static_cast<std::int32_t>(sections_.size())});
-    for (std::int32_t t = 0; t < n_tiles; ++t) sections_.push_back({region, t});
-  }
-  n_tiles_ = static_cast<std::int32_t>(sections_.size());
-  for (auto& [region, parts] : regions_cut_) {
-    parts.first_group = static_cast<std::int32_t>(sections_.size());
-    for (std::int32_t g = 0; g < parts.groups.n_groups(); ++g)
-      sections_.push_back({region, parts.groups.n_tiles() + g});
+    const std::size_t n_tiles = chosen_cuts_[i].tiles.size();
+    regions_cut_.emplace(region, RegionCut{std::move(chosen_cuts_[i]), std::vector<SplitPiece>(n_tiles), n_sections()});
+    for (std::size_t t = 0; t < n_tiles; ++t) sections_.push_back({region, static_cast<std::int32_t>(t)});
   }
   rank_of_.assign(sections_.size(), 0);
 }
@@ -105,53 +96,6 @@ Bytes TiledRegions::restore(std::int32_t section, const Bytes& bytes) {
   return packed(std::int32_t{0});
 }
 
-void TiledRegions::mesh_groups(const Executor& executor, const std::string& made_from) {
-  share(executor, rank_of_);
-  const std::int32_t n_groups = n_sections() - n_tiles_;
-  if (n_groups == 0) return;
-  std::vector<double> work;
-  for (std::int32_t s = n_tiles_; s < n_sections(); ++s)
-    work.push_back(static_cast<double>(regions_cut_.at(sections_[s].region).cut.nodes.size()));
-  const auto label = [&](std::int32_t task) {
-    const Section& s = sections_[n_tiles_ + task];
-    return TaskLabel{"group", regions_.face(s.region), task};  // a face may have several regions
-  };
-  executor.run_named_tasks(
-      {.order = heaviest_first(work),
-       .label = label,
-       .made_from = made_from,
-       .record = [&](std::int32_t task, const Bytes&) { return record(n_tiles_ + task); },
-       .restore = [&](std::int32_t task, Bytes&& bytes) { return restore(n_tiles_ + task, bytes); },
-       .answer = [&](const Bytes& request) { return answer(request); }},
-      [&](std::int32_t task) {
-        mesh_group(n_tiles_ + task, executor);
-        return packed(static_cast<std::int32_t>(executor.rank()));
-      },
-      [&](std::int32_t task, Bytes&& bytes) { take_place(n_tiles_ + task, bytes); });
-  share(executor, rank_of_);
-}
-
-void TiledRegions::mesh_group(std::int32_t section, const Executor& executor) {
-  const auto [region, index] = sections_[section];
-  const FaceId f = regions_.face(region);
-  const TileCut& cut = regions_cut_.at(region).cut;
-  const TileGroups& groups = regions_cut_.at(region).groups;
-  SplitPiece& split = mesh_of(sections_[section]);
-  const std::int32_t group = index - groups.n_tiles();
-  std::vector<Piece> bands = gather(region, groups.members(group), true, executor);
-  const CurrentWork at_face("face", f + 1, limit_);
-  try {
-    const auto surface = model_.surface(f);
-    const SurfaceMaker make_surface = [&] { return model_.surface(f); };
-    const FaceBoundary whole = regions_.boundary(region, *surface);
-    const FaceField field = field_of(f);
-    const SeamMaker maker{*surface, make_surface, whole, cut, groups, field.get(), options_};
-    split = split_group(whole, cut, index, maker.of_group(group, std::move(bands)));
-  } catch (const Error&) {
-    split.band.mesh.cause = FailureCause::kError;
-  }
-}
-
 namespace {
 
 struct SectionRequest {
@@ -169,15 +113,14 @@ Piece TiledRegions::take_part(const Section& section, bool wants_band) {
   return std::exchange(mesh.rest, {});
 }
 
-/// Of these sections [first, end) of the region, whoever has them: they are gone there.
-std::vector<Piece> TiledRegions::gather(std::int32_t region, const std::array<std::int32_t, 2>& members,
-                                        bool wants_bands, const Executor& executor) {
+/// Of all sections of the region, whoever has them: they are gone there.
+std::vector<Piece> TiledRegions::gather(std::int32_t region, bool wants_bands, const Executor& executor) {
   std::vector<Piece> parts;
   std::vector<Request> requests;
   std::vector<std::size_t> missing;
-  for (std::int32_t index = members[0]; index < members[1]; ++index) {
+  for (std::int32_t index = 0; index < n_sections_of(region); ++index) {
     parts.emplace_back();
-    if (const int rank = rank_of(number_of(region, index)); rank != executor.rank()) {
+    if (const int rank = rank_of(regions_cut_.at(region).first + index); rank != executor.rank()) {
       requests.push_back({rank, packed(SectionRequest{{region, index}, wants_bands})});
       missing.push_back(parts.size() - 1);
     } else {
@@ -198,12 +141,6 @@ std::vector<Piece> TiledRegions::gather(std::int32_t region, const std::array<st
   return parts;
 }
 
-std::int32_t TiledRegions::number_of(std::int32_t region, std::int32_t index) const {
-  const RegionCut& parts = regions_cut_.at(region);
-  const std::int32_t n_tiles = parts.groups.n_tiles();
-  return index < n_tiles ? parts.first_tile + index : parts.first_group + index - n_tiles;
-}
-
 Bytes TiledRegions::answer(const Bytes& request) {
   SectionRequest asked{};
   unpack(request, asked);
@@ -214,17 +151,15 @@ Piece TiledRegions::seams(const Surface& surface, std::int32_t region, const Fac
                           const Executor& executor) {
   const FaceId f = regions_.face(region);
   const SurfaceMaker make_surface = [&] { return model_.surface(f); };
-  const RegionCut& parts = regions_cut_.at(region);
-  const TileGroups& groups = parts.groups;
   const FaceField field = field_of(f);
-  return SeamMaker{surface, make_surface, boundary, parts.cut, groups, field.get(), options_}.of_face(
-      gather(region, groups.members_of_face(), true, executor));
+  return SeamMaker{surface, make_surface, boundary, regions_cut_.at(region).cut, field.get(), options_}.run(
+      gather(region, true, executor));
 }
 
 FaceMesh TiledRegions::join(std::int32_t region, const FaceBoundary& boundary, Piece seams, const Executor& executor) {
   if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);
-  return join_sections(static_cast<std::int32_t>(boundary.nodes.size()),
-                       gather(region, {0, n_sections_of(region)}, false, executor), std::move(seams));
+  return join_sections(static_cast<std::int32_t>(boundary.nodes.size()), gather(region, false, executor),
+                       std::move(seams));
 }
 
 }  // namespace st

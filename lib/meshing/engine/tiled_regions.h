@@ -1,10 +1,8 @@
 // Heavy faces and holes as several tasks: cut into tiles, meshed tile by tile, enhanced along the cuts.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <map>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,9 +39,9 @@ struct Regions {
   bool share_faces = false;  ///< a face may have several
 };
 
-/// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, mesh_groups(), then the seams,
-/// and joins where a region is wanted as a whole. All tasks are pure functions of the boundary and the sizes. Tiles,
-/// and groups of them, are the sections of a region (see Piece): each stays on the rank that makes it.
+/// The regions of one round that are cut: choose(), the cuts, share_cuts(), the tiles, share_places(), then the seams,
+/// and joins where a region is wanted as a whole. All tasks are pure functions of the boundary and the sizes. Tiles are
+/// the sections of a region (see Piece): each stays on the rank that makes it.
 class TiledRegions {
  public:
   /// All references outlive the object. `limit`: of a tile.
@@ -69,7 +67,6 @@ class TiledRegions {
   bool is_cut(std::int32_t region) const { return regions_cut_.contains(region); }
   /// Those that are, ascending.
   std::vector<std::int32_t> cut_regions() const;
-  std::int32_t n_tiles() const { return n_tiles_; }
   /// Expected triangles.
   double weight(std::int32_t tile) const {
     return regions_cut_.at(sections_[tile].region).cut.tiles[sections_[tile].index].weight;
@@ -85,9 +82,9 @@ class TiledRegions {
   }
 
   struct Section {
-    std::int32_t region, index;  ///< tiles first, then groups
+    std::int32_t region, index;
   };
-  /// The tiles of all regions, then the groups.
+  /// The tiles of all regions.
   std::int32_t n_sections() const { return static_cast<std::int32_t>(sections_.size()); }
   const Section& section(std::int32_t section) const { return sections_[section]; }
   std::int32_t n_sections_of(std::int32_t region) const {
@@ -101,8 +98,8 @@ class TiledRegions {
     return packed(regions_cut_.at(sections_[section].region).meshes[sections_[section].index]);
   }
   Bytes restore(std::int32_t section, const Bytes& bytes);
-  /// Collective, when all tiles were taken: the seams within groups. `made_from`: as for NamedTasks.
-  void mesh_groups(const Executor& executor, const std::string& made_from);
+  /// Collective, when all tiles were taken: where each is.
+  void share_places(const Executor& executor) { share(executor, rank_of_); }
   int rank_of(std::int32_t section) const { return rank_of_[section]; }
 
   /// Local, by tasks that `answer` belongs to: the triangles about the cuts between the sections of a region. Several
@@ -121,12 +118,9 @@ class TiledRegions {
 
  private:
   void drop_stretched();
-  std::vector<Piece> gather(std::int32_t region, const std::array<std::int32_t, 2>& members, bool wants_bands,
-                            const Executor& executor);
+  std::vector<Piece> gather(std::int32_t region, bool wants_bands, const Executor& executor);
   Piece take_part(const Section& section, bool wants_band);
   SplitPiece& mesh_of(const Section& s) { return regions_cut_.at(s.region).meshes[s.index]; }
-  std::int32_t number_of(std::int32_t region, std::int32_t index) const;
-  void mesh_group(std::int32_t section, const Executor& executor);
   TileCut cut_of(std::int32_t region) const;
   FaceField field_of(FaceId f) const { return FaceField(field_, refinements_, model_.tables().face_box[f]); }
 
@@ -140,13 +134,11 @@ class TiledRegions {
   std::vector<std::int32_t> chosen_;
   std::vector<TileCut> chosen_cuts_;  // on rank 0; without tiles: could not be cut
   std::vector<Section> sections_;
-  std::int32_t n_tiles_ = 0;
   std::vector<std::int32_t> rank_of_;  // [n_sections] where its mesh is
   struct RegionCut {
     TileCut cut;
-    TileGroups groups;
-    std::vector<SplitPiece> meshes;                // of its sections: those that are here
-    std::int32_t first_tile = 0, first_group = 0;  // numbers of its sections among all
+    std::vector<SplitPiece> meshes;  // of its sections: those that are here
+    std::int32_t first = 0;          // number of its first section among all
   };
   std::map<std::int32_t, RegionCut> regions_cut_;
 };

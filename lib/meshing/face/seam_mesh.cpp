@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "base/parallel_reserve.h"
@@ -19,26 +18,38 @@ std::int32_t size_of(const auto& rows) { return static_cast<std::int32_t>(rows.s
 
 constexpr std::uint8_t kInRest = 1, kInBand = 2;
 
-/// Separates what is near the cuts from the rest of a section.
-class SectionSplitter {
+/// For each cut node the first and the last tile that have it.
+std::vector<std::array<std::int32_t, 2>> tiles_of_cuts(const TileCut& cut) {
+  std::vector<std::array<std::int32_t, 2>> tiles(cut.nodes.size(), {kNone, kNone});
+  for (std::int32_t i = 0; i < size_of(cut.tiles); ++i)
+    for (const auto& segment : cut.tiles[i].segments)
+      for (const std::int32_t n : segment) {
+        if (n < cut.n_boundary) continue;
+        auto& [first, last] = tiles[n - cut.n_boundary];
+        last = i;
+        if (first == kNone) first = i;
+      }
+  return tiles;
+}
+
+/// Separates what is near the cuts from the rest of a tile.
+class TileSplitter {
  public:
-  /// `places`: of the boundary nodes of the mesh among boundary and cut nodes.
-  SectionSplitter(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section,
-                  std::vector<std::int32_t> places, Piece whole)
+  TileSplitter(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh whole)
       : boundary_(boundary),
         cut_(cut),
-        section_(section),
+        tile_(tile),
         n_face_(size_of(boundary.nodes)),
-        places_(std::move(places)),
+        places_(nodes_of(cut.tiles[tile])),
         n_boundary_(size_of(places_)),
         whole_(std::move(whole)) {}
 
   SplitPiece run() {
     Piece& band = split_.band;
-    band.mesh.cause = whole_.mesh.cause;
-    band.mesh.refinement = std::move(whole_.mesh.refinement);
-    band.mesh.n_folds = whole_.mesh.n_folds;
-    if (whole_.mesh.cause != FailureCause::kNone) return std::move(split_);
+    band.mesh.cause = whole_.cause;
+    band.mesh.refinement = std::move(whole_.refinement);
+    band.mesh.n_folds = whole_.n_folds;
+    if (whole_.cause != FailureCause::kNone) return std::move(split_);
     find_layers();
     find_uses();
     number_nodes();
@@ -50,14 +61,14 @@ class SectionSplitter {
  private:
   /// Steps from a cut node; boundary nodes that several tiles have are a step away at most.
   void find_layers() {
-    layer_.assign(n_boundary_ + whole_.mesh.inner.size(), kSeamLayers + 1);
+    layer_.assign(n_boundary_ + whole_.inner.size(), kSeamLayers + 1);
     for (std::int32_t i = 0; i < n_boundary_; ++i) {
       if (places_[i] >= n_face_)
         layer_[i] = 0;
       else if (std::binary_search(cut_.shared.begin(), cut_.shared.end(), places_[i]))
         layer_[i] = 1;
     }
-    is_in_band_.assign(whole_.mesh.corners.size() / 3, 0);
+    is_in_band_.assign(whole_.corners.size() / 3, 0);
     std::vector<std::size_t> found;
     for (int layer = 0; layer < kSeamLayers; ++layer) {
       found.clear();
@@ -66,7 +77,7 @@ class SectionSplitter {
       for (const std::size_t t : found) {
         is_in_band_[t] = 1;
         for (int k = 0; k < 3; ++k) {
-          std::uint8_t& own = layer_[whole_.mesh.corners[3 * t + k]];
+          std::uint8_t& own = layer_[whole_.corners[3 * t + k]];
           own = std::min(own, static_cast<std::uint8_t>(layer + 1));
         }
       }
@@ -74,40 +85,36 @@ class SectionSplitter {
   }
 
   std::uint8_t nearest_layer(std::size_t t) const {
-    const std::int32_t* c = &whole_.mesh.corners[3 * t];
+    const std::int32_t* c = &whole_.corners[3 * t];
     return std::min({layer_[c[0]], layer_[c[1]], layer_[c[2]]});
   }
 
   void find_uses() {
-    uses_.assign(n_boundary_ + whole_.mesh.inner.size(), 0);
-    for (std::size_t i = 0; i < whole_.mesh.corners.size(); ++i)
-      uses_[whole_.mesh.corners[i]] |= is_in_band_[i / 3] ? kInBand : kInRest;
+    uses_.assign(n_boundary_ + whole_.inner.size(), 0);
+    for (std::size_t i = 0; i < whole_.corners.size(); ++i)
+      uses_[whole_.corners[i]] |= is_in_band_[i / 3] ? kInBand : kInRest;
   }
 
-  /// Nodes of the rest are its own, then others'; so are those of the band: its own, then those of sections.
+  /// Nodes of the band are its own, then those of the rest.
   void number_nodes() {
-    const std::int32_t n_own = whole_.n_own();
-    in_rest_.assign(whole_.mesh.inner.size(), kNone);
-    in_band_.assign(whole_.mesh.inner.size(), kNone);
-    const auto uses = [&](std::int32_t i) { return uses_[n_boundary_ + i]; };
-    for (std::int32_t i = 0; i < size_of(whole_.mesh.inner); ++i) {
-      if (!(uses(i) & kInRest)) continue;
-      in_rest_[i] = size_of(split_.rest.mesh.inner);
-      split_.rest.mesh.inner.push_back(whole_.mesh.inner[i]);
-      if (i >= n_own) split_.rest.owner.push_back(whole_.owner[i - n_own]);
-    }
-    Piece& band = split_.band;
-    const auto add = [&](std::int32_t i) {
-      in_band_[i] = size_of(band.mesh.inner);
-      band.mesh.inner.push_back(whole_.mesh.inner[i]);
+    in_rest_.assign(whole_.inner.size(), kNone);
+    in_band_.assign(whole_.inner.size(), kNone);
+    const auto add = [&](std::int32_t i, std::vector<std::int32_t>& in_piece, Piece& piece) {
+      in_piece[i] = size_of(piece.mesh.inner);
+      piece.mesh.inner.push_back(whole_.inner[i]);
     };
-    for (std::int32_t i = 0; i < n_own; ++i)
-      if (uses(i) == kInBand) add(i);
-    for (std::int32_t i = 0; i < size_of(whole_.mesh.inner); ++i) {
-      if (!(uses(i) & kInBand) || in_band_[i] != kNone) continue;
-      add(i);
-      band.owner.push_back(i < n_own ? InnerNode{section_, in_rest_[i]} : whole_.owner[i - n_own]);
-    }
+    const auto for_all_with = [&](auto is_wanted, const auto& f) {
+      for (std::int32_t i = 0; i < size_of(whole_.inner); ++i)
+        if (is_wanted(uses_[n_boundary_ + i])) f(i);
+    };
+    Piece& band = split_.band;
+    for_all_with([](int uses) { return uses & kInRest; }, [&](std::int32_t i) { add(i, in_rest_, split_.rest); });
+    for_all_with([](int uses) { return uses == kInBand; }, [&](std::int32_t i) { add(i, in_band_, band); });
+    for_all_with([](int uses) { return uses == (kInRest | kInBand); },
+                 [&](std::int32_t i) {
+                   add(i, in_band_, band);
+                   band.owner.push_back({tile_, in_rest_[i]});
+                 });
   }
 
   void number_boundary() {
@@ -127,7 +134,7 @@ class SectionSplitter {
   void share_triangles() {
     const std::int32_t first_in_band = n_face_ + size_of(cut_.nodes), first_in_rest = size_of(split_.rest.boundary);
     for (std::size_t t = 0; t < is_in_band_.size(); ++t) {
-      const std::int32_t* c = &whole_.mesh.corners[3 * t];
+      const std::int32_t* c = &whole_.corners[3 * t];
       for (int k = 0; k < 3; ++k) {
         const std::int32_t inner = c[k] - n_boundary_;
         if (is_in_band_[t]) {
@@ -147,10 +154,10 @@ class SectionSplitter {
 
   const FaceBoundary& boundary_;
   const TileCut& cut_;
-  const std::int32_t section_, n_face_;
+  const std::int32_t tile_, n_face_;
   const std::vector<std::int32_t> places_;
   const std::int32_t n_boundary_;
-  Piece whole_;
+  FaceMesh whole_;
   std::vector<std::uint8_t> layer_, uses_;       // of each corner
   std::vector<std::uint8_t> is_in_band_;         // [n_triangles]
   std::vector<std::int32_t> in_rest_, in_band_;  // [n_inner] the inner node there
@@ -158,18 +165,12 @@ class SectionSplitter {
   SplitPiece split_;
 };
 
-/// Puts bands together. Nodes that stay, on the boundary of the face, on cuts and in sections, are the boundary of this
-/// mesh, in this order. `is_inside`: the cut nodes that do not stay.
+/// Puts bands together. Nodes that stay, on the boundary of the face and in tiles, are the boundary of this mesh, in
+/// this order.
 class SeamMesher {
  public:
-  SeamMesher(const SeamMaker& maker, std::span<const Tile> tiles, std::vector<char> is_inside, std::vector<Piece> bands)
-      : maker_(maker),
-        tiles_(tiles),
-        is_inside_(std::move(is_inside)),
-        bands_(std::move(bands)),
-        n_face_(size_of(maker.boundary.nodes)),
-        n_fixed_(n_face_ + size_of(maker.cut.nodes)),
-        boundary_(maker.boundary) {}
+  SeamMesher(const SeamMaker& maker, std::vector<Piece> bands)
+      : maker_(maker), bands_(std::move(bands)), n_face_(size_of(maker.boundary.nodes)), boundary_(maker.boundary) {}
 
   Piece run() {
     add_up();
@@ -178,7 +179,6 @@ class SeamMesher {
       add_triangles();
       const std::vector<std::array<std::int32_t, 2>> rim = find_rim();
       improve_seams(maker_.surface, maker_.make_surface, boundary_, maker_.field, maker_.options, pieces_, mesh_);
-      boundary_.segments = outline();
       for (const auto& [a, b] : rim) boundary_.segments.push_back({a, b});
       check_edges(boundary_, mesh_, seams_.sides);
       renumber();
@@ -198,22 +198,14 @@ class SeamMesher {
   }
 
   void add_nodes() {
-    const TileCut& cut = maker_.cut;
-    const std::vector<std::array<std::int32_t, 2>> tiles = tiles_of_cuts(cut);
-    std::vector<std::array<std::int32_t, 2>> inside;  // of each cut node there
-    number_of_cut_.assign(cut.nodes.size(), kNone);
+    const std::vector<FaceNode>& cut = maker_.cut.nodes;
+    find_pieces(tiles_of_cuts(maker_.cut));
     std::int32_t last_id = 0;
     for (const FaceNode& n : boundary_.nodes) last_id = std::max(last_id, n.id);
-    for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) {
-      last_id = std::max(last_id, cut.nodes[i].id);
-      boundary_.nodes.push_back(cut.nodes[i]);
-      if (!is_inside_[i]) continue;
-      number_of_cut_[i] = size_of(mesh_.inner);
-      mesh_.inner.push_back(cut.nodes[i]);
-      mesh_.inner.back().id = kNone;
-      inside.push_back(tiles[i]);
+    for (const FaceNode& n : cut) {
+      last_id = std::max(last_id, n.id);
+      add_inner(n);
     }
-    find_pieces(inside);
     for (const Piece& band : bands_) {
       const auto end = band.mesh.inner.begin() + band.n_own();
       first_own_.push_back(size_of(mesh_.inner));
@@ -227,6 +219,11 @@ class SeamMesher {
     }
   }
 
+  void add_inner(const FaceNode& n) {
+    mesh_.inner.push_back(n);
+    mesh_.inner.back().id = kNone;
+  }
+
   /// The nodes between each two tiles are a piece; so is each junction.
   void find_pieces(const std::vector<std::array<std::int32_t, 2>>& tiles) {
     std::vector<std::array<std::int32_t, 2>> all = tiles;
@@ -236,16 +233,15 @@ class SeamMesher {
   }
 
   void add_triangles() {
-    const std::int32_t n_boundary = size_of(boundary_.nodes);
-    std::vector<std::int32_t> number(n_fixed_);
-    std::iota(number.begin(), number.end(), 0);
-    for (std::int32_t i = n_face_; i < n_fixed_; ++i)
-      if (is_inside_[i - n_face_]) number[i] = n_boundary + number_of_cut_[i - n_face_];
+    const std::int32_t n_boundary = size_of(boundary_.nodes), n_fixed = n_face_ + size_of(maker_.cut.nodes);
+    std::vector<std::int32_t> number(n_fixed);
+    std::iota(number.begin(), number.begin() + n_face_, 0);
+    std::iota(number.begin() + n_face_, number.end(), n_boundary);
     for (std::size_t i = 0; i < bands_.size(); ++i) {
       Piece& band = bands_[i];
-      number.resize(n_fixed_ + band.mesh.inner.size());
-      const auto rim = number.begin() + n_fixed_ + band.n_own();
-      std::iota(number.begin() + n_fixed_, rim, n_boundary + first_own_[i]);
+      number.resize(n_fixed + band.mesh.inner.size());
+      const auto rim = number.begin() + n_fixed + band.n_own();
+      std::iota(number.begin() + n_fixed, rim, n_boundary + first_own_[i]);
       std::iota(rim, number.end(), first_rim_[i]);
       for (const std::int32_t c : band.mesh.corners) mesh_.corners.push_back(number[c]);
       seams_.sides.insert(seams_.sides.end(), band.sides.begin(), band.sides.end());
@@ -259,19 +255,9 @@ class SeamMesher {
     std::vector<std::array<std::int32_t, 2>> sides;
     for (std::size_t i = 0; i < mesh_.corners.size(); ++i) {
       const std::int32_t a = mesh_.corners[i], b = mesh_.corners[i % 3 == 2 ? i - 2 : i + 1];
-      if (std::max(a, b) < n_boundary && std::max(a, b) >= n_fixed_) sides.push_back({a, b});
+      if (std::max(a, b) < n_boundary && std::max(a, b) >= n_face_) sides.push_back({a, b});
     }
     return without_opposite(std::move(sides));
-  }
-
-  /// The boundary of all tiles together.
-  std::vector<std::pair<std::int32_t, std::int32_t>> outline() const {
-    if (tiles_.size() == maker_.cut.tiles.size()) return maker_.boundary.segments;
-    std::vector<std::array<std::int32_t, 2>> sides;
-    for (const Tile& tile : tiles_) sides.insert(sides.end(), tile.segments.begin(), tile.segments.end());
-    std::vector<std::pair<std::int32_t, std::int32_t>> segments;
-    for (const auto& [a, b] : without_opposite(std::move(sides))) segments.push_back({a, b});
-    return segments;
   }
 
   static std::vector<std::array<std::int32_t, 2>> without_opposite(std::vector<std::array<std::int32_t, 2>> sides) {
@@ -283,28 +269,22 @@ class SeamMesher {
     return once;
   }
 
-  /// As in a Piece.
+  /// As in a Piece, but on no cut: inner node k is n_face + k.
   void renumber() {
     const std::int32_t n_boundary = size_of(boundary_.nodes), n_own = size_of(mesh_.inner);
     for (std::int32_t& c : mesh_.corners)
       if (c >= n_boundary)
-        c -= n_boundary - n_fixed_;
-      else if (c >= n_fixed_)
+        c -= n_boundary - n_face_;
+      else if (c >= n_face_)
         c += n_own;
-    for (std::int32_t i = n_fixed_; i < n_boundary; ++i) {
-      mesh_.inner.push_back(boundary_.nodes[i]);
-      mesh_.inner.back().id = kNone;
-    }
+    for (std::int32_t i = n_face_; i < n_boundary; ++i) add_inner(boundary_.nodes[i]);
   }
 
   const SeamMaker& maker_;
-  const std::span<const Tile> tiles_;
-  const std::vector<char> is_inside_;
   std::vector<Piece> bands_;
-  const std::int32_t n_face_, n_fixed_;  // nodes on the boundary of the face; and on cuts
+  const std::int32_t n_face_;  // nodes on the boundary of the face
   FaceBoundary boundary_;
-  std::vector<std::int32_t> number_of_cut_;          // [n_cut] inner node
-  std::vector<std::int32_t> pieces_;                 // of these
+  std::vector<std::int32_t> pieces_;                 // [n_cut]
   std::vector<std::int32_t> first_own_, first_rim_;  // [n_bands] inner node, boundary node
   FaceMesh mesh_;
   Piece seams_;
@@ -313,37 +293,10 @@ class SeamMesher {
 }  // namespace
 
 SplitPiece split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh) {
-  Piece whole;
-  whole.mesh = std::move(mesh);
-  return SectionSplitter(boundary, cut, tile, nodes_of(cut.tiles[tile]), std::move(whole)).run();
+  return TileSplitter(boundary, cut, tile, std::move(mesh)).run();
 }
 
-SplitPiece split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh) {
-  std::vector<std::int32_t> places(boundary.nodes.size() + cut.nodes.size());
-  std::iota(places.begin(), places.end(), 0);
-  const std::vector<std::array<std::int32_t, 2>> sides = std::move(mesh.sides);
-  SplitPiece split = SectionSplitter(boundary, cut, section, std::move(places), std::move(mesh)).run();
-  split.band.sides.insert(split.band.sides.end(), sides.begin(), sides.end());
-  return split;
-}
-
-Piece SeamMaker::of_group(std::int32_t group, std::vector<Piece> bands) const {
-  std::vector<char> is_inside;
-  for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) is_inside.push_back(groups.group_of(i) == group);
-  const auto [first, end] = groups.members(group);
-  const std::span<const Tile> tiles = std::span(cut.tiles).subspan(first, end - first);
-  return SeamMesher(*this, tiles, std::move(is_inside), std::move(bands)).run();
-}
-
-Piece SeamMaker::of_face(std::vector<Piece> bands) const {
-  std::vector<char> is_inside;
-  for (std::int32_t i = 0; i < size_of(cut.nodes); ++i) is_inside.push_back(groups.group_of(i) == kNone);
-  Piece seams = SeamMesher(*this, cut.tiles, std::move(is_inside), std::move(bands)).run();
-  const std::int32_t n_boundary = size_of(boundary.nodes);
-  for (std::int32_t& c : seams.mesh.corners)
-    if (c >= n_boundary) c -= size_of(cut.nodes);
-  return seams;
-}
+Piece SeamMaker::run(std::vector<Piece> bands) const { return SeamMesher(*this, std::move(bands)).run(); }
 
 FaceMesh join_sections(std::int32_t n_boundary, std::vector<Piece> sections, Piece seams) {
   if (seams.mesh.cause != FailureCause::kNone) return std::move(seams.mesh);

@@ -1,8 +1,5 @@
 // The tiles of a face without the triangles about the cuts, and these on their own: whoever enhances the cuts does not
 // need the tiles.
-//
-// A heavy face has many cuts. Those within groups of neighbouring tiles are enhanced first, group by group; then those
-// between groups. So a group is to the face what a tile is to the group: a section, with a band that it gives away.
 #pragma once
 
 #include <array>
@@ -12,17 +9,17 @@
 #include <vector>
 
 #include "mesh/surface_mesh.h"
-#include "meshing/face/tile_groups.h"
+#include "meshing/face/face_tiles.h"
 #include "meshing/face/tile_seams.h"
 
 namespace st {
 
 /// Some triangles of a face. Of what is about cuts, boundary node i of the face is corner i, cut node j is n_boundary +
-/// j, and inner node k is n_boundary + n_cut + k. A section has a boundary of its own; so
-/// has what fills a hole.
+/// j, and inner node k is n_boundary + n_cut + k. A section, what is left of a tile, has a boundary of its own; so has
+/// what fills a hole.
 struct Piece {
-  FaceMesh mesh;                 ///< inner: its own nodes, then those of sections
-  std::vector<InnerNode> owner;  ///< of the latter, which stay there. Sections: the tiles, then the groups of tiles
+  FaceMesh mesh;                                   ///< inner: its own nodes, then those of sections
+  std::vector<InnerNode> owner;                    ///< of the latter, which stay there
   std::vector<std::array<std::int32_t, 2>> sides;  ///< about cuts, ids of the ends, the smaller first: each use of an
                                                    ///< edge between boundary nodes by triangles that are in no band
                                                    ///< any more
@@ -45,10 +42,8 @@ struct SplitPiece {
   static auto fields(auto& x) { return std::tie(x.rest, x.band); }
 };
 
-/// Takes the band off the mesh of a tile, and off that of a group, which is section n_tiles + group. Local, pure.
-/// The cost is linear.
+/// Takes the band off the mesh of a tile. Local, pure. The cost is linear.
 SplitPiece split_tile(const FaceBoundary& boundary, const TileCut& cut, std::int32_t tile, FaceMesh mesh);
-SplitPiece split_group(const FaceBoundary& boundary, const TileCut& cut, std::int32_t section, Piece mesh);
 
 /// What does the enhancing.
 struct SeamMaker {
@@ -56,15 +51,13 @@ struct SeamMaker {
   const SurfaceMaker& make_surface;  ///< see improve_seams()
   const FaceBoundary& boundary;
   const TileCut& cut;
-  const TileGroups& groups;
   const SizeField& field;
   const FaceMeshOptions& options;
 
-  /// The bands of a group's tiles, of the tiles or groups of the face, as one mesh, improved: see improve_seams(). Its
-  /// cause is that of the first section that failed, or tells that they do not fit; its folds are those of all. Local,
-  /// pure.
-  Piece of_group(std::int32_t group, std::vector<Piece> bands) const;
-  Piece of_face(std::vector<Piece> bands) const;  ///< its corners are on no cut: inner node k is n_boundary + k
+  /// The bands of all tiles as one mesh, improved: see improve_seams(). Its corners are on no cut: inner node k is
+  /// n_boundary + k. Its cause is that of the first tile that failed, or tells that they do not fit; its folds are
+  /// those of all. Local, pure.
+  Piece run(std::vector<Piece> bands) const;
 };
 
 /// The mesh of the whole face from its sections and the seams of the face: section by section, the seams last.

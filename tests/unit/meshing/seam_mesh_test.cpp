@@ -25,7 +25,6 @@ struct SquareInTiles {
       : field(std::sqrt(kTrianglesPerWeight * test::make_model(shape).tables().face_area[0] / (n_tiles * kTile))),
         face(shape, field),
         cut(test::cut(face, field, kTile)),
-        groups(cut),
         meshes(test::mesh_tiles(face, cut, field)) {}
 
   std::int32_t n_boundary() const { return static_cast<std::int32_t>(face.boundary.nodes.size()); }
@@ -36,7 +35,6 @@ struct SquareInTiles {
   UniformField field;
   FaceCase face;
   TileCut cut;
-  TileGroups groups;
   std::vector<FaceMesh> meshes;
 };
 
@@ -111,9 +109,9 @@ TEST_P(SeamMeshes, leave_sections_whose_nodes_are_each_of_one_of_them) {
 
 INSTANTIATE_TEST_SUITE_P(Tiles, SeamMeshes, testing::Values(5, 30));
 
-TEST(SeamMeshes, improve_cuts_between_groups_as_those_within_them) {
+TEST(SeamMeshes, improve_cuts_between_many_tiles) {
   const SquareInTiles square(30);
-  ASSERT_GE(square.groups.n_groups(), 3);
+  ASSERT_GE(square.cut.tiles.size(), 25u);
   const FaceMesh joined = test::join(square.face, square.sections());
   const FaceMesh whole = square.face.mesh(square.field);
   const MeshView a{square.face.boundary, whole}, b{square.face.boundary, joined};
@@ -141,16 +139,15 @@ TEST(SeamMeshes, see_a_tile_that_is_missing) {
 TEST(SeamMeshes, see_an_edge_across_the_face_that_two_tiles_have) {
   SquareInTiles square(5);
   std::vector<Piece> bands;
-  for (std::int32_t t = 0; t < square.groups.n_tiles(); ++t)
-    bands.push_back(split_tile(square.face.boundary, square.cut, t, square.meshes[t]).band);
+  for (std::size_t t = 0; t < square.meshes.size(); ++t)
+    bands.push_back(split_tile(square.face.boundary, square.cut, static_cast<std::int32_t>(t), square.meshes[t]).band);
   const SurfaceMaker none;
   const FaceMeshOptions options;
-  const SeamMaker maker{*square.face.surface, none,   square.face.boundary, square.cut, square.groups,
-                        square.field,         options};
-  EXPECT_EQ(maker.of_face(bands).mesh.cause, FailureCause::kNone);
+  const SeamMaker maker{*square.face.surface, none, square.face.boundary, square.cut, square.field, options};
+  EXPECT_EQ(maker.run(bands).mesh.cause, FailureCause::kNone);
   const std::int32_t a = square.face.boundary.nodes[3].id, b = square.face.boundary.nodes[9].id;
   for (int i = 0; i < 4; ++i) bands[i % 2].sides.push_back({std::min(a, b), std::max(a, b)});
-  EXPECT_EQ(maker.of_face(bands).mesh.cause, FailureCause::kNarrowPart);
+  EXPECT_EQ(maker.run(bands).mesh.cause, FailureCause::kNarrowPart);
 }
 
 TEST(SeamMeshes, carry_folds_of_tiles) {

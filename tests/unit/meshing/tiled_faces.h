@@ -29,23 +29,15 @@ struct Sections {
 
 inline Sections mesh_sections(const FaceCase& face, const TileCut& cut, const SizeField& field,
                               std::vector<FaceMesh> meshes, const FaceMeshOptions& options = {}) {
-  const TileGroups groups(cut);
   const SurfaceMaker none;
-  const SeamMaker maker{*face.surface, none, face.boundary, cut, groups, field, options};
-  std::vector<SplitPiece> split;
-  const auto take_bands = [&](const std::array<std::int32_t, 2>& members) {
-    std::vector<Piece> bands;
-    for (std::int32_t i = members[0]; i < members[1]; ++i) bands.push_back(std::exchange(split[i].band, Piece()));
-    return bands;
-  };
-  for (std::int32_t t = 0; t < groups.n_tiles(); ++t)
-    split.push_back(split_tile(face.boundary, cut, t, std::move(meshes[t])));
-  for (std::int32_t g = 0; g < groups.n_groups(); ++g)
-    split.push_back(
-        split_group(face.boundary, cut, groups.n_tiles() + g, maker.of_group(g, take_bands(groups.members(g)))));
   Sections all;
-  all.seams = maker.of_face(take_bands(groups.members_of_face()));
-  for (SplitPiece& s : split) all.sections.push_back(std::move(s.rest));
+  std::vector<Piece> bands;
+  for (std::size_t t = 0; t < meshes.size(); ++t) {
+    SplitPiece split = split_tile(face.boundary, cut, static_cast<std::int32_t>(t), std::move(meshes[t]));
+    all.sections.push_back(std::move(split.rest));
+    bands.push_back(std::move(split.band));
+  }
+  all.seams = SeamMaker{*face.surface, none, face.boundary, cut, field, options}.run(std::move(bands));
   return all;
 }
 
