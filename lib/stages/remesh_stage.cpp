@@ -188,7 +188,7 @@ RemeshInput read_foreign_input(const RemeshStageOptions& o) {
 MeshShare share_of(const SurfaceMesh& whole, const Communicator& comm) {
   const auto n = static_cast<std::int64_t>(whole.triangles.size());
   const auto at = [&](int rank) { return static_cast<TriangleId>(n * rank / comm.size()); };
-  return {at(comm.rank()), at(comm.rank() + 1), 0, 0};
+  return {at(comm.rank()), at(comm.rank() + 1), 0};
 }
 
 /// A node inside a face belongs to triangles of that face alone. Throws Error(kInput).
@@ -211,7 +211,8 @@ MeshArtifact read_share(const RemeshStageOptions& o, const Communicator& comm, M
     return whole;
   }
   MeshPart part = read_mesh_part(o.mesh, comm.rank(), comm.size());
-  share = {0, static_cast<TriangleId>(part.artifact.mesh.triangles.size()), part.first_triangle, part.inner_shift};
+  share = {0, static_cast<TriangleId>(part.artifact.mesh.n_triangles()), part.first_triangle,
+           std::move(part.node_number)};
   return std::move(part.artifact);
 }
 

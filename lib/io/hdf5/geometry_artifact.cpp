@@ -1,10 +1,9 @@
 // geometry.hdf: docs/artifacts.md
 #include <cmath>
-#include <type_traits>
 #include <utility>
 
 #include "geometry/model/joined_tables.h"
-#include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/columns.h"
 #include "io/hdf5/composites_io.h"
 #include "io/hdf5/face_labels_io.h"
 
@@ -14,61 +13,125 @@ namespace {
 constexpr int kFacetsVersion = 1;         // of the group /st/facets
 constexpr int kPlainGeometryVersion = 1;  // without composites, which older tools would take for faces of the CAD
 
-void write_vertices_and_edges(Hdf5Writer& w, const ModelTables& t) {
-  w.write("/st/vertex/xyz", t.vertex_xyz);
-  w.write("/st/vertex/tolerance", t.vertex_tolerance);
-  w.write("/st/edge/vertices", t.edge_vertices, 2);
-  w.write("/st/edge/range", t.edge_range, 2);
-  w.write("/st/edge/length", t.edge_length);
-  w.write("/st/edge/tolerance", t.edge_tolerance);
-  w.write("/st/edge/is_degenerate", t.edge_is_degenerate);
-  w.write_strings("/st/edge/name", t.edge_name);
+/// `Tables`: ModelTables, constant where `io` writes.
+template <class Io, class Tables>
+void visit_vertices_and_edges(const Io& io, Tables& t) {
+  io("/st/vertex/xyz", t.vertex_xyz, {}, kFinite);
+  io("/st/vertex/tolerance", t.vertex_tolerance, {t.vertex_xyz.size()}, kLengths);
+  io("/st/edge/length", t.edge_length, {}, kLengths);
+  const std::size_t n = t.edge_length.size();
+  io("/st/edge/vertices", t.edge_vertices, {n, 2}, ids_below(t.vertex_xyz.size()));
+  io("/st/edge/range", t.edge_range, {n, 2}, kRanges);
+  io("/st/edge/tolerance", t.edge_tolerance, {n}, kLengths);
+  io("/st/edge/is_degenerate", t.edge_is_degenerate, {n});
+  io("/st/edge/name", t.edge_name, {n});
+}
+
+template <class Io, class Tables>
+void visit_faces(const Io& io, Tables& t) {
+  io("/st/face/is_reversed", t.face_is_reversed);
+  const std::size_t n = t.face_is_reversed.size();
+  io("/st/coedge/edge", t.coedge_edge, {}, ids_below(t.edge_length.size()));
+  io("/st/coedge/is_reversed", t.coedge_is_reversed, {t.coedge_edge.size()});
+  io("/st/loop/coedge_offsets", t.loop_coedge_offsets, {}, offsets_into(t.coedge_edge.size()));
+  io("/st/face/loop_offsets", t.face_loop_offsets, {n + 1}, offsets_into(t.loop_coedge_offsets.size() - 1));
+  io("/st/face/type", t.face_type, {n});
+  io("/st/face/uv_bounds", t.face_uv_bounds, {n, 4}, kRanges);
+  io("/st/face/tolerance", t.face_tolerance, {n}, kLengths);
+  io("/st/face/area", t.face_area, {n}, kFinite);
+  io("/st/face/box", t.face_box, {n}, kFinite);
+  io("/st/face/color", t.face_color, {n});
+  io("/st/face/layer", t.face_layer, {n});
+  io("/st/face/shell", t.face_shell, {n}, ids_below(t.n_shells, kNone));
+  io("/st/face/solid", t.face_solid, {n}, ids_below(t.n_solids, kNone));
+}
+
+/// A number of shells or solids, each of which has a face.
+std::int32_t read_count(const Hdf5Reader& r, const std::string& name) {
+  const std::int64_t n = r.int_attribute("/st", name);
+  const std::size_t n_faces = r.info("/st/face/is_reversed").shape[0];
+  if (n < 0 || static_cast<std::uint64_t>(n) > n_faces)
+    r.fail("/st@" + name, std::to_string(n) + " is not possible with " + std::to_string(n_faces) + " faces");
+  return static_cast<std::int32_t>(n);
+}
+
+void read_faces(const Hdf5Reader& r, ModelTables& t) {
+  t.n_shells = read_count(r, "n_shells");
+  t.n_solids = read_count(r, "n_solids");
+  visit_faces(ReadColumns{r}, t);
+  const std::size_t n = t.face_area.size();
+  if (r.has("/st/face/width"))
+    ReadColumns{r}("/st/face/width", t.face_width, {n}, kLengths);
+  else  // written before widths were: as wide as long
+    for (double area : t.face_area) t.face_width.push_back(std::sqrt(area));
+  t.labels = read_labels(r, n);
+  for (const EntityGroup& g : t.labels.edge_groups) require_ids(r, "/st/edge_group/ids", g.ids, t.edge_length.size());
+  for (const EntityGroup& g : t.labels.vertex_groups)
+    require_ids(r, "/st/vertex_group/ids", g.ids, t.vertex_xyz.size());
 }
 
 void write_faces(Hdf5Writer& w, const ModelTables& t) {
-  w.write("/st/face/loop_offsets", t.face_loop_offsets);
-  w.write("/st/loop/coedge_offsets", t.loop_coedge_offsets);
-  w.write("/st/coedge/edge", t.coedge_edge);
-  w.write("/st/coedge/is_reversed", t.coedge_is_reversed);
-  w.write("/st/face/is_reversed", t.face_is_reversed);
-  w.write("/st/face/type", t.face_type);
-  w.write("/st/face/uv_bounds", t.face_uv_bounds, 4);
-  w.write("/st/face/tolerance", t.face_tolerance);
-  w.write("/st/face/area", t.face_area);
+  visit_faces(WrittenColumns{w}, t);
   w.write("/st/face/width", t.face_width);
-  w.write("/st/face/box", t.face_box);
   w.write_strings("/st/face/name", t.labels.face_name);
-  w.write("/st/face/color", t.face_color);
-  w.write_strings("/st/face/layer", t.face_layer);
   w.write("/st/face/group", t.labels.face_group);
-  w.write("/st/face/shell", t.face_shell);
-  w.write("/st/face/solid", t.face_solid);
   w.write_strings("/st/group/name", t.labels.group_name);
   w.write_strings("/st/group/role", t.labels.group_role);
   write_labels(w, t.labels);
+  w.set_attribute("/st", "n_shells", std::int64_t{t.n_shells});
+  w.set_attribute("/st", "n_solids", std::int64_t{t.n_solids});
 }
 
-void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
+/// Findings by column.
+struct FindingColumns {
   std::vector<std::string> what, detail, entity;
   std::vector<Vec3> xyz;
   std::vector<double> size;
   std::vector<std::uint8_t> kind, is_repair;
-  for (const ImportFinding& f : findings) {
-    what.push_back(f.what());
-    kind.push_back(static_cast<std::uint8_t>(f.kind));
-    detail.push_back(f.detail);
-    entity.push_back(f.entity);
-    xyz.push_back(f.xyz);
-    size.push_back(f.size);
-    is_repair.push_back(f.is_repair);
+
+  template <class Io, class Columns>
+  static void visit(const Io& io, Columns& c) {
+    io("/st/finding/what", c.what);
+    io("/st/finding/entity", c.entity, {c.what.size()});
+    io("/st/finding/xyz", c.xyz, {c.what.size()});
+    io("/st/finding/size", c.size, {c.what.size()});
+    io("/st/finding/is_repair", c.is_repair, {c.what.size()});
   }
-  w.write_strings("/st/finding/what", what);
-  w.write("/st/finding/kind", kind);
-  w.write_strings("/st/finding/detail", detail);
-  w.write_strings("/st/finding/entity", entity);
-  w.write("/st/finding/xyz", xyz);
-  w.write("/st/finding/size", size);
-  w.write("/st/finding/is_repair", is_repair);
+  /// Absent in older files.
+  template <class Io, class Columns>
+  static void visit_kinds(const Io& io, Columns& c) {
+    io("/st/finding/kind", c.kind, {c.what.size()});
+    io("/st/finding/detail", c.detail, {c.what.size()});
+  }
+};
+
+void write_findings(Hdf5Writer& w, const std::vector<ImportFinding>& findings) {
+  FindingColumns c;
+  for (const ImportFinding& f : findings) {
+    c.what.push_back(f.what());
+    c.kind.push_back(static_cast<std::uint8_t>(f.kind));
+    c.detail.push_back(f.detail);
+    c.entity.push_back(f.entity);
+    c.xyz.push_back(f.xyz);
+    c.size.push_back(f.size);
+    c.is_repair.push_back(f.is_repair);
+  }
+  FindingColumns::visit(WrittenColumns{w}, c);
+  FindingColumns::visit_kinds(WrittenColumns{w}, c);
+}
+
+std::vector<ImportFinding> read_findings(const Hdf5Reader& r) {
+  FindingColumns c;
+  FindingColumns::visit(ReadColumns{r}, c);
+  c.kind.assign(c.what.size(), static_cast<std::uint8_t>(FindingKind::kOther));
+  c.detail.resize(c.what.size());
+  if (r.has("/st/finding/kind")) FindingColumns::visit_kinds(ReadColumns{r}, c);
+  std::vector<ImportFinding> findings;
+  for (std::size_t i = 0; i < c.what.size(); ++i) {
+    findings.push_back({FindingKind::kOther, c.entity[i], c.xyz[i], c.size[i], c.is_repair[i] != 0});
+    restore_kind(findings.back(), c.kind[i], c.detail[i], c.what[i]);
+  }
+  return findings;
 }
 
 constexpr const char *kPreviousFaces = "/st/face/previous_id", *kPreviousEdges = "/st/edge/previous_id",
@@ -85,107 +148,22 @@ std::vector<std::int32_t> read_previous(const Hdf5Reader& r, const std::string& 
   return previous;
 }
 
-void read_vertices_and_edges(const Hdf5Reader& r, ModelTables& t) {
-  t.vertex_xyz = r.read<Vec3>("/st/vertex/xyz");
-  t.vertex_tolerance = r.read_rows<double>("/st/vertex/tolerance", t.vertex_xyz.size());
-  t.edge_length = r.read<double>("/st/edge/length");
-  const std::size_t n = t.edge_length.size();
-  t.edge_vertices = r.read_rows<std::int32_t>("/st/edge/vertices", n, 2);
-  require_ids(r, "/st/edge/vertices", t.edge_vertices, t.vertex_xyz.size());
-  t.edge_range = r.read_rows<double>("/st/edge/range", n, 2);
-  t.edge_tolerance = r.read_rows<double>("/st/edge/tolerance", n);
-  t.edge_is_degenerate = r.read_rows<std::uint8_t>("/st/edge/is_degenerate", n);
-  t.edge_name = r.read_string_rows("/st/edge/name", n);
-  require_finite(r, "/st/vertex/xyz", t.vertex_xyz);
-  require_lengths(r, "/st/vertex/tolerance", t.vertex_tolerance);
-  require_lengths(r, "/st/edge/length", t.edge_length);
-  require_lengths(r, "/st/edge/tolerance", t.edge_tolerance);
-  require_ranges(r, "/st/edge/range", t.edge_range);
-}
-
-void read_loops(const Hdf5Reader& r, ModelTables& t, std::size_t n_faces) {
-  t.coedge_edge = r.read<std::int32_t>("/st/coedge/edge");
-  require_ids(r, "/st/coedge/edge", t.coedge_edge, t.edge_length.size());
-  t.coedge_is_reversed = r.read_rows<std::uint8_t>("/st/coedge/is_reversed", t.coedge_edge.size());
-  t.loop_coedge_offsets = r.read<std::int32_t>("/st/loop/coedge_offsets");
-  require_offsets(r, "/st/loop/coedge_offsets", t.loop_coedge_offsets, t.coedge_edge.size());
-  t.face_loop_offsets = r.read_rows<std::int32_t>("/st/face/loop_offsets", n_faces + 1);
-  require_offsets(r, "/st/face/loop_offsets", t.face_loop_offsets, t.loop_coedge_offsets.size() - 1);
-}
-
-/// A number of shells or solids, each of which has a face.
-std::int32_t read_count(const Hdf5Reader& r, const std::string& name, std::size_t n_faces) {
-  const std::int64_t n = r.int_attribute("/st", name);
-  if (n < 0 || static_cast<std::uint64_t>(n) > n_faces)
-    r.fail("/st@" + name, std::to_string(n) + " is not possible with " + std::to_string(n_faces) + " faces");
-  return static_cast<std::int32_t>(n);
-}
-
-void read_faces(const Hdf5Reader& r, ModelTables& t) {
-  t.face_is_reversed = r.read<std::uint8_t>("/st/face/is_reversed");
-  const std::size_t n = t.face_is_reversed.size();
-  read_loops(r, t, n);
-  t.face_type = r.read_rows<SurfaceType>("/st/face/type", n);
-  t.face_uv_bounds = r.read_rows<double>("/st/face/uv_bounds", n, 4);
-  t.face_tolerance = r.read_rows<double>("/st/face/tolerance", n);
-  t.face_area = r.read_rows<double>("/st/face/area", n);
-  if (r.has("/st/face/width")) {
-    t.face_width = r.read_rows<double>("/st/face/width", n);
-  } else {  // written before widths were: as wide as long
-    for (double area : t.face_area) t.face_width.push_back(std::sqrt(area));
-  }
-  t.face_box = r.read_rows<Box3>("/st/face/box", n);
-  require_ranges(r, "/st/face/uv_bounds", t.face_uv_bounds);
-  require_lengths(r, "/st/face/tolerance", t.face_tolerance);
-  require_finite(r, "/st/face/area", t.face_area);
-  require_lengths(r, "/st/face/width", t.face_width);
-  require_finite(r, "/st/face/box", t.face_box);
-  t.face_color = r.read_rows<std::int32_t>("/st/face/color", n);
-  t.face_layer = r.read_string_rows("/st/face/layer", n);
-  t.labels = read_labels(r, n);
-  for (const EntityGroup& g : t.labels.edge_groups) require_ids(r, "/st/edge_group/ids", g.ids, t.edge_length.size());
-  for (const EntityGroup& g : t.labels.vertex_groups)
-    require_ids(r, "/st/vertex_group/ids", g.ids, t.vertex_xyz.size());
-  t.n_shells = read_count(r, "n_shells", n);
-  t.n_solids = read_count(r, "n_solids", n);
-  t.face_shell = r.read_rows<std::int32_t>("/st/face/shell", n);
-  require_ids(r, "/st/face/shell", t.face_shell, t.n_shells, kNone);
-  t.face_solid = r.read_rows<std::int32_t>("/st/face/solid", n);
-  require_ids(r, "/st/face/solid", t.face_solid, t.n_solids, kNone);
-}
-
-std::vector<ImportFinding> read_findings(const Hdf5Reader& r) {
-  const std::vector<std::string> what = r.read_strings("/st/finding/what");
-  const std::size_t n = what.size();
-  const std::vector<std::string> entity = r.read_string_rows("/st/finding/entity", n);
-  const std::vector<Vec3> xyz = r.read_rows<Vec3>("/st/finding/xyz", n);
-  const std::vector<double> size = r.read_rows<double>("/st/finding/size", n);
-  const std::vector<std::uint8_t> is_repair = r.read_rows<std::uint8_t>("/st/finding/is_repair", n);
-  std::vector<std::uint8_t> kind(n, static_cast<std::uint8_t>(FindingKind::kOther));
-  std::vector<std::string> detail(n);
-  if (r.has("/st/finding/kind")) {  // absent in older files
-    kind = r.read_rows<std::uint8_t>("/st/finding/kind", n);
-    detail = r.read_string_rows("/st/finding/detail", n);
-  }
-  std::vector<ImportFinding> findings;
-  for (std::size_t i = 0; i < n; ++i) {
-    findings.push_back({FindingKind::kOther, entity[i], xyz[i], size[i], is_repair[i] != 0});
-    restore_kind(findings.back(), kind[i], detail[i], what[i]);
-  }
-  return findings;
+template <class Io, class Facets>
+void visit_facets(const Io& io, Facets& f) {
+  io("/st/facets/node_xyz", f.node_xyz, {}, kFinite);
+  io("/st/facets/node_normal", f.node_normal, {f.node_xyz.size()}, kFinite);
+  io("/st/facets/node_uv", f.node_uv, {f.node_xyz.size()}, kFinite);
+  io("/st/facets/triangle_nodes", f.triangle_nodes);
+  io("/st/facets/face_node_offsets", f.face_node_offsets);
+  io("/st/facets/face_triangle_offsets", f.face_triangle_offsets);
+  io("/st/facets/edge_xyz", f.edge_xyz, {}, kFinite);
+  io("/st/facets/edge_point_offsets", f.edge_point_offsets);
+  io("/st/facets/coedge_nodes", f.coedge_nodes);
+  io("/st/facets/coedge_node_offsets", f.coedge_node_offsets);
 }
 
 void write_facets(Hdf5Writer& w, const FacetShape& f) {
-  w.write("/st/facets/node_xyz", f.node_xyz);
-  w.write("/st/facets/node_normal", f.node_normal);
-  w.write("/st/facets/node_uv", f.node_uv);
-  w.write("/st/facets/triangle_nodes", f.triangle_nodes);
-  w.write("/st/facets/face_node_offsets", f.face_node_offsets);
-  w.write("/st/facets/face_triangle_offsets", f.face_triangle_offsets);
-  w.write("/st/facets/edge_xyz", f.edge_xyz);
-  w.write("/st/facets/edge_point_offsets", f.edge_point_offsets);
-  w.write("/st/facets/coedge_nodes", f.coedge_nodes);
-  w.write("/st/facets/coedge_node_offsets", f.coedge_node_offsets);
+  visit_facets(WrittenColumns{w}, f);
   w.set_attribute("/st/facets", "version", std::int64_t{kFacetsVersion});
 }
 
@@ -193,21 +171,7 @@ FacetShape read_facets(const Hdf5Reader& r) {
   if (const std::int64_t version = r.int_attribute("/st/facets", "version"); version > kFacetsVersion)
     r.fail("/st/facets@version", std::to_string(version) + " is newer than this version of ST reads");
   FacetShape f;
-  f.node_xyz = r.read<Vec3>("/st/facets/node_xyz");
-  const std::size_t n = f.node_xyz.size();
-  f.node_normal = r.read_rows<Vec3>("/st/facets/node_normal", n);
-  f.node_uv = r.read_rows<Vec2>("/st/facets/node_uv", n);
-  f.triangle_nodes = r.read<Corners>("/st/facets/triangle_nodes");
-  f.face_node_offsets = r.read<std::int32_t>("/st/facets/face_node_offsets");
-  f.face_triangle_offsets = r.read<std::int32_t>("/st/facets/face_triangle_offsets");
-  f.edge_xyz = r.read<Vec3>("/st/facets/edge_xyz");
-  f.edge_point_offsets = r.read<std::int32_t>("/st/facets/edge_point_offsets");
-  f.coedge_nodes = r.read<std::int32_t>("/st/facets/coedge_nodes");
-  f.coedge_node_offsets = r.read<std::int32_t>("/st/facets/coedge_node_offsets");
-  require_finite(r, "/st/facets/node_xyz", f.node_xyz);
-  require_finite(r, "/st/facets/node_normal", f.node_normal);
-  require_finite(r, "/st/facets/node_uv", f.node_uv);
-  require_finite(r, "/st/facets/edge_xyz", f.edge_xyz);
+  visit_facets(ReadColumns{r}, f);
   return f;
 }
 
@@ -264,7 +228,7 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
   header.unit = t.unit;
   header.unit_in_m = t.unit_in_m;
   Hdf5Writer w(path, header);
-  write_vertices_and_edges(w, t);
+  visit_vertices_and_edges(WrittenColumns{w}, t);
   write_faces(w, t);
   write_findings(w, geometry.findings);
   if (!geometry.previous_faces.empty()) w.write(kPreviousFaces, geometry.previous_faces, 2);
@@ -278,8 +242,6 @@ std::string write_geometry(const std::string& path, const GeometryArtifact& geom
     w.write("/st/brep", geometry.brep);
   else
     write_facets(w, geometry.facets);
-  w.set_attribute("/st", "n_shells", std::int64_t{t.n_shells});
-  w.set_attribute("/st", "n_solids", std::int64_t{t.n_solids});
   if (t.volume) w.write("/st/volume", std::vector<double>{*t.volume});
   w.set_attribute("/st", "is_closed", std::int64_t{geometry.is_closed});
   return w.commit();
@@ -289,7 +251,7 @@ GeometryArtifact read_geometry(const std::string& path) {
   const Hdf5Reader r(path, "geometry", kGeometryVersion);
   GeometryArtifact geometry;
   geometry.header = r.header();
-  read_vertices_and_edges(r, geometry.tables);
+  visit_vertices_and_edges(ReadColumns{r}, geometry.tables);
   read_faces(r, geometry.tables);
   geometry.tables.unit = r.header().unit;
   geometry.tables.unit_in_m = r.header().unit_in_m;

@@ -214,6 +214,7 @@ class Hdf5Reader {
     require_rows(name, n_rows);
     return read<T>(name, columns);
   }
+  void require_rows(const std::string& name, std::size_t n_rows) const;
   std::vector<std::string> read_strings(const std::string& name) const;
   std::vector<std::string> read_string_rows(const std::string& name, std::size_t n_rows) const {
     require_rows(name, n_rows);
@@ -243,7 +244,6 @@ class Hdf5Reader {
 
  private:
   std::size_t count_elements(const std::string& name, ElementType type, std::size_t columns) const;
-  void require_rows(const std::string& name, std::size_t n_rows) const;
   void read_raw(const std::string& name, void* values) const;
   std::shared_ptr<const void> map_raw(const std::string& name, std::size_t alignment) const;
   struct Impl;

@@ -1,6 +1,6 @@
 #include "io/hdf5/merged_features.h"
 
-#include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/columns.h"
 
 namespace st {
 namespace {
@@ -35,31 +35,26 @@ std::vector<FacePair> read_pairs(const Hdf5Reader& r, std::size_t n_faces) {
   return pairs;
 }
 
+template <class Io, class Features>
+void visit_merged(const Io& io, Features& m, std::size_t n_edges, std::size_t n_faces) {
+  io("/st/merged/edge", m.edge, {}, ids_below(n_edges));
+  io("/st/merged/strip_face", m.strip_face, {}, ids_below(n_faces));
+  io("/st/merged/strip_kept", m.strip_kept, {m.strip_face.size()}, ids_below(n_edges));
+  io("/st/merged/strip_closed", m.strip_closed, {m.strip_face.size()}, ids_below(n_edges));
+  io("/st/merged/strip_is_opposed", m.strip_is_opposed, {m.strip_face.size()});
+}
+
 }  // namespace
 
 void write_merged(Hdf5Writer& w, const MergedFeatures& m) {
   write_pairs(w, m.pairs);
-  if (m.empty()) return;
-  w.write("/st/merged/edge", m.edge);
-  w.write("/st/merged/strip_face", m.strip_face);
-  w.write("/st/merged/strip_kept", m.strip_kept);
-  w.write("/st/merged/strip_closed", m.strip_closed);
-  w.write("/st/merged/strip_is_opposed", m.strip_is_opposed);
+  if (!m.empty()) visit_merged(WrittenColumns{w}, m, 0, 0);
 }
 
 MergedFeatures read_merged(const Hdf5Reader& r, std::size_t n_edges, std::size_t n_faces) {
   MergedFeatures m;
   m.pairs = read_pairs(r, n_faces);
-  if (!r.has("/st/merged/edge")) return m;
-  m.edge = r.read<std::int32_t>("/st/merged/edge");
-  m.strip_face = r.read<std::int32_t>("/st/merged/strip_face");
-  m.strip_kept = r.read_rows<std::int32_t>("/st/merged/strip_kept", m.strip_face.size());
-  m.strip_closed = r.read_rows<std::int32_t>("/st/merged/strip_closed", m.strip_face.size());
-  m.strip_is_opposed = r.read_rows<std::uint8_t>("/st/merged/strip_is_opposed", m.strip_face.size());
-  require_ids(r, "/st/merged/edge", m.edge, n_edges);
-  require_ids(r, "/st/merged/strip_face", m.strip_face, n_faces);
-  require_ids(r, "/st/merged/strip_kept", m.strip_kept, n_edges);
-  require_ids(r, "/st/merged/strip_closed", m.strip_closed, n_edges);
+  if (r.has("/st/merged/edge")) visit_merged(ReadColumns{r}, m, n_edges, n_faces);
   return m;
 }
 

@@ -259,6 +259,8 @@ MeshSelection MeshFile::select(std::vector<TriangleId> triangles, Rows rows) con
     const auto some =
         std::span(triangles).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
     const std::vector<std::int64_t> corners = read_rows<std::int64_t>(rows_, place, some, 3);
+    for (const std::int64_t n : corners)
+      if (n < 0 || n >= n_nodes_) reader_.fail(kNodes, "names node " + std::to_string(n));
     for (std::size_t i = 0; i < corners.size(); i += 3) {
       Triangle& t = mesh.triangles.emplace_back();
       for (std::size_t k = 0; k < 3; ++k) nodes.add(t.n[k] = static_cast<NodeId>(corners[i + k]));

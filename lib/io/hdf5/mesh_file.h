@@ -31,7 +31,7 @@ class MeshFile {
 
   /// What is not in rows.
   const MeshArtifact& head() const { return head_; }
-  bool has_cad_faces() const { return reader_.has("/VTKHDF/CellData/cad_face"); }
+  bool has_cad_faces() const { return reader_.has(kCadFaces); }
   std::int64_t n_nodes() const { return n_nodes_; }
   std::int64_t n_triangles() const { return n_triangles_; }
 
@@ -41,6 +41,7 @@ class MeshFile {
   std::vector<Triangle> triangles(std::int64_t first, std::int64_t n) const;
   std::vector<FaceId> faces(std::int64_t first, std::int64_t n) const;
   std::vector<std::int32_t> groups(std::int64_t first, std::int64_t n) const;
+  std::vector<FaceId> cad_faces(std::int64_t first, std::int64_t n) const { return ids(kCadFaces, first, n); }
   std::vector<Vec2> corner_uv(std::int64_t first_triangle, std::int64_t n_triangles) const;
 
   /// Whether this part of rows and checksums is what read_mesh() takes, nodes come by the dimension of their entities,
@@ -60,6 +61,7 @@ class MeshFile {
                  const std::function<void(const MeshSelection&)>& visit) const;
 
  private:
+  static constexpr const char* kCadFaces = "/VTKHDF/CellData/cad_face";
   std::vector<std::int32_t> ids(const char* name, std::int64_t first, std::int64_t n) const;
   bool are_nodes_sound(std::int64_t begin, std::int64_t end, const std::array<std::int64_t, 3>& n_entities) const;
   bool are_triangles_sound(std::int64_t begin, std::int64_t end) const;

@@ -1,7 +1,7 @@
 // patches.hdf: docs/artifacts.md
 #include "base/threads.h"
 #include "geometry/model/cad_places.h"
-#include "io/hdf5/artifact_checks.h"
+#include "io/hdf5/columns.h"
 #include "io/hdf5/composites_io.h"
 #include "io/hdf5/face_labels_io.h"
 #include "io/hdf5/merged_features.h"
@@ -11,28 +11,6 @@
 
 namespace st {
 namespace {
-
-template <class T>
-using PatchArray = std::vector<T> FacePatch::*;
-
-/// Where the rows of each patch start among those of all, [n_patches+1].
-template <class T>
-std::vector<std::int64_t> offsets_of(const std::vector<FacePatch>& patches, PatchArray<T> array) {
-  std::vector<std::int64_t> offsets = {0};
-  for (const FacePatch& p : patches) offsets.push_back(offsets.back() + static_cast<std::int64_t>((p.*array).size()));
-  return offsets;
-}
-
-/// The rows of all patches to these, for an array with `factor` rows for each step of the offsets.
-template <class T>
-void distribute(const Hdf5Reader& r, const std::string& name, const std::vector<std::int64_t>& offsets,
-                std::vector<FacePatch>& patches, PatchArray<T> array, std::int64_t factor = 1) {
-  const std::vector<T> all = r.read_rows<T>(name, static_cast<std::size_t>(factor * offsets.back()));
-  if constexpr (std::is_same_v<T, Vec3> || std::is_same_v<T, Vec2> || std::is_same_v<T, double>)
-    require_finite(r, name, all);
-  for (std::size_t i = 0; i < patches.size(); ++i)
-    (patches[i].*array).assign(all.begin() + factor * offsets[i], all.begin() + factor * offsets[i + 1]);
-}
 
 /// Offsets of one kind of rows of the patches; `array` is one that they point into.
 std::vector<std::int64_t> read_offsets(const Hdf5Reader& r, const std::string& name, std::size_t n_patches,
@@ -75,42 +53,6 @@ void require_corners(const Hdf5Reader& r, const FacePatch& p) {
     r.fail("/st/corner/number", label_of(p) + ": these are not the corners on its boundary, in order");
 }
 
-std::vector<FacePatch> read_patch_arrays(const Hdf5Reader& r, const PatchesArtifact& a) {
-  const std::vector<std::int32_t> face = r.read<std::int32_t>("/st/patch/face");
-  require_ids(r, "/st/patch/face", face, a.labels.face_group.size());
-  std::vector<FacePatch> patches(face.size());
-  const auto boundary = read_offsets(r, "/st/patch/boundary_offsets", face.size(), "/st/boundary/dim");
-  distribute(r, "/st/boundary/dim", boundary, patches, &FacePatch::boundary_dim);
-  distribute(r, "/st/boundary/entity", boundary, patches, &FacePatch::boundary_entity);
-  distribute(r, "/st/boundary/index", boundary, patches, &FacePatch::boundary_index);
-  const auto inner = read_offsets(r, "/st/patch/inner_offsets", face.size(), "/st/inner/xyz");
-  distribute(r, "/st/inner/xyz", inner, patches, &FacePatch::inner_xyz);
-  distribute(r, "/st/inner/uv", inner, patches, &FacePatch::inner_uv);
-  distribute(r, "/st/inner/size", inner, patches, &FacePatch::inner_size);
-  const auto triangle = read_offsets(r, "/st/patch/triangle_offsets", face.size(), "/st/triangle/nodes");
-  distribute(r, "/st/triangle/nodes", triangle, patches, &FacePatch::triangles);
-  const auto corner = read_offsets(r, "/st/patch/corner_offsets", face.size(), "/st/corner/number");
-  distribute(r, "/st/corner/number", corner, patches, &FacePatch::uv_corner);
-  distribute(r, "/st/corner/uv", corner, patches, &FacePatch::own_uv);
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    patches[i].face = face[i];
-    patches[i].n_boundary = static_cast<std::int32_t>(patches[i].boundary_dim.size());
-    require_consistent(r, patches[i], a);
-    require_corners(r, patches[i]);
-  }
-  return patches;
-}
-
-/// What st-remesh kept: -1 for what is new. Absent when nothing was remeshed.
-void read_previous(const Hdf5Reader& r, PatchesArtifact& a) {
-  if (!r.has("/st/edge_node/previous_id")) return;
-  a.edges.node_previous = r.read_rows<std::int32_t>("/st/edge_node/previous_id", a.edges.node_t.size());
-  distribute(r, "/st/inner/previous_id", offsets_of(a.patches, &FacePatch::inner_xyz), a.patches,
-             &FacePatch::inner_previous);
-  distribute(r, "/st/triangle/previous_id", offsets_of(a.patches, &FacePatch::triangles), a.patches,
-             &FacePatch::triangle_previous);
-}
-
 void read_closed(const Hdf5Reader& r, std::vector<FaceFailure>& failures) {
   if (!r.has("/st/failure/is_closed")) return;
   const auto is_closed = r.read_rows<std::uint8_t>("/st/failure/is_closed", failures.size());
@@ -137,21 +79,17 @@ std::vector<FaceFailure> read_failures(const Hdf5Reader& r, std::size_t n_faces)
 }
 
 void read_edges(const Hdf5Reader& r, PatchesArtifact& a) {
-  a.vertex_xyz = r.read<Vec3>("/st/vertex/xyz");
-  require_finite(r, "/st/vertex/xyz", a.vertex_xyz);
-  a.edge_vertices = r.read<std::int32_t>("/st/edge/vertices", 2);
-  require_ids(r, "/st/edge/vertices", a.edge_vertices, a.vertex_xyz.size());
+  const ReadColumns read{r};
+  read("/st/vertex/xyz", a.vertex_xyz, {}, kFinite);
+  read("/st/edge/vertices", a.edge_vertices, {Rows::kAny, 2}, ids_below(a.vertex_xyz.size()));
   EdgeMesh& e = a.edges;
-  e.node_t = r.read<double>("/st/edge_node/t");
-  e.node_xyz = r.read_rows<Vec3>("/st/edge_node/xyz", e.node_t.size());
-  e.node_size = r.read_rows<double>("/st/edge_node/size", e.node_t.size());
-  require_finite(r, "/st/edge_node/t", e.node_t);
-  require_finite(r, "/st/edge_node/xyz", e.node_xyz);
-  require_lengths(r, "/st/edge_node/size", e.node_size);
-  if (r.has("/st/edge_node/request")) e.node_request = r.read_rows<double>("/st/edge_node/request", e.node_t.size());
-  require_lengths(r, "/st/edge_node/request", e.node_request);
-  e.edge_offsets = r.read_rows<std::int32_t>("/st/edge/node_offsets", a.edge_vertices.size() / 2 + 1);
-  require_offsets(r, "/st/edge/node_offsets", e.edge_offsets, e.node_t.size());
+  read("/st/edge_node/t", e.node_t, {}, kFinite);
+  const std::size_t n = e.node_t.size();
+  read("/st/edge_node/xyz", e.node_xyz, {n}, kFinite);
+  read("/st/edge_node/size", e.node_size, {n}, kLengths);
+  if (r.has("/st/edge_node/request")) read("/st/edge_node/request", e.node_request, {n}, kLengths);
+  if (r.has("/st/edge_node/previous_id")) read("/st/edge_node/previous_id", e.node_previous, {n});
+  read("/st/edge/node_offsets", e.edge_offsets, {a.edge_vertices.size() / 2 + 1}, offsets_into(n));
 }
 
 void read_faces(const Hdf5Reader& r, PatchesArtifact& a) {
@@ -186,12 +124,11 @@ std::string write_patches(const std::string& path, const PatchesArtifact& a) {
 }
 
 PatchesArtifact read_patches(const std::string& path) {
-  const Hdf5Reader r(path, "patches", kPatchesVersion);
-  require_version(r, kPatchesVersion, "st-mesh");
-  PatchesArtifact a;
-  read_rest(r, a);
-  a.patches = read_patch_arrays(r, a);
-  read_previous(r, a);
+  PatchesFile file(path);
+  std::vector<FacePatch> patches;
+  for (std::size_t i = 0; i < file.n_patches(); ++i) patches.push_back(file.whole(i));
+  PatchesArtifact a = std::move(file.rest());
+  a.patches = std::move(patches);
   return a;
 }
 
@@ -200,8 +137,6 @@ PatchesFile::PatchesFile(const std::string& path)
   const Hdf5Reader& r = reader_;
   require_version(r, kPatchesVersion, "st-mesh");
   read_rest(r, rest_);
-  if (r.has("/st/edge_node/previous_id"))
-    rest_.edges.node_previous = r.read_rows<std::int32_t>("/st/edge_node/previous_id", rest_.edges.node_t.size());
   face_ = r.read<std::int32_t>("/st/patch/face");
   require_ids(r, "/st/patch/face", face_, rest_.labels.face_group.size());
   boundary_ = read_offsets(r, "/st/patch/boundary_offsets", face_.size(), "/st/boundary/dim");
@@ -270,6 +205,20 @@ FacePatch PatchesFile::corners(std::size_t patch) const {
   require_finite(reader_, rows_.own_uv.name, p.own_uv);
   require_nodes(reader_, p, n_inside);
   require_corners(reader_, p);
+  return p;
+}
+
+FacePatch PatchesFile::whole(std::size_t patch) const {
+  FacePatch p = shape(patch), with_corners = corners(patch);
+  p.inner_uv = std::move(with_corners.inner_uv);
+  p.uv_corner = std::move(with_corners.uv_corner);
+  p.own_uv = std::move(with_corners.own_uv);
+  p.inner_size = row_reader_.read<double>(rows_.inner_size, inner_begin(patch), n_inner(patch));
+  require_finite(reader_, rows_.inner_size.name, p.inner_size);
+  if (rest_.edges.node_previous.empty()) return p;  // nothing was remeshed
+  p.inner_previous = row_reader_.read<NodeId>(rows_.inner_previous, inner_begin(patch), n_inner(patch));
+  p.triangle_previous =
+      row_reader_.read<TriangleId>(rows_.triangle_previous, triangle_begin(patch), n_triangles(patch));
   return p;
 }
 

@@ -39,6 +39,8 @@ class PatchesFile {
   FacePatch shape(std::size_t patch) const;
   /// Triangles, inner_uv and what else corner_uv() needs; checked.
   FacePatch corners(std::size_t patch) const;
+  /// All of a patch; checked.
+  FacePatch whole(std::size_t patch) const;
   const PatchRows& rows() const { return rows_; }
   const RowReader& row_reader() const { return row_reader_; }
   const Hdf5Reader& reader() const { return reader_; }

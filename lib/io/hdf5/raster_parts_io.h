@@ -35,7 +35,7 @@ struct MappedArrays {
   std::vector<std::shared_ptr<const void>> owners;
 
   template <class T>
-  std::span<const T> map(const Hdf5Reader& file, const char* name, std::size_t columns = Element<T>::count) {
+  std::span<const T> map(const Hdf5Reader& file, const std::string& name, std::size_t columns = Element<T>::count) {
     const auto array = std::make_shared<MappedArray<T>>(file.map<T>(name, columns));
     owners.push_back(array);
     return array->values();

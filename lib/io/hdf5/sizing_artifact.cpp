@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "io/hdf5/columns.h"
 #include "io/hdf5/raster_parts_io.h"
 #include "io/hdf5/sources_io.h"
 #include "io/hdf5/wing_records_io.h"
@@ -55,19 +56,31 @@ bool is_length(const CellLength& c) {
   return is_positive(c.length) & is_positive(std::abs(c.upper)) & are_finite(c.gradient);
 }
 
-void require_cells(const Hdf5Reader& file, const char* name, std::span<const CellLength> cells) {
+constexpr auto kCells = [](const Hdf5Reader& file, const std::string& name, std::span<const CellLength> cells) {
   require_rows_to_be(file, name, cells, "a finite length > 0", is_length);
-}
-
-/// Split leaves ascend and exist; their planes are finite.
-void require_split(const Hdf5Reader& file, std::span<const std::int32_t> leaf, std::span<const CellSplit> split,
-                   std::size_t n_leaves) {
-  require_ids(file, kSplitLeaf, leaf, n_leaves);
-  for (std::size_t i = 1; i < leaf.size(); ++i)
-    if (leaf[i] <= leaf[i - 1]) file.fail(kSplitLeaf, "does not ascend at row " + std::to_string(i));
-  require_rows_to_be(file, kSplitPlane, split, "a plane", [](const CellSplit& s) {
+};
+constexpr auto kPlanes = [](const Hdf5Reader& file, const std::string& name, std::span<const CellSplit> split) {
+  require_rows_to_be(file, name, split, "a plane", [](const CellSplit& s) {
     return are_finite(s.normal) & is_finite(s.offset) & is_finite(s.margin);
   });
+};
+
+/// Columns that stay in the file.
+struct MappedColumns {
+  const Hdf5Reader& file;
+  MappedArrays& mapped;
+
+  template <class T, class Check = decltype(kUnchecked)>
+  void operator()(const std::string& name, std::span<const T>& column, Rows rows = {}, const Check& check = {}) const {
+    column = mapped.map<T>(file, name);
+    if (rows.n != Rows::kAny) file.require_rows(name, rows.n);
+    check(file, name, column);
+  }
+};
+
+void require_ascending(const Hdf5Reader& file, std::span<const std::int32_t> leaf) {
+  for (std::size_t i = 1; i < leaf.size(); ++i)
+    if (leaf[i] <= leaf[i - 1]) file.fail(kSplitLeaf, "does not ascend at row " + std::to_string(i));
 }
 
 /// Of sides that are finite.
@@ -139,20 +152,33 @@ Similarity read_frame(const Hdf5Reader& file) {
   return frame;
 }
 
-/// The cones of a file that has them.
-void map_cones(const Hdf5Reader& file, MappedArrays& mapped, OctreeFieldData& data) {
-  data.cones.cone = mapped.map<Cone>(file, kCone);
-  data.cones.cause = mapped.map<std::int32_t>(file, kConeCause);
-  data.cones.first = mapped.map<std::int32_t>(file, kFirstCone);
-  data.cones.of_site = mapped.map<std::int32_t>(file, kSiteCones);
-  if (file.has(kConeStretch)) {
-    data.cones.stretch = mapped.map<ConeStretch>(file, kConeStretch);
-    data.cones.first_along = mapped.map<std::int32_t>(file, kFirstAlong);
-    data.cones.along_of_site = mapped.map<std::int32_t>(file, kSiteAlong);
-    data.max_aspect = read_numbers(file).max_aspect;
-  }
-  data.max_length = read_numbers(file).far_length;
-  require_cones(file, data);
+/// `lengths`: of a field or an artifact.
+template <class Io, class Lengths>
+void visit_lengths(const Io& io, Lengths& lengths, std::size_t n_leaves) {
+  io(kCell, lengths.cells, {n_leaves}, kCells);
+  io(kCause, lengths.cause, {n_leaves});
+}
+
+/// Leaves that a surface splits. `split`: of a field or a Blanking.
+template <class Io, class Split, class Lengths>
+void visit_split(const Io& io, Split& split, Lengths& lengths, std::size_t n_leaves) {
+  io(kSplitLeaf, split.split_leaf, {}, ids_below(n_leaves));
+  const std::size_t n = split.split_leaf.size();
+  io(kSplitPlane, split.split, {n}, kPlanes);
+  io(kSplitCell, lengths.second_cells, {n}, kCells);
+  io(kSplitCause, lengths.second_cause, {n});
+}
+
+template <class Io, class Cones>
+void visit_cones(const Io& io, Cones& cones, bool is_stretched) {
+  io(kCone, cones.cone);
+  io(kConeCause, cones.cause);
+  io(kFirstCone, cones.first);
+  io(kSiteCones, cones.of_site);
+  if (!is_stretched) return;
+  io(kConeStretch, cones.stretch);
+  io(kFirstAlong, cones.first_along);
+  io(kSiteAlong, cones.along_of_site);
 }
 
 /// The smallest length of the field is one, and coordinates of the model have digits enough for it.
@@ -170,27 +196,19 @@ std::unique_ptr<OctreeField> map_field(const Hdf5Reader& file, double min_length
   const auto mapped = std::make_shared<MappedArrays>();
   OctreeFieldData data;
   data.octree = map_shape(file, *mapped);
-  data.cells = mapped->map<CellLength>(file, kCell);
-  data.cause = mapped->map<std::int32_t>(file, kCause);
-  if (file.has(kColour)) {
-    const std::size_t n = file.info(kSplitLeaf).shape[0];
-    data.split_leaf = mapped->map<std::int32_t>(file, kSplitLeaf);
-    data.split = mapped->map<CellSplit>(file, kSplitPlane);
-    data.second_cells = mapped->map<CellLength>(file, kSplitCell);
-    data.second_cause = mapped->map<std::int32_t>(file, kSplitCause);
-    if (data.split.size() != n || data.second_cells.size() != n || data.second_cause.size() != n)
-      file.fail(kSplitLeaf, "does not fit the other arrays of split cells");
-  }
+  const MappedColumns map{file, *mapped};
   const std::size_t n_leaves = data.octree.leaf_keys.size();
-  if (data.cells.size() != n_leaves) file.fail(kCell, "length does not fit the number of leaves");
-  if (data.cause.size() != n_leaves) file.fail(kCause, "length does not fit the number of leaves");
-  require_cells(file, kCell, data.cells);
-  require_split(file, data.split_leaf, data.split, data.cells.size());
-  require_cells(file, kSplitCell, data.second_cells);
-  if (file.has(kCone))
-    map_cones(file, *mapped, data);
-  else
+  visit_lengths(map, data, n_leaves);
+  if (file.has(kColour)) visit_split(map, data, data, n_leaves);
+  require_ascending(file, data.split_leaf);
+  if (file.has(kCone)) {
+    visit_cones(map, data.cones, file.has(kConeStretch));
+    data.max_aspect = read_numbers(file).max_aspect;
+    data.max_length = read_numbers(file).far_length;
+    require_cones(file, data);
+  } else {
     require_no_cause(file, data.cause);
+  }
   const std::shared_ptr<const SourceTree> sources = read_sources(file).tree();
   mapped->owners.push_back(sources);
   data.sources = sources.get();
@@ -250,26 +268,13 @@ std::string write_sizing(const std::string& path, const SizingArtifact& sizing) 
   file.set_attribute(kSizing, "smallest_length", smallest);
   write_shape(file, sizing.shape);
   if (sizing.frame != Similarity()) write_frame(file, sizing.frame);
-  file.write<CellLength>(kCell, sizing.lengths.cells);
-  file.write<std::int32_t>(kCause, sizing.lengths.cause);
+  const WrittenColumns write{file};
+  visit_lengths(write, sizing.lengths, 0);
   if (is_blanked) {
-    file.write<CellColour>(kColour, sizing.blanking.colour);
-    file.write<std::int32_t>(kSplitLeaf, sizing.blanking.split_leaf);
-    file.write<CellSplit>(kSplitPlane, sizing.blanking.split);
-    file.write<CellLength>(kSplitCell, sizing.lengths.second_cells);
-    file.write<std::int32_t>(kSplitCause, sizing.lengths.second_cause);
+    write(kColour, sizing.blanking.colour);
+    visit_split(write, sizing.blanking, sizing.lengths, 0);
   }
-  if (!sizing.cones.first.empty()) {
-    file.write<Cone>(kCone, sizing.cones.cone);
-    file.write<std::int32_t>(kConeCause, sizing.cones.cause);
-    file.write<std::int32_t>(kFirstCone, sizing.cones.first);
-    file.write<std::int32_t>(kSiteCones, sizing.cones.of_site);
-  }
-  if (!sizing.cones.stretch.empty()) {
-    file.write<ConeStretch>(kConeStretch, sizing.cones.stretch);
-    file.write<std::int32_t>(kFirstAlong, sizing.cones.first_along);
-    file.write<std::int32_t>(kSiteAlong, sizing.cones.along_of_site);
-  }
+  if (!sizing.cones.first.empty()) visit_cones(write, sizing.cones, !sizing.cones.stretch.empty());
   write_sources(file, sizing.sources);
   write_model(file, sizing.model);
   file.write<double>(kFaceWeight, sizing.face_weight);
@@ -287,29 +292,15 @@ SizingArtifact read_sizing(const std::string& path) {
   sizing.shape = read_shape(file);
   sizing.frame = read_frame(file);
   const std::size_t n = sizing.shape.leaf_keys.size();
-  sizing.lengths.cells = file.read_rows<CellLength>(kCell, n);
-  sizing.lengths.cause = file.read_rows<std::int32_t>(kCause, n);
-  require_cells(file, kCell, sizing.lengths.cells);
+  const ReadColumns read{file};
+  visit_lengths(read, sizing.lengths, n);
   if (file.has(kColour)) {
-    sizing.blanking.colour = file.read_rows<CellColour>(kColour, n);
-    sizing.blanking.split_leaf = file.read<std::int32_t>(kSplitLeaf);
-    const std::size_t n_split = sizing.blanking.split_leaf.size();
-    sizing.blanking.split = file.read_rows<CellSplit>(kSplitPlane, n_split);
-    sizing.lengths.second_cells = file.read_rows<CellLength>(kSplitCell, n_split);
-    sizing.lengths.second_cause = file.read_rows<std::int32_t>(kSplitCause, n_split);
-    require_split(file, sizing.blanking.split_leaf, sizing.blanking.split, n);
-    require_cells(file, kSplitCell, sizing.lengths.second_cells);
+    read(kColour, sizing.blanking.colour, {n});
+    visit_split(read, sizing.blanking, sizing.lengths, n);
+    require_ascending(file, sizing.blanking.split_leaf);
   }
   if (file.has(kCone)) {
-    sizing.cones.cone = file.read<Cone>(kCone);
-    sizing.cones.cause = file.read<std::int32_t>(kConeCause);
-    sizing.cones.first = file.read<std::int32_t>(kFirstCone);
-    sizing.cones.of_site = file.read<std::int32_t>(kSiteCones);
-    if (file.has(kConeStretch)) {
-      sizing.cones.stretch = file.read<ConeStretch>(kConeStretch);
-      sizing.cones.first_along = file.read<std::int32_t>(kFirstAlong);
-      sizing.cones.along_of_site = file.read<std::int32_t>(kSiteAlong);
-    }
+    visit_cones(read, sizing.cones, file.has(kConeStretch));
     require_cones(file, sizing.field_data(nullptr));
   } else {
     require_no_cause(file, sizing.lengths.cause);

@@ -187,12 +187,13 @@ class Marker {
       if (begin(f) < end(f) && !keeps(f)) work(f);
   }
 
-  NodeId in_whole_mesh(NodeId n) const { return n < cad_.inner_begin[0] ? n : n + share_.inner_shift; }
+  NodeId in_whole_mesh(NodeId n) const { return share_.node_number.empty() ? n : share_.node_number[n]; }
   /// kNone: not in this rank's mesh.
   NodeId in_own_mesh(NodeId n) const {
-    if (n < cad_.inner_begin[0]) return n;
-    const NodeId own = n - share_.inner_shift;
-    return own >= cad_.inner_begin[0] && own < static_cast<NodeId>(face_at_.size()) ? own : kNone;
+    const std::vector<NodeId>& number = share_.node_number;
+    if (number.empty()) return n;
+    const auto at = std::lower_bound(number.begin(), number.end(), n);
+    return at != number.end() && *at == n ? static_cast<NodeId>(at - number.begin()) : kNone;
   }
 
   /// What marked triangles of other ranks touch; only the first and the last face can lie there, too.
@@ -263,7 +264,7 @@ class Marker {
 std::int64_t HoleMarks::n_triangles() const { return std::count(triangle.begin(), triangle.end(), 1); }
 
 HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options) {
-  return mark_share(mesh, {0, static_cast<TriangleId>(mesh.mesh.triangles.size()), 0, 0}, wanted, options, {});
+  return mark_share(mesh, {0, static_cast<TriangleId>(mesh.mesh.triangles.size()), 0}, wanted, options, {});
 }
 
 HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted,

@@ -43,9 +43,9 @@ struct HoleMarks {
 /// The part of the whole mesh that a rank has, and the part of that which it marks. A rank's mesh has all nodes on
 /// vertices and edges, and a consecutive share of the triangles with their nodes, by their order in the whole mesh.
 struct MeshShare {
-  TriangleId begin = 0, end = 0;  ///< triangles of the rank's mesh that it marks
-  TriangleId first_triangle = 0;  ///< number in the whole mesh of the rank's triangle 0
-  NodeId inner_shift = 0;         ///< of nodes inside faces: number in the whole mesh minus number in the rank's
+  TriangleId begin = 0, end = 0;         ///< triangles of the rank's mesh that it marks
+  TriangleId first_triangle = 0;         ///< number in the whole mesh of the rank's triangle 0
+  std::vector<NodeId> node_number = {};  ///< of the rank's nodes in the whole mesh, ascending; empty: they are the same
 };
 
 /// A node of the whole mesh that a marked triangle of `face` touches.

@@ -18,7 +18,7 @@ struct Marked {
   HoleMarker holes;
 
   explicit Marked(const SizeField* field = nullptr)
-      : holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0, 0}, field ? *field : box.field,
+      : holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0}, field ? *field : box.field,
               test::nothing_changes(), one_rank) {}
 };
 
@@ -33,8 +33,7 @@ TEST(HoleMarker, marks_what_mark_holes_marks) {
   const test::ShapeMesh box("box", 0.05);
   const test::LinearField finer = test::finer_at_a_corner(box);
   const HoleMesh old(box.mesh, box.model.tables());
-  const HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0, 0}, finer, {},
-                         one_rank);
+  const HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0}, finer, {}, one_rank);
   const HoleMarks marks = mark_holes(old, box.wanted(finer), {});
   EXPECT_EQ(holes.marks().triangle, marks.triangle);
   EXPECT_EQ(holes.marks().segment, marks.segment);
@@ -68,7 +67,7 @@ TEST(HoleMarker, remembers_what_it_was_told_before) {
 TEST(HoleMarker, marks_around_a_refinement) {
   const test::ShapeMesh box("box", 0.05);
   const HoleMesh old(box.mesh, box.model.tables());
-  HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0, 0}, box.field, {}, one_rank);
+  HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0}, box.field, {}, one_rank);
   const TriangleId at = old.face_begin[2] + old.face_size(2) / 2;
   ASSERT_FALSE(holes.marks().triangle[at]);
   Refinements refinements(box.field);
@@ -80,7 +79,7 @@ TEST(HoleMarker, marks_around_a_refinement) {
 TEST(HoleMarker, marks_around_a_refinement_that_reaches_no_edge) {
   const test::ShapeMesh box("box", 0.05);
   const HoleMesh old(box.mesh, box.model.tables());
-  HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0, 0}, box.field, {}, one_rank);
+  HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0}, box.field, {}, one_rank);
   const Vec3 middle = box.model.tables().face_box[2].center();
   NodeId n = old.inner_begin[2];
   for (NodeId k = n; k < old.inner_begin[3]; ++k)

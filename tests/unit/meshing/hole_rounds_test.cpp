@@ -34,8 +34,7 @@ struct Marked {
   Marked(const ShapeMesh& solid, const SizeField& f, const HoleMarkOptions& options = {})
       : old(solid.mesh, solid.model.tables()),
         field(f),
-        holes(solid.model, old, {0, static_cast<TriangleId>(solid.mesh.n_triangles()), 0, 0}, field, options,
-              one_rank) {
+        holes(solid.model, old, {0, static_cast<TriangleId>(solid.mesh.n_triangles()), 0}, field, options, one_rank) {
     set_verbosity(Verbosity::kQuiet);
   }
   MeshResult fill(HoleOutput output = HoleOutput::kMesh, const MeshOptions& o = {}, const Executor& on = one_rank) {
@@ -377,7 +376,7 @@ TEST(HoleRounds, leave_out_a_face_whose_fill_has_numbers_that_are_none_and_name_
   const Model window = test::window_without_a_number();
   const HoleMesh old(sound.mesh, window.tables());
   const FinerCorner field(sound);
-  HoleMarker holes(window, old, {0, static_cast<TriangleId>(sound.mesh.n_triangles()), 0, 0}, field, {}, one_rank);
+  HoleMarker holes(window, old, {0, static_cast<TriangleId>(sound.mesh.n_triangles()), 0}, field, {}, one_rank);
   const MeshResult r = mesh_regions(holes, field, HoleOutput::kPatches, {}, one_rank);
   ASSERT_EQ(r.failures.size(), 1u);
   EXPECT_EQ(r.failures[0].face, 0);

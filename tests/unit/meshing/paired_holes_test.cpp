@@ -23,7 +23,7 @@ struct Remeshed {
       : before(shape, UniformField(length)),
         field(other, regions(before), 1e-6),
         old(before.mesh, before.topology.tables(), &before.model),
-        holes(before.model, old, {0, static_cast<TriangleId>(before.mesh.triangles.size()), 0, 0}, field,
+        holes(before.model, old, {0, static_cast<TriangleId>(before.mesh.triangles.size()), 0}, field,
               with_pairs(std::move(mark)), test::one_rank) {}
 
   HoleMarkOptions with_pairs(HoleMarkOptions mark) const {

@@ -77,17 +77,14 @@ std::vector<double> finer_at_one_end(const SurfaceMesh& m) {
 }
 
 /// As finer_at_one_end() of the whole mesh.
-std::vector<double> share_of_lengths(const std::vector<double>& whole, const MeshPart& part, NodeId n_on_edges) {
+std::vector<double> share_of_lengths(const std::vector<double>& whole, const MeshPart& part) {
   std::vector<double> wanted;
-  for (NodeId n = 0; n < static_cast<NodeId>(part.artifact.mesh.node_xyz.size()); ++n)
-    wanted.push_back(whole[n < n_on_edges ? n : n + part.inner_shift]);
+  for (const NodeId n : part.node_number) wanted.push_back(whole[n]);
   return wanted;
 }
 
 TEST_F(MeshShares, are_together_the_whole_mesh) {
   const SurfaceMesh whole = read_mesh(mesh_path()).mesh;
-  const ModelTables t = tables();
-  const NodeId n_on_edges = HoleMesh(whole, t).inner_begin[0];
   for (const int n_parts : {1, 2, 3, 5, 40}) {
     TriangleId next = 0;
     for (int k = 0; k < n_parts; ++k) {
@@ -97,7 +94,7 @@ TEST_F(MeshShares, are_together_the_whole_mesh) {
       for (std::size_t i = 0; i < m.triangles.size(); ++i, ++next) {
         EXPECT_EQ(m.triangle_face[i], whole.triangle_face[next]);
         for (int c = 0; c < 3; ++c) {
-          const NodeId n = m.triangles[i].n[c], in_whole = n < n_on_edges ? n : n + part.inner_shift;
+          const NodeId n = m.triangles[i].n[c], in_whole = part.node_number[n];
           ASSERT_EQ(in_whole, whole.triangles[next].n[c]);
           EXPECT_TRUE(m.node_xyz[n] == whole.node_xyz[in_whole]);
           EXPECT_EQ(m.node_size[n], whole.node_size[in_whole]);
@@ -137,16 +134,15 @@ TEST_F(MeshShares, mark_what_one_rank_marks) {
       const MeshPart& part = parts[k];
       const HoleMesh own(part.artifact.mesh, t);
       const MeshShare share{0, static_cast<TriangleId>(part.artifact.mesh.triangles.size()), part.first_triangle,
-                            part.inner_shift};
-      const HoleMarks m =
-          mark_share(own, share, share_of_lengths(wanted, part, own.inner_begin[0]), options, [&](const auto& mine) {
-            touched[k] = mine;
-            all.arrive_and_wait();
-            std::vector<TouchedNode> together;
-            for (const auto& some : touched) together.insert(together.end(), some.begin(), some.end());
-            all.arrive_and_wait();
-            return together;
-          });
+                            part.node_number};
+      const HoleMarks m = mark_share(own, share, share_of_lengths(wanted, part), options, [&](const auto& mine) {
+        touched[k] = mine;
+        all.arrive_and_wait();
+        std::vector<TouchedNode> together;
+        for (const auto& some : touched) together.insert(together.end(), some.begin(), some.end());
+        all.arrive_and_wait();
+        return together;
+      });
       std::copy(m.triangle.begin(), m.triangle.end(), marks.begin() + part.first_triangle);
       EXPECT_TRUE(m.segment == expected.segment);
     };
