@@ -194,12 +194,12 @@ void bench_stretch(const SizingArtifact& sizing, const OctreeField& field, const
   constexpr double kTurned = 0.99;  // cosine
   const Vec3 lo = sizing.shape.lo;
   const auto exact = [&](Vec3 x, Vec3 t) {
-    const float unit[3] = {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)};
     double least = sizing.numbers.far_length;
     for (std::size_t i = 0; i < cones.size(); ++i) {
-      const double rise = cones[i].length_at(x - lo) - cones[i].length;
-      if (rise < least)
-        least = std::min(least, ConeStretch(samples[i].stretch).length_in(unit, cones[i].length) + rise);
+      const double length = cones[i].length, rise = cones[i].length_at(x - lo) - length;
+      const auto& [direction, along] = samples[i].stretch;
+      const LocalSize size{length, std::max<double>(length, along), along > 0 ? normalized(Vec3(direction)) : Vec3{}};
+      if (rise < least) least = std::min(least, size.in(t) + rise);
     }
     return sizing.scale * least;
   };
