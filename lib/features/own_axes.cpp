@@ -7,6 +7,7 @@
 #include "base/eigen.h"
 #include "base/share.h"
 #include "base/threads.h"
+#include "features/certain_wing_edges.h"
 #include "geometry/model/facets.h"
 
 namespace st {
@@ -174,6 +175,30 @@ std::vector<Box3> boxes_along(const Axes& axes, const ModelTables& t, const Face
 }
 
 }  // namespace
+
+LengthBounds bound_reference_diagonal(const Model& model, const FaceRoles& roles) {
+  constexpr double kBeside = 0.01;  // of the diagonal: boxes of faces are as exact as facets are, about
+  const ModelTables& t = model.tables();
+  const double in_space = roles.reference_diagonal;
+  const Axes axes = EdgeDirections(model).best();
+  if (are_of_space(axes)) return {in_space, in_space};
+  Box3 largest, least;  // along the axes: of boxes, which no facet leaves, and of vertices, which facets have
+  const auto along = [&](Vec3 x) { return Vec3{dot(axes[0], x), dot(axes[1], x), dot(axes[2], x)}; };
+  for (FaceId f = 0; f < t.n_faces(); ++f) {
+    if (roles.role[f] != FaceRole::kWall || t.face_box[f].is_empty()) continue;
+    const Box3& b = t.face_box[f];
+    for (const double x : {b.lo.x, b.hi.x})
+      for (const double y : {b.lo.y, b.hi.y})
+        for (const double z : {b.lo.z, b.hi.z}) largest.add(along({x, y, z}));
+    for (const EdgeId e : t.edges_of(f))
+      for (const std::size_t end : {0, 1})
+        if (const VertexId v = t.edge_vertices[2 * static_cast<std::size_t>(e) + end]; v != kNone)
+          least.add(along(t.vertex_xyz[v]));
+  }
+  // The diagonal of a box is no shorter than the longest way inside, which is at least 1 / sqrt(3) of any box's.
+  const double longest_inside = std::max(in_space / std::sqrt(3.0), least.is_empty() ? 0 : least.diagonal());
+  return {std::min(in_space, (1 - kBeside) * longest_inside), std::max(in_space, (1 + kBeside) * largest.diagonal())};
+}
 
 OwnAxes find_own_axes(const Model& model, const Executor& executor) {
   const ModelTables& t = model.tables();

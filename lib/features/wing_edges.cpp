@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include "base/disjoint_sets.h"
 #include "base/packer.h"
 #include "base/share.h"
+#include "features/certain_wing_edges.h"
 #include "features/edge_places.h"
 #include "features/strip.h"
 #include "geometry/model/face_coedge.h"
@@ -54,8 +56,9 @@ struct Station {
 
 class WingEdgeFinder {
  public:
-  WingEdgeFinder(const Model& model, const FaceRoles& roles, std::span<const Strip> strips)
-      : model_(model), t_(model.tables()), roles_(roles), strips_(strips) {
+  /// `diagonal`: bounds of the reference diagonal.
+  WingEdgeFinder(const Model& model, const FaceRoles& roles, std::span<const Strip> strips, LengthBounds diagonal)
+      : model_(model), t_(model.tables()), roles_(roles), strips_(strips), diagonal_(diagonal) {
     is_turned_ = is_material_ahead(t_, roles);
     uses_.resize(static_cast<std::size_t>(t_.n_edges()));
     for (FaceId f = 0; f < t_.n_faces(); ++f)
@@ -72,6 +75,8 @@ class WingEdgeFinder {
     return find(executor);
   }
 
+  /// Whether every diagonal within the bounds gives what was found.
+  bool is_certain() const { return is_certain_; }
   /// Trailing edges that the last search left out as too short.
   const std::vector<WingEdge>& small() const { return small_; }
   /// Whether the last search saw edges that were trailing edges if the material were on the other side. On rank 0.
@@ -89,6 +94,14 @@ class WingEdgeFinder {
 
  private:
   using FoundEdges = std::vector<std::optional<WingEdge>>;
+
+  /// A comparison that holds from some diagonal on, or up to it.
+  template <class Comparison>
+  bool is_of_diagonal(const Comparison& holds) const {
+    const bool at_least = holds(diagonal_.least);
+    if (at_least != holds(diagonal_.most)) is_certain_ = false;
+    return at_least;
+  }
 
   static void take_out(EdgeId e, FoundEdges& found) {
     if (!found[e] || found[e]->kind == WingEdgeKind::kLeading) return;
@@ -300,7 +313,8 @@ class WingEdgeFinder {
       const SurfacePoint2 p = surfaces[k]->evaluate2(s.sides[k].uv);
       largest = std::max(largest, bend(p, s.sides[k].normal, rates(p, s.sides[k].inward)));
     }
-    if (!(largest * kLargestNose * roles_.reference_diagonal > 1)) return 0;
+    const auto is_small = [first = largest](double diagonal) { return first * kLargestNose * diagonal > 1; };
+    if (!is_small(diagonal_.most)) return 0;
     std::array<double, 2> flattened = {0, 0};
     for (std::size_t k = 0; k < 2; ++k) {
       if (!is_wall(k)) continue;
@@ -308,7 +322,8 @@ class WingEdgeFinder {
       if (!end) return 0;
       flattened[k] = *end;
     }
-    return std::max(flattened[0], flattened[1]) <= kFlattened * largest ? 1 / largest : 0;
+    if (!(std::max(flattened[0], flattened[1]) <= kFlattened * largest)) return 0;
+    return is_of_diagonal(is_small) ? 1 / largest : 0;
   }
 
   /// Walks away from the edge, raises `largest` to the largest curvature met, and returns the curvature where the
@@ -523,8 +538,10 @@ class WingEdgeFinder {
       if (w) length[node(*w, 0)] += w->length;
     small_.clear();
     for (auto& w : found) {
-      if (!w || length[node(*w, 0)] >= kShortestChain * roles_.reference_diagonal) continue;
-      const bool is_tiny = length[node(*w, 0)] < kSmallestChain * roles_.reference_diagonal;
+      if (!w) continue;
+      const double own = length[node(*w, 0)];
+      if (is_of_diagonal([&](double diagonal) { return own >= kShortestChain * diagonal; })) continue;
+      const bool is_tiny = is_of_diagonal([&](double diagonal) { return own < kSmallestChain * diagonal; });
       if (w->kind != WingEdgeKind::kLeading && !is_tiny) small_.push_back(*w);
       w.reset();
     }
@@ -534,6 +551,8 @@ class WingEdgeFinder {
   const ModelTables& t_;
   const FaceRoles& roles_;
   std::span<const Strip> strips_;
+  const LengthBounds diagonal_;
+  mutable std::atomic<bool> is_certain_ = true;
   bool is_turned_ = false;  // normals point into the material
   std::vector<std::vector<FaceCoedge>> uses_;
   std::vector<WingEdge> small_;  // of the last search
@@ -544,16 +563,24 @@ class WingEdgeFinder {
 
 std::vector<WingEdge> find_wing_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                                       const Executor& executor, std::vector<WingEdge>* small, bool* has_hollow) {
-  WingEdgeFinder finder(model, roles, strips);
+  WingEdgeFinder finder(model, roles, strips, {roles.reference_diagonal, roles.reference_diagonal});
   std::vector<WingEdge> found = finder.run(executor);
   if (small) *small = finder.small();
   if (has_hollow) *has_hollow = finder.has_hollow();
   return found;
 }
 
+std::optional<std::vector<WingEdge>> find_certain_wing_edges(const Model& model, const FaceRoles& roles,
+                                                             std::span<const Strip> strips, LengthBounds diagonal) {
+  WingEdgeFinder finder(model, roles, strips, diagonal);
+  std::vector<WingEdge> found = finder.run(SerialExecutor());
+  return finder.is_certain() ? std::optional(std::move(found)) : std::nullopt;
+}
+
 void declare_edges(const Model& model, const FaceRoles& roles, std::span<const Strip> strips,
                    std::span<const DeclaredEdge> declared, std::vector<WingEdge>& edges) {
-  if (!declared.empty()) WingEdgeFinder(model, roles, strips).declare(declared, edges);
+  if (declared.empty()) return;
+  WingEdgeFinder(model, roles, strips, {roles.reference_diagonal, roles.reference_diagonal}).declare(declared, edges);
 }
 
 }  // namespace st

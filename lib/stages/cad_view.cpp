@@ -4,10 +4,12 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "features/base_strips.h"
+#include "features/certain_wing_edges.h"
 #include "features/face_roles.h"
 #include "features/strip.h"
 #include "features/wing_edges.h"
@@ -131,7 +133,11 @@ std::vector<Vec3> line_to_see(const Curve& curve) {
 }
 
 std::vector<WingEdge> wing_edges_to_see(const Model& model) {
-  return find_wing_edges(model, face_roles(model), find_base_strips(model, find_strips(model)));
+  const FaceRoles in_space = face_roles(model.tables());
+  const std::vector<Strip> strips = find_base_strips(model, find_strips(model));
+  std::optional<std::vector<WingEdge>> found =
+      find_certain_wing_edges(model, in_space, strips, bound_reference_diagonal(model, in_space));
+  return found ? *std::move(found) : find_wing_edges(model, face_roles(model), strips);  // by facets of all faces
 }
 
 CellView view_cad(const Model& model, std::span<const ImportFinding> findings) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/similarity.h"
+#include "features/certain_wing_edges.h"
 #include "features/face_roles.h"
 #include "features/lifting_surface.h"
 #include "features/strip.h"
@@ -36,6 +37,20 @@ TEST(OwnAxes, give_a_model_the_same_diagonal_however_it_is_turned) {
         EXPECT_NEAR(face_roles(turned(model, axis, angle_deg)).reference_diagonal, diagonal, 0.011 * diagonal)
             << shape << " " << axis.x << " " << angle_deg;
   }
+}
+
+TEST(OwnAxes, bound_the_diagonal_without_facets) {
+  for (const char* shape : kShapes)
+    for (const double angle_deg : {0.0, 30.0, 110.0}) {
+      const Model model = turned(test::make_model(shape), {1, 2, 3}, angle_deg);
+      const FaceRoles in_space = face_roles(model.tables());
+      const LengthBounds bounds = bound_reference_diagonal(model, in_space);
+      const double diagonal = face_roles(model).reference_diagonal;
+      EXPECT_LE(bounds.least, diagonal) << shape << " " << angle_deg;
+      EXPECT_GE(bounds.most, diagonal) << shape << " " << angle_deg;
+      EXPECT_LT(bounds.most, 3 * bounds.least) << shape << " " << angle_deg;
+      EXPECT_EQ(bounds.least == bounds.most, angle_deg == 0) << shape;
+    }
 }
 
 TEST(OwnAxes, tell_a_body_in_its_domain_however_it_is_turned) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "features/certain_wing_edges.h"
 #include "sizing/size_rules.h"
 #include "support/shapes.h"
 
@@ -68,6 +69,22 @@ TEST(WingEdges, of_a_domain_lie_on_the_other_side_of_its_normals) {
 TEST(WingEdges, are_not_found_on_plain_bodies) {
   for (const char* shape : {"box", "cylinder", "sphere", "cone", "torus", "drilled_block", "stepped_box"})
     EXPECT_TRUE(found(shape).empty()) << shape;
+}
+
+TEST(WingEdges, are_certain_where_all_diagonals_within_bounds_tell_the_same) {
+  const Model model = test::make_model("sharp_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  const std::vector<Strip> strips = find_strips(model);
+  const double diagonal = roles.reference_diagonal, nose_radius = 1.1019 * 0.12 * 0.12 * 10, span = 30;
+  const auto certain = [&](double least, double most) {
+    return find_certain_wing_edges(model, roles, strips, {least, most});
+  };
+  const auto known = certain(0.7 * diagonal, 1.5 * diagonal);
+  ASSERT_TRUE(known);
+  EXPECT_EQ(known->size(), find_wing_edges(model, roles, strips).size());
+  EXPECT_FALSE(certain(0.5 * nose_radius / 0.02, diagonal)) << "the nose is too blunt for the smaller one";
+  EXPECT_FALSE(certain(diagonal, 2 * span / 0.005)) << "its edges are too short for the larger one";
+  EXPECT_TRUE(certain(2 * span / 0.005, 3 * span / 0.005)->empty());
 }
 
 TEST(WingEdges, select_edges_in_rules) {
