@@ -5,6 +5,7 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Iterator.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
@@ -47,9 +48,17 @@ struct Joined {
   double length = 0;
 };
 
+/// Most faces have none besides; walking it takes as long as all else.
+bool has_one_loop(const TopoDS_Face& face) {
+  int n = 0;
+  for (TopoDS_Iterator w(face); w.More(); w.Next()) n += w.Value().ShapeType() == TopAbs_WIRE;
+  return n < 2;
+}
+
 Joined join_loops_of(const ImportedShape& model, FaceId f) {
   Joined joined;
   const TopoDS_Face face = TopoDS::Face(model.faces(f + 1).Oriented(TopAbs_FORWARD));
+  if (has_one_loop(face)) return {};
   std::vector<EdgeChain> chains = chains_of(face);
   double gaps = 0;
   for (std::size_t i = 0; i < chains.size(); ++i)
