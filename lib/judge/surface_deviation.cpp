@@ -142,6 +142,13 @@ std::vector<double> sides_of_faces(std::span<const SidePart> parts, std::int32_t
 struct DeviationSum::Piece {
   std::map<FaceId, DeviationStats> faces;
   FootFinder finder;
+  FaceId last = kNone;  // triangles come face by face
+  DeviationStats* of_last = nullptr;
+
+  DeviationStats& of(FaceId f) {
+    if (f != last) of_last = &faces[last = f];
+    return *of_last;
+  }
 };
 
 DeviationSum::DeviationSum(const Model& model, const SurfaceMesh& mesh)
@@ -156,7 +163,7 @@ DeviationSum::~DeviationSum() = default;
 void DeviationSum::add(TriangleId triangle, const Surface& surface) {
   const FaceId f = mesh_.triangle_face[triangle];
   Piece& piece = pieces_[own_.piece(triangle)];
-  add_triangle(surface, mesh_, triangle, side_[f], piece.finder, piece.faces[f]);
+  add_triangle(surface, mesh_, triangle, side_[f], piece.finder, piece.of(f));
 }
 
 std::vector<DeviationSum::Part> DeviationSum::parts() const {

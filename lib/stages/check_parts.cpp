@@ -38,6 +38,15 @@ void find_pairs_within(const SurfaceMesh& mesh, const OwnTriangles& own, CheckPa
   for (TrianglePair& p : parts.pairs) p.a += own.first, p.b += own.first;
 }
 
+/// What SizeField::local() tells.
+RequestedSize requested_by(const SizeField& field) {
+  if (field.is_stretched()) return [&field](Vec3 p, int& hint) { return field.local(p, hint); };
+  return [&field](Vec3 p, int& hint) {
+    const double length = field.size(p, hint);
+    return LocalSize{length, length, {}};
+  };
+}
+
 }  // namespace
 
 CadSide::CadSide(GeometryArtifact&& g, const std::string& path)
@@ -120,9 +129,8 @@ CheckParts measure_share(const CheckBasis& basis, const SurfaceMesh& mesh, const
   jobs.emplace_back([&] { parts.quality = measure_quality(mesh, edges, corners, own, basis.counts); });
   if (field)
     jobs.emplace_back([&] {
-      parts.conformity = measure_conformity(
-          mesh, edges, [&](Vec3 p, int& hint) { return field->local(p, hint); }, lengths_along(*field), own,
-          basis.counts.model);
+      parts.conformity =
+          measure_conformity(mesh, edges, requested_by(*field), lengths_along(*field), own, basis.counts.model);
     });
   jobs.emplace_back([&] { parts.shape = check_shape(mesh, edges, own); });
   jobs.emplace_back([&] { parts.topology = check_topology(mesh, edges, cad ? cad->edges() : CadEdges{}, own); });
