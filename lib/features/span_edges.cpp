@@ -15,20 +15,20 @@
 namespace st {
 namespace {
 
-constexpr double kLeastLength = 0.005;       // of the reference diagonal: of an edge
-constexpr double kSmooth = radians(30);      // between the faces there
-constexpr double kStraight = 0.7;            // between the ends of an edge over its length, at least
-constexpr double kChordMost = 2;             // over the length of the edge
-constexpr double kSlab = 0.06;               // of the edge's length: samples are no further from the plane
-constexpr double kSlabOfRing = 0.03;         // likewise
-constexpr std::size_t kLeastSamples = 8;     // in the slab
-constexpr double kThick = 0.45;              // of the chord: samples lie in a flatter rectangle
-constexpr double kLooksAcross = 0.5;         // cosine between normals and the direction across the chord
-constexpr int kGrid = 24;                    // samples of a face along u and v
-constexpr std::size_t kPiece = 8;            // samples of a face beside each other, with a box of their own
-constexpr double kRounding = 1e-6;           // of the edge's length, about: of distances from boxes
-constexpr std::size_t kMostFaces = 12;       // around an edge
-constexpr std::int32_t kEdgesPerTask = 128;  // ranks sample the faces beside their edges anew
+constexpr double kLeastLength = 0.005;      // of the reference diagonal: of an edge
+constexpr double kSmooth = radians(30);     // between the faces there
+constexpr double kStraight = 0.7;           // between the ends of an edge over its length, at least
+constexpr double kChordMost = 2;            // over the length of the edge
+constexpr double kSlab = 0.06;              // of the edge's length: samples are no further from the plane
+constexpr double kSlabOfRing = 0.03;        // likewise
+constexpr std::size_t kLeastSamples = 8;    // in the slab
+constexpr double kThick = 0.45;             // of the chord: samples lie in a flatter rectangle
+constexpr double kLooksAcross = 0.5;        // cosine between normals and the direction across the chord
+constexpr int kGrid = 24;                   // samples of a face along u and v
+constexpr std::size_t kPiece = 8;           // samples of a face beside each other, with a box of their own
+constexpr double kRounding = 1e-6;          // of the edge's length, about: of distances from boxes
+constexpr std::size_t kMostFaces = 12;      // around an edge
+constexpr std::int32_t kEdgesPerTask = 64;  // ranks sample the faces beside their edges anew
 
 enum class Known : unsigned char { kNotYet, kNo, kYes };
 

@@ -18,7 +18,7 @@
 namespace st {
 namespace {
 
-constexpr std::size_t kEdgesPerTask = 128;
+constexpr std::size_t kEdgesPerTask = 64;
 constexpr int kStations = 9;
 constexpr int kAgreeing = 6;                                         // of the stations
 constexpr double kSharpest = radians(60);                            // material of a sharp trailing edge at most

@@ -1,13 +1,11 @@
 #include "meshing/engine/curve_tasks.h"
 
-#include <algorithm>
-
 #include "base/share.h"
 
 namespace st {
 namespace {
 
-constexpr std::int32_t kCurvesPerTask = 8;
+constexpr std::int32_t kCurvesPerTask = 8;  // from all over the model: long curves often lie beside each other
 
 }  // namespace
 
@@ -17,8 +15,7 @@ EdgeMesh make_curve_nodes(std::int32_t n, const std::function<EdgeMesh(std::int3
   std::vector<EdgeMesh> parts(n_tasks);
   const auto compute = [&](std::int32_t task) {
     EdgeMesh part;
-    for (std::int32_t i = task * kCurvesPerTask; i < std::min(n, (task + 1) * kCurvesPerTask); ++i)
-      part.append(make(i));
+    for (std::int32_t i = task; i < n; i += n_tasks) part.append(make(i));
     return packed(part);
   };
   executor.run_named_tasks({.order = heaviest_first(std::vector<double>(n_tasks, 1)),
@@ -29,8 +26,7 @@ EdgeMesh make_curve_nodes(std::int32_t n, const std::function<EdgeMesh(std::int3
                             .made_from = ""},
                            compute, [&](std::int32_t task, Bytes&& result) { unpack(result, parts[task]); });
   EdgeMesh all = EdgeMesh::of_edges(0);
-  for (const EdgeMesh& part : parts)
-    for (EdgeId i = 0; i < part.n_edges(); ++i) all.append(part, i);
+  for (std::int32_t i = 0; i < n && executor.is_root(); ++i) all.append(parts[i % n_tasks], i / n_tasks);
   share(executor, all);
   return all;
 }
