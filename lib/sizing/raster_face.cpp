@@ -24,6 +24,7 @@ constexpr int kFirstCuts = 4;         // per direction, on surfaces whose curvat
 constexpr int kDoubts = 6;            // splits (two per halving) granted to a curvature that no angle confirms
 constexpr double kConfirmed = 2;      // a curvature up to this times the largest angle per distance around counts as
                                       // confirmed
+constexpr double kPart = 0.9;         // of a surface's range in u or v: less is a part of it
 constexpr double kAngleNoise = 1e-3;  // angles below this times alpha say nothing
 constexpr double kBreakInset = 1e-7;  // of the interval: probes stay on their side of a crease
 constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du and dv at a singular point
@@ -58,6 +59,9 @@ class FaceRaster {
     const SurfaceType type = surface.type();
     is_free_ = !(type == SurfaceType::kPlane || type == SurfaceType::kCylinder || type == SurfaceType::kCone ||
                  type == SurfaceType::kSphere || type == SurfaceType::kTorus);
+    Box2 rim;
+    for (const LoopSide& s : loops.sides()) rim.add(s.a);
+    is_part_ = !rim.is_empty() && (rim.size().x < kPart * range_u_ || rim.size().y < kPart * range_v_);
   }
 
   FaceRasterReport run() {
@@ -170,7 +174,9 @@ class FaceRaster {
       if (!patch.is_inside[k]) continue;
       double own = patch.probe[k].curvature;
       if (is_free_ && own * limits_.max_length > limits_.alpha) {
-        const double confirmed = kConfirmed * PairTurning::largest_at(k, pairs.rate);
+        double confirmed = kConfirmed * PairTurning::largest_at(k, pairs.rate);
+        if (own > confirmed && is_part_ && are_inside_in_one_line(patch))
+          confirmed = kConfirmed * turning_around(patch, k);
         if (own > confirmed && PairTurning::largest_at(k, pairs.angle) < 0.5 * limits_.alpha) {
           is_doubtful = true;
           own = confirmed;
@@ -179,6 +185,20 @@ class FaceRaster {
       curvature = std::max(curvature, own);
     }
     return curvature;
+  }
+
+  /// Whether the loops leave one row or column of probes: along a nose at the rim nothing turns.
+  static bool are_inside_in_one_line(const CurvaturePatch& patch) {
+    std::array<bool, 3> row{}, column{};
+    for (std::size_t k = 0; k < 9; ++k)
+      if (patch.is_inside[k]) row[k / 3] = column[k % 3] = true;
+    return std::ranges::count(row, true) == 1 || std::ranges::count(column, true) == 1;
+  }
+
+  /// Largest angle per distance from a probe to its neighbours, outside of the loops, too.
+  double turning_around(CurvaturePatch patch, std::size_t probe) const {
+    patch.n_inside = 9;
+    return PairTurning::largest_at(probe, PairTurning(patch, kAngleNoise * limits_.alpha).rate);
   }
 
   /// Largest curvature at the middles of the loop sides, for a patch without a probe inside the loops.
@@ -302,7 +322,8 @@ class FaceRaster {
   double told_area_ = 0;
   FaceRasterReport report_;
   double range_u_ = 1, range_v_ = 1;
-  bool is_free_ = true;  // curvature varies freely: not a plane, cylinder, cone, sphere or torus
+  bool is_part_ = false;  // of a larger surface: patches do not begin at its rim
+  bool is_free_ = true;   // curvature varies freely: not a plane, cylinder, cone, sphere or torus
 };
 
 }  // namespace

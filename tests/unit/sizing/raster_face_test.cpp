@@ -311,6 +311,22 @@ TEST(RasterFace, covers_a_sliver_thinner_than_any_probe_distance) {
   for (double t = 0; t <= 1; t += 0.001) ASSERT_GT(s.length_at({0.3 + 18.8 * t, 0.7005 + 11.5 * t, 0}), 0) << t;
 }
 
+/// Where a cut along a nose leaves one row of probes, that does not turn.
+TEST(RasterFace, sees_a_nose_of_which_a_cut_leaves_a_sliver) {
+  constexpr double kRadius = 0.1, kSpan = 10;
+  const FormulaSurface nose(
+      [](double u, double v) {
+        return Vec3{kRadius * (1 - std::cos(u / kRadius)), v, kRadius * std::sin(u / kRadius)};
+      },
+      0, 0.3, 0, kSpan);
+  const Vec2 a{0, 0}, b{0.02, 0}, c{0, kSpan};
+  const Sampling s = sample(nose, LoopPolygons({{a, b}, {b, c}, {c, a}}));
+  for (const double v : {2., 5., 8.}) {
+    EXPECT_NEAR(s.length_at(nose.point({0, v})), kRadius * kRasterLimits.alpha, 0.1 * kRadius * kRasterLimits.alpha)
+        << v;
+  }
+}
+
 TEST(RasterFace, stretches_pieces_whose_middle_the_loops_cut_off) {
   const AxialSurface cylinder(SurfaceType::kCylinder, kRasterFrame, 1, 0, 0, 2 * kPi, 0, 30);
   SamplingLimits limits = kRasterLimits;
