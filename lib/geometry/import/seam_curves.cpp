@@ -64,7 +64,7 @@ bool is_on_wrong_side(const Geom2d_Curve& forward, double t0, double t1, const G
   return is_up != (forward.Value(0.5 * (t0 + t1)).X() > 0.5 * (u0 + u1));
 }
 
-/// The edges that a loop passes twice and that have no curves on the face, if these are several or another edge of the
+/// The edges that a loop passes twice and that have no curves on the face, if there is another such edge or one of the
 /// loop ends at a pole; then also those that have their curves on the wrong sides.
 std::vector<TopoDS_Edge> bare_seams_of(const TopoDS_Shape& wire, const TopoDS_Face& face,
                                        const std::vector<gp_Pnt>& poles) {
@@ -89,8 +89,10 @@ std::vector<TopoDS_Edge> bare_seams_of(const TopoDS_Shape& wire, const TopoDS_Fa
     else if (is_on_wrong_side(*curve, t0, t1, *BRep_Tool::Surface(face)))
       wrong.push_back(edge);
   }
-  if (is_at_pole) bare.insert(bare.end(), wrong.begin(), wrong.end());
-  return is_at_pole || bare.size() > 1 ? bare : std::vector<TopoDS_Edge>();
+  const bool is_in_pieces = !bare.empty() && std::ranges::count(n_uses, 2) > 1;
+  if (!is_at_pole && !is_in_pieces) return {};
+  bare.insert(bare.end(), wrong.begin(), wrong.end());
+  return bare;
 }
 
 /// The lower bound of u, with the parameter of a seam that runs along it; null where the seam is elsewhere.
