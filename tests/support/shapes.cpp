@@ -798,6 +798,13 @@ const std::map<std::string, Factory>& factories() {
          const gp_Ax2 along_x(gp_Pnt(0, 0, 0), gp::DX());
          return BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeCylinder(along_x, 1, 9)).Shape();
        }},
+      {"ball_with_stem_and_cavity",
+       [] {
+         const TopoDS_Shape stem = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 0), gp::DX()), 1, 7).Shape();
+         const TopoDS_Shape pin = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 0), gp::DY()), 0.8, 3).Shape();
+         const TopoDS_Shape cavity = BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(2).Shape(), pin).Shape();
+         return BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5).Shape(), stem), cavity).Shape();
+       }},
       {"ball_with_bar", ball_with_bar},
       {"bent_pipe", bent_pipe},
       {"spindle_with_fin", [] { return with_fin(spindle(), -0.4); }},
@@ -806,6 +813,8 @@ const std::map<std::string, Factory>& factories() {
       {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},
       {"lemon_with_fin_beside", [] { return with_fin(lemon(), 0.4); }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
+      {"ball_with_socket_at_seam",
+       [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeSphere(gp_Pnt(4.5, 0, 0), 2)).Shape(); }},
       {"ball_with_notch",  // whose side passes the pole, the seam beside it
        [] {
          const gp_Pnt side(9 * std::cos(0.3), 9 * std::sin(0.3), 0);

@@ -1,4 +1,5 @@
 #include "geometry/import/other_side.h"
+#include "geometry/import/vertex_loops.h"
 
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
@@ -67,7 +68,8 @@ TopoDS_Face around_hole(const TopoDS_Face& face, const TopoDS_Wire& loop) {
   TopoDS_Shape rest = face.EmptyCopied();
   BRep_Builder().Add(rest, loop.Reversed());
   ShapeFix_Face fix(TopoDS::Face(rest));
-  return fix.FixAddNaturalBound() ? fix.Face() : TopoDS_Face();
+  if (fix.FixAddNaturalBound()) return fix.Face();
+  return bound_around_holes(TopoDS::Face(rest)) ? TopoDS::Face(rest) : TopoDS_Face();
 }
 
 /// An edge of a loop, in its direction.

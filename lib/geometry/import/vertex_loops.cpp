@@ -127,32 +127,46 @@ TopoDS_Shape natural_loop(const Handle(Geom_Surface) & surface, double seam, dou
   return wire.More() ? wire.Value() : TopoDS_Shape();
 }
 
-bool bound(const TopoDS_Face& face) {
-  TopLoc_Location location;
-  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, location);
-  if (surface.IsNull() || !location.IsIdentity() || surface->IsKind(STANDARD_TYPE(Geom_ElementarySurface)))
-    return false;
-  const std::optional<Loops> loops = loops_of(face);
-  if (!loops || loops->points.empty() || loops->holes.empty() || !has_no_border(*surface)) return false;
+/// The loop around the surface of a face, beside holes in it; null where none can be made.
+TopoDS_Shape loop_beside(const std::vector<TopoDS_Shape>& holes, const TopoDS_Face& face,
+                         const Handle(Geom_Surface) & surface) {
+  if (!has_no_border(*surface)) return {};
   const Bounds bounds(*surface);
-  const auto seam = seam_beside(places_of(loops->holes, face, bounds), bounds, surface->IsUPeriodic());
-  if (!seam) return false;
-  const TopoDS_Shape loop = natural_loop(surface, *seam, BRep_Tool::Tolerance(face));
-  if (loop.IsNull()) return false;
+  const auto seam = seam_beside(places_of(holes, face, bounds), bounds, surface->IsUPeriodic());
+  return seam ? natural_loop(surface, *seam, BRep_Tool::Tolerance(face)) : TopoDS_Shape();
+}
+
+void replace_loops(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& old, const TopoDS_Shape& loop) {
   TopoDS_Shape changed = face;
   const bool was_free = changed.Free();
   changed.Free(true);
   BRep_Builder builder;
-  for (const TopoDS_Shape& point : loops->points) builder.Remove(changed, point);
+  for (const TopoDS_Shape& wire : old) builder.Remove(changed, wire);
   builder.Add(changed, loop);
   changed.Free(was_free);
-  return true;
+}
+
+bool bound(const TopoDS_Face& face) {
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
+  if (surface.IsNull() || surface->IsKind(STANDARD_TYPE(Geom_ElementarySurface))) return false;
+  const std::optional<Loops> loops = loops_of(face);
+  return loops && !loops->points.empty() && bound_around_holes(face);
 }
 
 }  // namespace
 
 int bound_whole_surfaces(std::span<const TopoDS_Face> faces) {
   return static_cast<int>(std::ranges::count_if(faces, bound));
+}
+
+bool bound_around_holes(const TopoDS_Face& face) {
+  TopLoc_Location location;
+  const Handle(Geom_Surface) surface = BRep_Tool::Surface(face, location);
+  const std::optional<Loops> loops = loops_of(face);
+  if (surface.IsNull() || !location.IsIdentity() || !loops || loops->holes.empty()) return false;
+  const TopoDS_Shape loop = loop_beside(loops->holes, face, surface);
+  if (!loop.IsNull()) replace_loops(face, loops->points, loop);
+  return !loop.IsNull();
 }
 
 }  // namespace st::occt

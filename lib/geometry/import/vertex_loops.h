@@ -13,4 +13,7 @@ namespace st::occt {
 /// other way, too. Returns the number of faces changed.
 int bound_whole_surfaces(std::span<const TopoDS_Face> faces);
 
+/// The same for one face on any such surface whose loops are all holes; false where there is no place for a seam.
+bool bound_around_holes(const TopoDS_Face& face);
+
 }  // namespace st::occt

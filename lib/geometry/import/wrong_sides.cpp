@@ -35,26 +35,29 @@ gp_Vec normal_at(const TopoDS_Edge& edge, const TopoDS_Face& face) {
   return face.Orientation() == TopAbs_REVERSED ? normal.Reversed() : normal;
 }
 
-/// How a face goes on into the others of its shell: its other side would be folded back where it goes on smoothly.
+/// How a face goes on into the others of its shell, at most of its edges: its other side would be folded back where it
+/// goes on smoothly.
 enum class GoesOn { kSmoothly, kFolded, kNeither };
 
 /// By the faces that can be on one side only, if there are any at its edges.
 GoesOn how_it_goes_on(const TopoDS_Face& face, const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
   constexpr double kSmooth = 0.5;  // radians: far below the angle of a stem and far above that of a fillet
-  bool is_folded = false;
+  int n_edges = 0, n_smooth = 0, n_folded = 0;
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(e.Current());
     const int k = faces_of.FindIndex(edge);
-    if (k == 0) continue;
+    if (k == 0 || BRep_Tool::Degenerated(edge)) continue;
+    ++n_edges;
     for (const TopoDS_Shape& other : faces_of(k)) {
       if (other.IsSame(face)) continue;
       const gp_Vec a = normal_at(edge, face), b = normal_at(edge, TopoDS::Face(other));
       if (a.Magnitude() == 0 || b.Magnitude() == 0) continue;
-      if (a.Angle(b) < kSmooth) return GoesOn::kSmoothly;
-      is_folded = is_folded || (a.Angle(b) > M_PI - kSmooth && !may_be_on_either_side(TopoDS::Face(other)));
+      n_smooth += a.Angle(b) < kSmooth;
+      n_folded += a.Angle(b) > M_PI - kSmooth && !may_be_on_either_side(TopoDS::Face(other));
     }
   }
-  return is_folded ? GoesOn::kFolded : GoesOn::kNeither;
+  if (2 * n_smooth > n_edges) return GoesOn::kSmoothly;
+  return 2 * n_folded > n_edges ? GoesOn::kFolded : GoesOn::kNeither;
 }
 
 /// What is known of the faces of a part, by their place among its faces.
@@ -94,8 +97,9 @@ std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFac
     else if (goes_on == GoesOn::kNeither)  // files may err in what they say of a fillet's corner
       (agrees ? agreeing : other).push_back(face);
   }
-  if (n_agree == n_other) return wrong;  // the reader may have turned the whole shell
-  const std::vector<TopoDS_Face>& turned = n_agree > n_other ? other : agreeing;
+  const bool is_all_turned = n_agree + n_other == 0 && wrong.empty() && agreeing.empty();
+  if (n_agree == n_other && !is_all_turned) return wrong;  // the reader may have turned the whole shell
+  const std::vector<TopoDS_Face>& turned = n_agree >= n_other ? other : agreeing;
   wrong.insert(wrong.end(), turned.begin(), turned.end());
   return wrong;
 }

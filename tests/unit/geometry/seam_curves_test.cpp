@@ -114,6 +114,11 @@ void keep_curves_in_space(const std::string& path) {
   std::ofstream(path) << kept << rest;
 }
 
+TEST(SeamCurves, of_one_piece_of_two_are_given_beside_a_cavity) {
+  const TemporaryDirectory dir;
+  test::expect_whole_in_step("ball_with_stem_and_cavity", dir);
+}
+
 TEST(SeamCurves, make_rings_with_a_notch_whole_in_iges_files) {
   for (const char* shape : {"torus", "ring_with_notch", "ring_with_notch_at_seam"}) {
     const TemporaryDirectory dir;

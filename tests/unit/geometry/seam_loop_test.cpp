@@ -4,6 +4,8 @@
 #include <STEPControl_Reader.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
+#include <XSAlgo.hxx>
+#include <XSAlgo_AlgoContainer.hxx>
 
 #include <gtest/gtest.h>
 
@@ -21,8 +23,11 @@ Turned turn_all(const std::string& shape) {
   const TemporaryDirectory dir;
   test::write_step(shape, dir / "a.step", "MM");
   STEPControl_Reader reader;
+  const Handle(XSAlgo_AlgoContainer) mending = XSAlgo::AlgoContainer();  // of imports before
+  XSAlgo::SetAlgoContainer(new XSAlgo_AlgoContainer);
   reader.ReadFile((dir / "a.step").c_str());
   reader.TransferRoots();
+  XSAlgo::SetAlgoContainer(mending);
   Turned result;
   for (TopExp_Explorer f(reader.OneShape(), TopAbs_FACE); f.More(); f.Next()) {
     const TopoDS_Face face = TopoDS::Face(f.Current()), turned = occt::with_chains_turned(face);
@@ -50,13 +55,7 @@ TEST(SeamLoop, others_stay) {
 
 TEST(SeamLoop, models_are_the_same_as_step_and_brep) {
   const TemporaryDirectory dir;
-  test::write_brep("ball_with_bar", dir / "a.brep");
-  test::write_step("ball_with_bar", dir / "a.step", "MM");
-  const ImportResult sound = import_model(dir / "a.brep", {}), r = import_model(dir / "a.step", {});
-  EXPECT_EQ(test::findings_of(r, "face on the wrong side of its loop").size(), 1u);
-  EXPECT_TRUE(r.is_closed);
-  EXPECT_NEAR(r.area, sound.area, 1e-4 * sound.area);
-  EXPECT_NEAR(r.volume, sound.volume, 1e-4 * sound.volume);
+  test::expect_whole_in_step("ball_with_bar", dir);
 }
 
 TEST(SeamLoop, chains_in_iges_files_are_turned_where_no_edge_is_a_seam) {
