@@ -32,6 +32,9 @@ std::vector<FaceId> find_missing_faces(const PatchesArtifact& rest, const std::v
   std::vector<std::uint8_t> is_meshed(rest.labels.face_name.size(), 0);
   for (const PatchInFile& p : patches) is_meshed[p.face()] = 1;
   for (const FaceId f : closed_faces(rest.merged, rest.edges, rest.edge_vertices)) is_meshed[f] = 1;
+  for (std::int32_t i = 0; i < rest.composites.size(); ++i)
+    for (const FaceId f : rest.composites.members(i).subspan(1))
+      is_meshed[f] = 1;  // the first one has the patch of all
   std::vector<FaceId> missing;
   for (std::size_t f = 0; f < is_meshed.size(); ++f)
     if (!is_meshed[f]) missing.push_back(static_cast<FaceId>(f));
@@ -67,6 +70,12 @@ void add_part(PatchesArtifact& all, const PatchesArtifact& part, const std::stri
     throw Error(ExitCode::kMismatch,
                 fmt::format("{} and {} merge different small features of the CAD; mesh the second part with --edges {}",
                             path_all, path, path_all));
+  if (all.composites.member != part.composites.member)
+    throw Error(
+        ExitCode::kMismatch,
+        fmt::format("{} and {} join different faces, as some cannot be meshed as one; mesh both on the geometry "
+                    "of st-import --composite none",
+                    path_all, path));
   all.edges = unite_edges(all.edges, part.edges, path_all, path);
 }
 

@@ -1,11 +1,12 @@
 """Joined faces: what users read and write has the numbers of the CAD, and what cannot be joined is said."""
+import re
 import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
-from chain import MISMATCH, MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
+from chain import INCOMPLETE, MISMATCH, MODELS, OK, USAGE, Run, ToolTest, make_chain, must  # noqa: E402
 
 MODEL = MODELS / "wing_of_8.brep"
 AREAS = """
@@ -66,6 +67,18 @@ class Composite(ToolTest):
         for mesh in (folder / "mesh.hdf", folder / "again.hdf"):
             said = subprocess.run([python, "-c", AREAS, mesh, folder / "geometry.hdf"], capture_output=True, text=True)
             self.assertEqual((said.returncode, said.stdout), (0, ""), said.stderr)
+
+    def test_parts_meshed_one_by_one_are_merged_into_the_same_mesh(self):
+        folder = self.chain()
+        inputs = folder / "geometry.hdf", folder / "sizing.hdf"
+        n_faces = must("st-info", inputs[0], "--json").json()["counts"]["faces"]
+        said = must("st-mesh", *inputs, "--faces", "1", "-o", folder / "a.hdf").err
+        joined = set(map(int, re.search(r"faces ([0-9, ]+) are joined", said)[1].split(",")))
+        rest = ",".join(str(f) for f in range(1, n_faces + 1) if f not in joined)
+        must("st-mesh", *inputs, "--faces", rest, "--edges", folder / "a.hdf", "-o", folder / "b.hdf")
+        self.expect_error(INCOMPLETE, "st-merge", folder / "a.hdf", "-o", folder / "m.hdf", says="no complete mesh")
+        must("st-merge", folder / "a.hdf", folder / "b.hdf", "-o", folder / "m.hdf")
+        must("st-diff", folder / "m.hdf", folder / "mesh.hdf")
 
     def test_vertices_of_groups_stay(self):
         all_joined, n_vertices = self.joined()["joined"], self.joined()["vertices"]
