@@ -106,28 +106,30 @@ class Inputs(Hostile):
         fine, cut = self.folder / "fine.hdf", self.folder / "cut.hdf"
         sphere = artifacts_of("sphere")
         must("st-prolong", sphere / "raster.hdf", "-o", fine, "--scale", ".01")
-        for ranks in ([], ["--np", "2"]):
+        for n_ranks in (1, 2):
+            ranks = ["--np", str(n_ranks)] if n_ranks > 1 else []
             cut.write_bytes(fine.read_bytes())
             process = subprocess.Popen([BIN / "st-mesh", sphere / "geometry.hdf", cut,
                                         "-o", self.folder / "p.hdf", *ranks],
                                        stderr=subprocess.PIPE, text=True)
-            self.wait_until_mapped(process, cut)
+            self.wait_until_mapped(process, cut, n_ranks)
             os.truncate(cut, 4096)
             err = process.communicate(timeout=60)[1]
             self.assertEqual(process.returncode, INPUT, err)
             self.assertIn("cut.hdf: got shorter or unreadable while it was used", err)
             self.expect_nothing_left(self.folder, "fine.hdf", "cut.hdf")
 
-    def wait_until_mapped(self, process, path):
-        """Until the tool or a rank of it has used the file for some time."""
+    def wait_until_mapped(self, process, path, n_ranks):
+        """Until all ranks have used the file for some time: one that opens it later finds a file that was cut."""
+        def is_mapped(maps):
+            try:
+                return "st-mesh" in (maps.parent / "comm").read_text() and str(path) in maps.read_text()
+            except OSError:
+                return False
         while process.poll() is None:
-            for maps in Path("/proc").glob("[0-9]*/maps"):
-                try:
-                    if "st-mesh" in (maps.parent / "comm").read_text() and str(path) in maps.read_text():
-                        time.sleep(0.3)
-                        return
-                except OSError:
-                    pass
+            if sum(map(is_mapped, Path("/proc").glob("[0-9]*/maps"))) == n_ranks:
+                time.sleep(0.3)
+                return
         self.fail("the file was never mapped")
 
     def test_a_pipe_as_an_input_is_refused_at_once(self):
