@@ -5,12 +5,12 @@
 #include <optional>
 #include <utility>
 
+#include "base/equal_points.h"
 #include "base/error.h"
 #include "base/length.h"
 #include "geometry/facet/facet_cuts.h"
 #include "geometry/facet/facet_faces.h"
 #include "geometry/facet/facet_model.h"
-#include "geometry/facet/facet_points.h"
 #include "geometry/facet/facet_repair.h"
 #include "geometry/import/facet_air.h"
 #include "geometry/import/half_model.h"
@@ -96,7 +96,7 @@ ImportResult import_facets(FacetInput input, const ImportOptions& options, const
   result.format = "facets";
   occt::require_sound_nodes(input.x, path);
   try {
-    join_equal_points(input);
+    join_equal_points(input.x, input.corners);
     result.findings = repair_facets(input);
     FacetMesh mesh = find_smooth_faces(input, radians(options.feature_deg));
     if (plane || far) make_flow_domain(mesh, input.part_name, plane, far, result.findings);

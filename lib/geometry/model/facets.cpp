@@ -9,10 +9,10 @@
 #include <algorithm>
 #include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "base/assert.h"
+#include "base/equal_points.h"
 #include "base/packer.h"
 #include "geometry/brep/compound.h"
 #include "geometry/model/brep_facets.h"
@@ -121,18 +121,6 @@ void sort_by_face(Facets& facets) {
   }
 }
 
-/// Nodes in one place become the first of them.
-void weld_equal(Facets& facets) {
-  std::vector<std::int32_t> order(facets.xyz.size()), one(facets.xyz.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto key = [&](std::int32_t n) { return std::tuple(facets.xyz[n].x, facets.xyz[n].y, facets.xyz[n].z); };
-  std::stable_sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) { return key(a) < key(b); });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    one[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? one[order[i - 1]] : order[i];
-  for (auto& triangle : facets.triangle)
-    for (std::int32_t& node : triangle) node = one[node];
-}
-
 /// Those of the CAD's own faces, for the faces that they are part of.
 Facets facets_of_cad(const Model& model, const std::vector<std::uint8_t>& is_wanted, const FacetLimits& limits,
                      const Executor& executor) {
@@ -190,7 +178,7 @@ void append_facets(Facets&& more, Facets& all) {
 
 void join_facets(const Model& model, Facets&& unjoined, Facets& facets) {
   append_facets(std::move(unjoined), facets);
-  model.facets().empty() ? weld(facets) : weld_equal(facets);
+  model.facets().empty() ? weld(facets) : join_equal_points(facets.xyz, facets.triangle);
   sort_by_face(facets);
 }
 

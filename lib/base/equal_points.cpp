@@ -1,4 +1,4 @@
-#include "geometry/facet/facet_points.h"
+#include "base/equal_points.h"
 
 #include <bit>
 #include <numeric>
@@ -26,22 +26,22 @@ std::uint64_t key_of(Vec3 x) {
 
 }  // namespace
 
-void join_equal_points(FacetInput& facets) {
+void join_equal_points(std::span<const Vec3> x, std::vector<std::array<std::int32_t, 3>>& corners) {
   std::vector<Place> places, other;
-  places.reserve(facets.x.size());
-  for (const Vec3 x : facets.x) places.push_back({key_of(x), static_cast<std::int32_t>(places.size())});
+  places.reserve(x.size());
+  for (const Vec3 place : x) places.push_back({key_of(place), static_cast<std::int32_t>(places.size())});
   radix_sort(places, other, [](const Place& p) { return p.key; });
-  std::vector<std::int32_t> first(facets.x.size());
+  std::vector<std::int32_t> first(x.size());
   std::iota(first.begin(), first.end(), 0);
   for (std::size_t begin = 0, end; begin < places.size(); begin = end) {
     for (end = begin; end < places.size() && places[end].key == places[begin].key; ++end)
       for (std::size_t i = begin; i < end; ++i)
-        if (facets.x[places[i].node] == facets.x[places[end].node]) {
+        if (x[places[i].node] == x[places[end].node]) {
           first[places[end].node] = first[places[i].node];
           break;
         }
   }
-  for (Corners& c : facets.corners)
+  for (auto& c : corners)
     for (std::int32_t& n : c) n = first[n];
 }
 
