@@ -7,43 +7,35 @@
 namespace st {
 namespace {
 
-/// What a cone of one length asks for along directions, less that length.
+/// What a cone asks for along directions, at places where it asks for such lengths across.
 struct LongerAlong {
   const float* direction;  // [3]
-  float length, squeeze;   // 1 - (length / length along)^2
-  bool is_longer;
+  float longer;            // along than across, model unit; 0: the same in all directions
 
   explicit LongerAlong(const AlongCone& of)
-      : direction(of.direction), length(of.cone[3]), squeeze(0), is_longer(of.along > length) {
-    const float ratio = length / of.along;
-    squeeze = 1 - ratio * ratio;
+      : direction(of.direction), longer(of.along > of.cone[3] ? of.along - of.cone[3] : 0) {}
+
+  /// Both lengths grow by the slope before the direction is asked. `part`: of the direction along the cone's.
+  F8 along(const F8& across, const F8& part) const {
+    const F8 ratio = across / (across + all(longer));
+    return across / root(all(1) - least(part * part, all(1)) * (all(1) - ratio * ratio));
   }
-  float along(const float* unit) const {
-    const float part = unit[0] * direction[0] + unit[1] * direction[1] + unit[2] * direction[2], square = part * part;
-    return length / __builtin_sqrtf(1 - (square < 1 ? square : 1) * squeeze) - length;
-  }
-  /// Of eight directions, by coordinate.
-  F8 along(const F8& x, const F8& y, const F8& z) const {
-    const F8 part = x * all(direction[0]) + y * all(direction[1]) + z * all(direction[2]);
-    return all(length) / root(all(1) - squeeze * least(part * part, all(1))) - length;
-  }
-  /// At the probes of a site.
-  void at_probes(const AlongSite& site, const float* turns, F8 (&longer)[2]) const {
-    if (!is_longer || site.turns < 0) {
-      longer[0] = longer[1] = all(is_longer ? along(site.unit) : 0);
-      return;
+  /// Of the directions of a site's probes.
+  void at_probes(const AlongSite& site, const float* turns, F8 (&lengths)[2]) const {
+    if (!(longer > 0)) return;
+    const float* const units = site.turns < 0 ? nullptr : turns + 3 * kProbes * static_cast<std::int64_t>(site.turns);
+    for (int g = 0; g < 2; ++g) {
+      const auto unit = [&](int k) { return units ? load(units + k * kProbes + 8 * g) : all(site.unit[k]); };
+      lengths[g] =
+          along(lengths[g], unit(0) * all(direction[0]) + unit(1) * all(direction[1]) + unit(2) * all(direction[2]));
     }
-    const float* units = turns + 3 * kProbes * static_cast<std::int64_t>(site.turns);
-    for (int g = 0; g < 2; ++g)
-      longer[g] = along(load(units + 8 * g), load(units + kProbes + 8 * g), load(units + 2 * kProbes + 8 * g));
   }
 };
 
 void lower_along(const float* lengths, const AlongCone& cone, const float* turns, AlongSite& site) {
-  F8 longer[2];
-  LongerAlong(cone).at_probes(site, turns, longer);
-  for (int g = 0; g < 2; ++g)
-    store(site.best + 8 * g, least(load(site.best + 8 * g), load(lengths + 8 * g) + longer[g]));
+  F8 at[2] = {load(lengths), load(lengths + 8)};
+  LongerAlong(cone).at_probes(site, turns, at);
+  for (int g = 0; g < 2; ++g) store(site.best + 8 * g, least(load(site.best + 8 * g), at[g]));
 }
 
 void offer_along(const AlongCone& cone, const AlongSite* sites, const float* turns, const std::int32_t* which,
@@ -52,21 +44,19 @@ void offer_along(const AlongCone& cone, const AlongSite* sites, const float* tur
   const LongerAlong longer(cone);
   for (std::int32_t i = 0; i < n; ++i) {
     const AlongSite& site = sites[which[i]];
-    F8 by[2], at[2];
-    longer.at_probes(site, turns, by);
+    F8 at[2];
     CellView(site.cell).lengths(of, at);
+    longer.at_probes(site, turns, at);
     const F8 known[2] = {load(site.best), load(site.best + 8)};
-    for (int g = 0; g < 2; ++g) at[g] = at[g] + by[g];
     const auto are_below = [&](float share) { return is_any((at[0] < share * known[0]) | (at[1] < share * known[1])); };
     gains[i] = !are_below(shares.nearly) ? kNoGain : are_below(shares.clearly) ? kClearlyGains : kNearlyGains;
   }
 }
 
 void take_along(const AlongCone& cone, std::int32_t sample, const float* turns, float share, AlongSite& site) {
-  F8 at[2], by[2], known[2] = {load(site.best), load(site.best + 8)};
+  F8 at[2], known[2] = {load(site.best), load(site.best + 8)};
   CellView(site.cell).lengths(ConeView(cone.cone), at);
-  LongerAlong(cone).at_probes(site, turns, by);
-  for (int g = 0; g < 2; ++g) at[g] = at[g] + by[g];
+  LongerAlong(cone).at_probes(site, turns, at);
   if (!is_any((at[0] < share * known[0]) | (at[1] < share * known[1]))) return;
   for (int g = 0; g < 2; ++g) {
     store(site.winner + 8 * g, where(at[g] < known[g], sample, load(site.winner + 8 * g)));
@@ -74,17 +64,17 @@ void take_along(const AlongCone& cone, std::int32_t sample, const float* turns, 
   }
 }
 
-/// What eight cones of such lengths ask for along a direction.
+/// What eight cones of such lengths ask for along a direction, where they have grown by `rise`.
 F8 eight_along(const AlongCones& of, const std::int32_t* which, std::int32_t n, std::int32_t k, const F8& length,
-               const float* unit) {
+               const F8& rise, const float* unit) {
   const float* stretch[8];
   for (std::int32_t i = 0; i < 8; ++i)
     stretch[i] = of.stretches + 4 * static_cast<std::int64_t>(which[k + i < n ? k + i : n - 1]);
   F8 x, y, z, along;
   turn_eight(stretch, 0, x, y, z, along);
-  const F8 part = unit[0] * x + unit[1] * y + unit[2] * z, ratio = length / along,
-           longer = length / root(all(1) - least(part * part, all(1)) * (all(1) - ratio * ratio));
-  return select(along > length, longer, length);
+  const F8 part = unit[0] * x + unit[1] * y + unit[2] * z, across = length + rise, ratio = across / (along + rise),
+           longer = across / root(all(1) - least(part * part, all(1)) * (all(1) - ratio * ratio));
+  return select(along > length, longer, across);
 }
 
 LeastAlong least_along(const AlongCones& of, const float* place) {
@@ -104,7 +94,7 @@ LeastAlong least_along(const AlongCones& of, const float* place) {
   const double most_along = of.most_aspect * static_cast<double>(own);
   float result = static_cast<float>(of.largest < most_along ? of.largest : most_along);
   const auto lower = [&](const std::int32_t* which, std::int32_t n, std::int32_t k, const F8& across, const F8& by) {
-    const float found = least_of(by + eight_along(of, which, n, k, across, unit));
+    const float found = least_of(eight_along(of, which, n, k, across, by, unit));
     if (found < result) result = found;
   };
   const auto is_over = [&](std::int32_t which) {  // the shortest of those from here on

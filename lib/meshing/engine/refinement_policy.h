@@ -60,9 +60,9 @@ struct RefinementPolicy {
   static constexpr int kMostTakenBack = 4;  ///< that refinements at bad places are taken back: bad places move
   static constexpr int kMostLoosened = 4;   ///< that lengths are doubled: most are no finer than kLoopFloor
   static constexpr int kMostEased = 10;     ///< that lengths along become shorter: to 0.6 each time, 100 to 1 in nine
-  static constexpr int kMostUneased = 5;    ///< likewise in a row that leave not fewer flaws, obtuse triangles among
-                                            ///< these
-  static constexpr int kMostUneasedSteps = 2;  ///< likewise where no triangle is obtuse
+  static constexpr int kMostUneased = 5;    ///< likewise in a row that leave not fewer flaws, while any are above 150
+                                            ///< degrees or not held
+  static constexpr int kMostUneasedSteps = 2;  ///< likewise for steps alone
   static constexpr int kMostTried = 2;         ///< meshings each: places that are needed come to light
 
   /// Whether loops, folds and narrow parts are refined after this round, the first one being 1.
@@ -77,14 +77,14 @@ struct RefinementPolicy {
   }
   /// Whether smaller triangles cross no less: rounds since there were clearly more pairs, and those there are.
   static bool is_stuck(int n_without, std::int64_t n_pairs) { return n_without >= kMostStuck && n_pairs >= kManyBad; }
-  static int most_uneased(std::size_t n_obtuse) { return n_obtuse > 0 ? kMostUneased : kMostUneasedSteps; }
+  static int most_uneased(std::size_t n_worst) { return n_worst > 0 ? kMostUneased : kMostUneasedSteps; }
   /// Whether lengths along become shorter once more, after `n_rounds`, `n_without` success lately. `n_worst`: angles
   /// above 150 degrees and places that are not held. `n_again`: triangles meshed for that so far.
-  static bool goes_on_easing(int n_rounds, int n_without, std::size_t n_obtuse, std::size_t n_worst,
-                             std::int64_t n_first, std::int64_t n_again) {
+  static bool goes_on_easing(int n_rounds, int n_without, std::size_t n_worst, std::int64_t n_first,
+                             std::int64_t n_again) {
     const double most =
         (n_worst > 0 ? kMostEasedWorst : kMostEasedAgain) * static_cast<double>(n_first) + kFewTriangles;
-    return n_rounds < kMostEased && n_without < most_uneased(n_obtuse) && static_cast<double>(n_again) < most;
+    return n_rounds < kMostEased && n_without < most_uneased(n_worst) && static_cast<double>(n_again) < most;
   }
   /// Whether a mesh of `n` triangles is worth that it has fewer flaws.
   static bool is_worth_easing(std::int64_t n_first, std::int64_t n) {

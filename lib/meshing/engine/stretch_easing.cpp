@@ -21,14 +21,14 @@ void StretchEasing::run() {
   n_first_ = n_triangles(all_faces());
   flaws_ = find_flaws(0);
   const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
-  if (!is_on_root(!flaws_.stretched.empty()) && !has_obtuse) return;
+  if (!is_on_root(!flaws_.eased().empty()) && !has_obtuse) return;
   best_ = {count_flaws(), has_obtuse, faces_.state(), refinements_.all()};
-  run_rounds(&StretchFlaws::stretched, Shortens::kAlong);
+  run_rounds([&] { return shorten(flaws_.eased(), flaws_.shortens()); });
   if (!is_best_) go_back();
   mix_rounds();
   if (!best_.has_obtuse) return;
   flaws_ = find_flaws(0);
-  run_rounds(&StretchFlaws::obtuse, Shortens::kAll);
+  run_rounds([&] { return shorten(flaws_.obtuse, Shortens::kAll); });
   if (!is_best_) go_back();
 }
 
@@ -39,11 +39,11 @@ bool StretchEasing::is_on_root(bool is_here) const {
   return is != 0;
 }
 
-void StretchEasing::run_rounds(Places StretchFlaws::*places, Shortens shortens) {
+void StretchEasing::run_rounds(const std::function<std::vector<Refinement>()>& shorten_more) {
   const std::size_t first = refinements_.all().size();
   rounds_ = {{refinements_.all(), flaws_.all}};
-  for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_obtuse(), n_worst(), n_first_, n_again_); ++i) {
-    const std::vector<Refinement> shorter = shorten(flaws_.*places, shortens);
+  for (int i = 0, n_without = 0; Policy::goes_on_easing(i, n_without, n_worst(), n_first_, n_again_); ++i) {
+    const std::vector<Refinement> shorter = shorten_more();
     if (shorter.empty()) break;
     n_again_ += n_triangles(
         mesh_again_(shorter, "where stretched triangles are obtuse or too large", RefinementTrials::kAnyBad));
@@ -79,20 +79,10 @@ StretchFlaws StretchEasing::find_flaws(int n_tries) {
   const SurfaceMesh mesh = weld_patches(faces_.edges(), tables_.vertex_xyz, of_faces).mesh;
   const RefinedField present(field_, refinements_.all());
   StretchFlaws flaws = find_stretch_flaws(mesh.node_xyz, mesh.triangles, present, n_tries);
-  if (find_unheld_) add_unheld(mesh, present, n_tries, flaws);
-  return flaws;
-}
-
-/// Places that are not stretched count, too: what is not held there is not for stretch.
-void StretchEasing::add_unheld(const SurfaceMesh& mesh, const SizeField& present, int n_tries,
-                               StretchFlaws& flaws) const {
+  if (!find_unheld_) return flaws;
   int hint = 0;
-  for (const RefinementPoint& place : find_unheld_(mesh)) {
-    ++flaws.n_unheld;
-    flaws.all.push_back({place.x, FlawKind::kUnheld});
-    if (const LocalSize local = present.local(place.x, hint); local.along > local.length)
-      flaws.stretched.push_back(eased_unheld(place, local, n_tries));
-  }
+  for (const RefinementPoint& place : find_unheld_(mesh)) flaws.add_unheld(place, present.local(place.x, hint));
+  return flaws;
 }
 
 StretchEasing::Count StretchEasing::count_flaws() const {

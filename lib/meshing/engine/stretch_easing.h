@@ -54,12 +54,10 @@ class StretchEasing {
   std::vector<FaceId> all_faces() const;
   std::int64_t n_triangles(const std::vector<FaceId>& of) const;
   StretchFlaws find_flaws(int n_tries);
-  void add_unheld(const SurfaceMesh& mesh, const SizeField& present, int n_tries, StretchFlaws& flaws) const;
   bool is_on_root(bool is_here) const;
   Count count_flaws() const;
   std::size_t n_worst() const { return std::get<1>(best_.n_flaws) + std::get<2>(best_.n_flaws); }
-  std::size_t n_obtuse() const { return std::get<3>(best_.n_flaws); }
-  void run_rounds(Places StretchFlaws::*places, Shortens shortens);
+  void run_rounds(const std::function<std::vector<Refinement>()>& shorten_more);
   bool keep_if_better();
   std::vector<Refinement> shorten(const Places& places, Shortens shortens);
   void take_back_spoiling(std::size_t first);

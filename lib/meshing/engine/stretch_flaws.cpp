@@ -17,7 +17,10 @@ constexpr double kLeastShorter = 0.35;  // at most
 constexpr int kGentleTries = 3;         // then lengths along become those across
 constexpr double kLast = 0.9;           // of lengths that are alike, then
 constexpr double kAlike = 1.05;         // along over across: less is about the same
-constexpr double kAround = 0.75;        // of the longest side: so far about a triangle
+constexpr double kAround = 0.25;        // of the longest side, or the length along: so far about an angle, in no more
+                                        // columns than must be
+constexpr double kFarGrowth = 2.5;      // larger steps of size are eased
+constexpr double kFurther = 3;          // times as far: steps, and what is not held
 const double kMostCosine = std::cos(kMostAngle), kFarCosine = std::cos(kFarAngle);
 
 class FlawFinder {
@@ -26,9 +29,10 @@ class FlawFinder {
       : points_(points),
         triangles_(triangles),
         present_(present),
-        is_late_(n_tries > kGentleTries),
+        n_tries_(n_tries),
         factor_(triangles.size(), 1),
-        is_obtuse_(triangles.size(), 0) {
+        is_obtuse_(triangles.size(), 0),
+        is_step_(triangles.size(), 0) {
     for (const Triangle& t : triangles) area_.push_back(0.5 * norm(cross(x(t, 1) - x(t, 0), x(t, 2) - x(t, 0))));
   }
 
@@ -36,6 +40,7 @@ class FlawFinder {
     for (std::size_t t = 0; t < triangles_.size(); ++t) is_obtuse_[t] = is_obtuse(triangles_[t], kMostCosine);
     compare_neighbours();
     StretchFlaws flaws;
+    flaws.n_tries = n_tries_;
     bool is_long = false;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (!is_obtuse_[t] && factor_[t] == 1) continue;
@@ -44,9 +49,10 @@ class FlawFinder {
       flaws.n_far += is_far;
       const RefinementPoint place = place_at(t, is_long);
       flaws.all.push_back({place.x, is_far ? FlawKind::kFar : is_obtuse_[t] ? FlawKind::kObtuse : FlawKind::kLarge});
+      if (!is_far && !is_step_[t]) continue;
       if (is_long)
-        flaws.stretched.push_back(place);
-      else if (is_obtuse_[t])
+        (is_far ? flaws.stretched : flaws.steps).push_back(place);
+      else if (is_far)
         flaws.obtuse.push_back(place);
     }
     return flaws;
@@ -76,6 +82,7 @@ class FlawFinder {
         std::swap(low, high);
       }
       if (!(high > kMostGrowth * kMostGrowth * low)) return;
+      if (high > kFarGrowth * kFarGrowth * low) is_step_[large] = 1;
       const double wanted = low > 0 ? kGrowthLeft * kGrowthLeft * low / high : 0;
       factor_[large] = std::min(factor_[large], std::max(kLeastShorter, wanted));
     });
@@ -93,9 +100,8 @@ class FlawFinder {
     is_long = local.along > kAlike * local.length;
     const double factor = is_obtuse_[t] ? std::min(kShorter, factor_[t]) : factor_[t];
     const double shorter = factor * std::min(local.along, longest);
-    const bool is_last = is_late_ && is_obtuse_[t] && is_obtuse(r, kFarCosine);
-    if (is_last)
-      place.length = is_long ? 0 : kLast * local.length;
+    if (!is_long && n_tries_ > kGentleTries)
+      place.length = kLast * local.length;
     else
       place.length = std::max(is_long ? local.length : 0, shorter);
     place.radius = kAround * longest;
@@ -105,9 +111,10 @@ class FlawFinder {
   std::span<const Vec3> points_;
   std::span<const Triangle> triangles_;
   const SizeField& present_;
-  bool is_late_;                 // after a few gentle rounds
+  int n_tries_;
   std::vector<double> factor_;   // [triangles] of lengths along, by neighbours; 1: none is asked for
   std::vector<char> is_obtuse_;  // [triangles]
+  std::vector<char> is_step_;    // [triangles] the larger one of a step that is eased
   std::vector<double> area_;     // [triangles]
 };
 
@@ -118,12 +125,22 @@ StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Tr
   return FlawFinder(points, triangles, present, n_tries).run();
 }
 
-RefinementPoint eased_unheld(RefinementPoint place, const LocalSize& present, int n_tries) {
-  place.length = 0;
-  if (n_tries > kGentleTries) return place;
-  place.length = std::max(present.length, kShorter * present.along);
-  place.radius = std::max(place.radius, kAround * present.along);
-  return place;
+void StretchFlaws::add_unheld(RefinementPoint place, const LocalSize& present) {
+  ++n_unheld;
+  all.push_back({place.x, FlawKind::kUnheld});
+  if (!(present.along > present.length)) return;  // what is not held there is not for stretch
+  const bool is_last = n_tries > kGentleTries;
+  place.length = is_last ? 0 : std::max(present.length, kShorter * present.along);
+  place.radius = std::max(place.radius, is_last ? 0 : kAround * present.along);
+  stretched.push_back(place);
+}
+
+std::vector<RefinementPoint> StretchFlaws::eased() const {
+  std::vector<RefinementPoint> all = stretched;
+  if (n_far == 0 || all.empty()) all.insert(all.end(), steps.begin(), steps.end());
+  for (RefinementPoint& place : all)
+    if (is_wide() && place.length > 0) place.radius *= kFurther;
+  return all;
 }
 
 }  // namespace st

@@ -7,6 +7,7 @@
 
 #include "mesh/surface_mesh.h"
 #include "meshing/face/face_mesher.h"
+#include "meshing/face/refinements.h"
 #include "sizing/size_field.h"
 
 namespace st {
@@ -22,21 +23,27 @@ struct StretchFlaw {
 struct StretchFlaws {
   std::vector<StretchFlaw> all;  ///< each as its worst kind
   // in the order of the triangles
-  std::vector<RefinementPoint> stretched;  ///< where lengths along should be shorter
-  std::vector<RefinementPoint> obtuse;     ///< where triangles are, although lengths are alike in all directions
+  std::vector<RefinementPoint> stretched;  ///< where lengths along should be shorter: about angles above 150 degrees,
+                                           ///< and where lengths across are not held
+  std::vector<RefinementPoint> steps;      ///< likewise about steps above 2.5
+  std::vector<RefinementPoint> obtuse;     ///< where angles are above 150, although lengths are alike
   std::size_t n_obtuse = 0;                ///< triangles with an angle above 140 degrees
   std::size_t n_far = 0;                   ///< of these, with one above 150 degrees
   std::size_t n_unheld = 0;                ///< places coarser than was asked for, where somebody looked for them
   std::size_t n_large = 0;                 ///< others with 2.2 squared times the area of a neighbour
+  int n_tries = 0;                         ///< made before
+
+  /// A place whose lengths across are not held. Lengths along become shorter, after a few tries those across.
+  void add_unheld(RefinementPoint place, const LocalSize& present);
+  /// What is to be eased: steps only where no such angle is.
+  std::vector<RefinementPoint> eased() const;
+  /// Whether further around: where lengths are not held, and nothing else is the cause.
+  bool is_wide() const { return n_far == 0 && n_unheld > 0; }
+  Shortens shortens() const { return is_wide() ? Shortens::kAlong : Shortens::kAlongNearby; }
 };
 
-/// `present`: the lengths that the triangles were made for. `n_tries`: made before; after a few, lengths along become
-/// those across at once about angles above 150 degrees. Local, linear.
+/// `present`: the lengths that the triangles were made for. `n_tries`: made before. Local, linear.
 StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                 const SizeField& present, int n_tries);
-
-/// A place whose lengths across are not held: lengths along become shorter as about obtuse triangles, after a few tries
-/// those across.
-RefinementPoint eased_unheld(RefinementPoint place, const LocalSize& present, int n_tries);
 
 }  // namespace st

@@ -24,12 +24,18 @@ constexpr double kAngleFrom = 0.75;  // of the negative cosine of the largest an
 constexpr double kAngleUnit = 0.1;
 constexpr double kGrowthFrom = 2.1;  // of steps of size
 constexpr double kGrowthUnit = 0.4;
+constexpr double kLackFrom = 0.2;  // of what a triangle's quality lacks of 1
+constexpr double kLackUnit = 0.2;
+constexpr double kMostLack = 0.25;                 // triangles outside rows that lack more are flawed
+constexpr double kNodeCost = 0.3;                  // of a node more
 constexpr double kFlawCost = 0.5;                  // more where an angle or a step is above what is asked for
 constexpr double kMostCost = 10;                   // of one angle or step
 constexpr std::array<double, 2> kSteps{0.5, 0.2};  // of the way to a node beside, or to the middle of all
 // where a node goes onto one beside it
 constexpr double kLongEdge = 1.45;  // of the lengths asked for: no such edge comes where there is none
 constexpr double kPoor = 0.4;       // quality: what comes is no worse, or no worse than what was there
+
+constexpr double kUnsound = 1e9;  // cost: above all others
 
 double cost_above(double value, double from, double unit) {
   const double above = std::max(0.0, (value - from) / unit);
@@ -62,6 +68,7 @@ class FlawMending {
     std::int32_t node = kNone;    // that moves
     MeshNode moved = MeshNode();  // there, or:
     int onto = -1;                // goes onto this one of its ring
+    bool is_new = false;          // `moved` is one more, in the triangle
   };
 
   Vec3 x(std::int32_t node) const { return m_.nodes[node].x; }
@@ -89,12 +96,16 @@ class FlawMending {
     const double ratio = growth(a, b);
     return cost_above(ratio, kGrowthFrom, kGrowthUnit) + (ratio > kMostGrowth ? kFlawCost : 0);
   }
+  double shape_cost(const Corners& c) const {
+    return angle_cost(bluntness(c)) + cost_above(1 - quality(c), kLackFrom, kLackUnit);
+  }
   static bool is_blunt(double bluntness) { return bluntness > -std::cos(kMostAngle); }
 
   bool is_flawed(std::int32_t t) const {
     const double own = area(t);
     if (!(own > 0)) return false;
-    if (is_blunt(bluntness(corners(m_.triangles[t])))) return true;
+    const Corners c = corners(m_.triangles[t]);
+    if (is_blunt(bluntness(c)) || (m_.triangles[t].state != kLaid && 1 - quality(c) > kMostLack)) return true;
     for (const std::int32_t other : m_.triangles[t].n)
       if (growth(own, area(other)) > kMostGrowth) return true;
     return false;
@@ -106,7 +117,7 @@ class FlawMending {
     for (const std::int32_t t : triangles) {
       const double own = area(t);
       if (!(own > 0)) continue;
-      sum += angle_cost(bluntness(corners(m_.triangles[t])));
+      sum += shape_cost(corners(m_.triangles[t]));
       for (const std::int32_t other : m_.triangles[t].n) sum += growth_cost(own, area(other));
     }
     return sum;
@@ -128,6 +139,8 @@ class FlawMending {
       consider_moves(m_.triangles[t].v[k], best);
       consider_collapses(m_.triangles[t].v[k], best);
     }
+    consider_nodes(t, best);
+    if (best.is_new) return insert(best.moved, t), true;
     if (best.edge >= 0) {
       const std::int32_t other = m_.triangles[t].n[best.edge];
       m_.swap(t, best.edge);
@@ -142,6 +155,18 @@ class FlawMending {
         m_.collapse(best.node, best.onto, around_, tris_);
     }
     return best.edge >= 0 || best.node != kNone;
+  }
+
+  void insert(const MeshNode& node, std::int32_t t) {
+    m_.find_cavity(node.p, metric_of(node), t);
+    m_.nodes.push_back(node);
+    m_.added_node();
+    m_.fill_cavity(static_cast<std::int32_t>(m_.nodes.size()) - 1);
+    is_due_.resize(m_.triangles.size());
+    for (const std::int32_t fresh : m_.new_triangles()) {
+      m_.triangles[fresh].state = kFinished;
+      look_again_at(fresh);
+    }
   }
 
   /// A triangle of no area, between two nodes of a pole, may part it from the one to swap with. It goes to the other
@@ -179,12 +204,52 @@ class FlawMending {
     const int j = s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2;
     const Corners first{q.c, q.a, q.d}, second{q.c, q.d, q.b};
     const double one = area(first), two = area(second);
-    const double after = angle_cost(bluntness(first)) + angle_cost(bluntness(second)) + 2 * growth_cost(one, two) +
+    const double after = shape_cost(first) + shape_cost(second) + 2 * growth_cost(one, two) +
                          growth_cost(one, area(r.n[(k + 2) % 3])) + growth_cost(two, area(r.n[(k + 1) % 3])) +
                          growth_cost(one, area(s.n[(j + 1) % 3])) + growth_cost(two, area(s.n[(j + 2) % 3]));
     const double gain = cost(std::array{t, q.o}) - after;
     if (gain <= best.gain || is_steep(first) || is_steep(second) || !may_swap<true>(w_, q, k)) return;
     best = {.gain = gain, .edge = k};
+  }
+
+  /// One more in the middle of the triangle, or of a side of it.
+  void consider_nodes(std::int32_t t, Change& best) {
+    if (m_.triangles[t].state == kLaid) return;
+    const Corners c = corners(m_.triangles[t]);
+    const auto p = [&](int k) { return m_.nodes[c[k % 3]].p; };
+    for (int k = 0; k < 3; ++k) consider_node(t, 0.5 * (p(k) + p(k + 1)), best);
+    consider_node(t, 1.0 / 3 * (p(0) + p(1) + p(2)), best);
+  }
+
+  void consider_node(std::int32_t t, Vec2 p, Change& best) {
+    MeshNode node;
+    node.p = p;
+    w_.evaluate(node);
+    w_.ask_sizes(node);
+    if (!std::isfinite(norm2(node.x)) || !m_.find_cavity(p, metric_of(node), t)) return;
+    for (const std::int32_t i : m_.cavity())
+      if (m_.triangles[i].state == kOutside || m_.triangles[i].state == kLaid) return;
+    const double before = cost(m_.cavity());
+    if (before - kNodeCost <= best.gain) return;
+    m_.nodes.push_back(node);
+    const double gain = before - kNodeCost - cost_of_fan(static_cast<std::int32_t>(m_.nodes.size()) - 1);
+    m_.nodes.pop_back();
+    if (gain > best.gain) best = {.gain = gain, .edge = -1, .node = kNone, .moved = node, .onto = -1, .is_new = true};
+  }
+
+  /// As cost() of the cavity's triangles about this node; much where one of them is not sound.
+  double cost_of_fan(std::int32_t node) const {
+    const auto& ring = m_.ring();
+    const auto corners_at = [&](std::size_t i) { return Corners{ring[i].a, ring[i].b, node}; };
+    double sum = 0, last = area(corners_at(ring.size() - 1));
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Corners c = corners_at(i);
+      if (is_steep(c) || orient2d(m_.nodes[c[0]].p, m_.nodes[c[1]].p, m_.nodes[node].p) <= 0) return kUnsound;
+      const double here = area(c);
+      sum += shape_cost(c) + growth_cost(here, area(ring[i].outer)) + 2 * growth_cost(here, last);
+      last = here;
+    }
+    return sum;
   }
 
   void consider_moves(std::int32_t node, Change& best) {
@@ -247,7 +312,7 @@ class FlawMending {
       const Corners own = left(onto, i);
       const double here = area(own);
       const bool is_inside = i > 1;
-      sum += angle_cost(bluntness(own)) + growth_cost(here, area_outside(behind(onto, i)));
+      sum += shape_cost(own) + growth_cost(here, area_outside(behind(onto, i)));
       sum += (is_inside ? 2 : 1) * growth_cost(here, last);
       last = here;
     }

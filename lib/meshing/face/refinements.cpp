@@ -66,13 +66,17 @@ double RefinementTree::least(Vec3 xyz, double length) const {
 }
 
 RefinedField::RefinedField(const SizeField& base, const std::vector<Refinement>& places)
-    : base_(base), all_(places, Shortens::kAll), along_(places, Shortens::kAlong) {}
+    : base_(base),
+      all_(places, Shortens::kAll),
+      along_(places, Shortens::kAlong),
+      nearby_(places, Shortens::kAlongNearby) {}
 
 double RefinedField::size(Vec3 xyz, int& hint) const { return all_.least(xyz, base_.size(xyz, hint)); }
 
 LocalSize RefinedField::local_on(Vec3 xyz, Vec3 normal, int& hint) const {
   LocalSize local = base_.local_on(xyz, normal, hint);
-  if (local.along > local.length) local.along = std::max(local.length, along_.least(xyz, local.along));
+  if (local.along > local.length)
+    local.along = std::max(local.length, nearby_.least(xyz, along_.least(xyz, local.along)));
   local.along = all_.least(xyz, local.along);
   if (local.along > local.length) return local;
   return {local.along, local.along, {}};

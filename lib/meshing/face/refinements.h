@@ -18,16 +18,19 @@ namespace st {
 
 /// Slope with which the length grows away from a refinement,
 inline constexpr double kRefinementSlope = 0.3;
-/// and lengths along away from one that shortens these alone.
+/// lengths along away from one that shortens these alone,
 inline constexpr double kAlongSlope = 0.6;
+/// and from one that does so for a single triangle.
+inline constexpr double kNearbySlope = 2;
 
 /// From `p` to the box; 0 inside.
 inline double box_distance(const Box3& box, Vec3 p) { return std::sqrt(distance2(p, box)); }
 
 /// What a refinement makes shorter.
 enum class Shortens : std::int64_t {
-  kAll,    ///< all lengths
-  kAlong,  ///< lengths along, no shorter than those across
+  kAll,          ///< all lengths
+  kAlong,        ///< lengths along, no shorter than those across
+  kAlongNearby,  ///< likewise, hardly beyond the radius
 };
 
 /// A refinement that was taken. Without padding: its bytes tell what a mesh was made from.
@@ -46,7 +49,9 @@ inline bool contains(const std::vector<Refinement>& all, const Refinement& r) {
   return std::ranges::find(all, r) != all.end();
 }
 
-inline double slope_of(Shortens shortens) { return shortens == Shortens::kAll ? kRefinementSlope : kAlongSlope; }
+inline double slope_of(Shortens shortens) {
+  return shortens == Shortens::kAll ? kRefinementSlope : shortens == Shortens::kAlong ? kAlongSlope : kNearbySlope;
+}
 
 /// All refinements of one run. The field outlives the object.
 class Refinements {
@@ -100,7 +105,7 @@ class RefinedField : public SizeField {
 
  private:
   const SizeField& base_;
-  RefinementTree all_, along_;  // by what they shorten
+  RefinementTree all_, along_, nearby_;  // by what they shorten
 };
 
 }  // namespace st

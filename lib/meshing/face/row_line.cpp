@@ -23,6 +23,7 @@ constexpr double kMostAngle = 130;
 constexpr double kMostShear = radians(50);        // of a side against the square
 constexpr double kSideMisfit = 1.8;               // between the height asked for and that of the side's segment
 constexpr double kMostTurned = 0.9;               // of the largest turning of the normal: the height shrinks
+constexpr double kMostOver = 1.25;                // likewise, over a bend at which no lower height helps
 constexpr double kEvenly = 1.15;                  // of such a height: the one beside it
 constexpr double kTooLong = 1.5;                  // over the length asked for along a quadrilateral
 constexpr double kFalling = 0.75;                 // of a column's greatest height: it comes to where others begin,
@@ -189,8 +190,10 @@ class LineMaker {
     w_.evaluate(c.node);
     c.asked = w_.ask_sizes(c.node);
     height_[i] = distance(a.x, c.node.x);
-    c.is_placed =
-        dot(c.node.normal, a.normal) > std::cos(w_.max_turning) && is_free(w_.mesh.seen_from(line_.nodes[i], c.node.p));
+    c.is_placed = !turns_too_far(a, c.node) && is_free(w_.mesh.seen_from(line_.nodes[i], c.node.p));
+  }
+  bool turns_too_far(const MeshNode& a, const MeshNode& b) const {
+    return !(dot(a.normal, b.normal) > std::cos(kMostOver * w_.max_turning));
   }
   /// Do both columns lead to nodes across?
   bool leads_across(std::size_t i) const { return across_node_[i] != kNone && across_node_[i + 1] != kNone; }
@@ -207,7 +210,7 @@ class LineMaker {
       c.node = stepped_[i].node;
       c.asked = w_.ask_sizes(c.node);
       if (is_over_crest(i)) continue;
-      c.is_placed = dot(c.node.normal, node(i).normal) > std::cos(w_.max_turning) && is_column_free(i);
+      c.is_placed = !turns_too_far(node(i), c.node) && is_column_free(i);
     }
   }
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "meshing/face/triangle_shape.h"
 #include "unit/meshing/face_work.h"
 
 namespace st::test {
@@ -34,6 +35,7 @@ struct Plate {
     made.emplace(kPlane, boundary, field);
     for (int i = 1; i < kColumns; ++i)
       for (int j = 1; j < kRows; ++j) EXPECT_NE(made->insert(at(i, j)), kNone);
+    for (MeshNode& n : mesh().nodes) made->work.ask_sizes(n);
     for (MeshNode& n : mesh().nodes)
       if (norm(n.uv - at(3, 2)) < 1e-9) {
         n.p = made->work.plane.to_plane(at(odd.x, odd.y));
@@ -43,6 +45,14 @@ struct Plate {
   }
   Triangulation& mesh() { return made->work.mesh; }
   double largest_angle() { return degrees(std::acos(least_cosine())); }
+  double least_quality() {
+    double least = 1;
+    for (const PlaneTriangle& t : mesh().triangles)
+      if (Prepared::is_inside(t))
+        least = std::min(
+            least, TriangleShape<true>::quality(mesh().nodes[t.v[0]], mesh().nodes[t.v[1]], mesh().nodes[t.v[2]]));
+    return least;
+  }
   double largest_growth() {
     double most = 1;
     for (const PlaneTriangle& t : mesh().triangles)
@@ -98,10 +108,7 @@ struct PlateWithNodeBetween : Plate {
   std::int32_t between = kNone;
   PlateWithNodeBetween() {
     for (const double row : {2, 3}) EXPECT_TRUE(mesh().force_side(node_at({3, row}), node_at({4, row})));
-    for (MeshNode& n : mesh().nodes) {
-      made->work.ask_sizes(n);
-      n.is_laid = true;
-    }
+    for (MeshNode& n : mesh().nodes) n.is_laid = true;
     between = made->insert(at(3.5, 2.5));
     EXPECT_NE(between, kNone);
     EXPECT_GT(largest_angle(), 150);
@@ -142,6 +149,40 @@ TEST(FlawMending, makes_large_steps_of_size_smaller) {
   ASSERT_GT(plate.largest_growth(), 2.5);
   mend_flaws(plate.made->work);
   EXPECT_LE(plate.largest_growth(), kMostGrowth);
+  expect_valid(plate.boundary, plate.made->mesh());
+}
+
+/// Takes one out.
+struct PlateWithHole : Plate {
+  PlateWithHole() {
+    std::vector<std::int32_t> around, tris;
+    const auto is_there = [](const MeshNode& n) { return norm(n.uv - at(3, 2)) < 1e-9; };
+    const auto node = static_cast<std::int32_t>(std::ranges::find_if(mesh().nodes, is_there) - mesh().nodes.begin());
+    EXPECT_TRUE(mesh().ring_of(node, around, tris));
+    for (int k = 0; k < std::ssize(around) && mesh().triangle_at(node) != kNone; ++k)
+      if (stays_valid(around, k)) mesh().collapse(node, k, around, tris);
+    EXPECT_EQ(mesh().triangle_at(node), kNone);
+  }
+
+ private:
+  bool stays_valid(const std::vector<std::int32_t>& around, int onto) {
+    const auto n = std::ssize(around);
+    const auto p = [&](std::ptrdiff_t i) { return mesh().nodes[around[i % n]].p; };
+    for (std::ptrdiff_t i = 1; i + 1 < n; ++i)
+      if (cross(p(onto + i) - p(onto), p(onto + i + 1) - p(onto)) <= 1e-9) return false;
+    return true;
+  }
+};
+
+TEST(FlawMending, puts_a_node_where_one_is_missing) {
+  PlateWithHole plate;
+  const int n_before = plate.made->n_inner();
+  ASSERT_LT(plate.least_quality(), 0.7);
+  const BoundaryWatch watch(*plate.made);
+  mend_flaws(plate.made->work);
+  EXPECT_EQ(plate.made->n_inner(), n_before + 1);
+  EXPECT_GT(plate.least_quality(), 0.75);
+  watch.expect_unchanged();
   expect_valid(plate.boundary, plate.made->mesh());
 }
 

@@ -55,11 +55,11 @@ TEST(RefinementPolicy, shortens_lengths_along_for_longer_where_triangles_are_obt
 }
 
 TEST(RefinementPolicy, bounds_what_easing_may_cost) {
-  expect({{"twice and 200,000", [] { return Policy::goes_on_easing(0, 0, 1, 0, 100'000, 399'999); }, true},
-          {"one more", [] { return Policy::goes_on_easing(0, 0, 1, 0, 100'000, 400'000); }, false},
-          {"twelve times for the worst", [] { return Policy::goes_on_easing(0, 0, 1, 1, 100'000, 1'399'999); }, true},
-          {"one more of them", [] { return Policy::goes_on_easing(0, 0, 1, 1, 100'000, 1'400'000); }, false},
-          {"ten rounds", [] { return Policy::goes_on_easing(10, 0, 1, 0, 100'000, 0); }, false},
+  expect({{"twice and 200,000", [] { return Policy::goes_on_easing(0, 0, 0, 100'000, 399'999); }, true},
+          {"one more", [] { return Policy::goes_on_easing(0, 0, 0, 100'000, 400'000); }, false},
+          {"twelve times for the worst", [] { return Policy::goes_on_easing(0, 0, 1, 100'000, 1'399'999); }, true},
+          {"one more of them", [] { return Policy::goes_on_easing(0, 0, 1, 100'000, 1'400'000); }, false},
+          {"ten rounds", [] { return Policy::goes_on_easing(10, 0, 0, 100'000, 0); }, false},
           {"less than twice as many", [] { return Policy::is_worth_easing(1000, 1999); }, true},
           {"twice as many", [] { return Policy::is_worth_easing(1000, 2000); }, false}});
 }

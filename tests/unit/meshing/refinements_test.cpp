@@ -117,11 +117,13 @@ TEST(RefinedField, keeps_lengths_across_where_those_along_become_shorter) {
   ASSERT_TRUE(refinements.add({.x = {100, 0, 0}, .length = 0.1, .radius = 2}, 0.1, Shortens::kAlong));
   EXPECT_FALSE(refinements.add({{101, 0, 0}, 0.1}, 0.1, Shortens::kAlong)) << "it is that of across already";
   EXPECT_TRUE(refinements.add({{200, 0, 0}, 0.5}, 0.1));
+  ASSERT_TRUE(refinements.add({{300, 0, 0}, 4}, 0.1, Shortens::kAlongNearby));
   const RefinedField f(base, refinements.all());
   int hint = 0;
   EXPECT_DOUBLE_EQ(f.local({0, 0, 0}, hint).along, 4);
   EXPECT_DOUBLE_EQ(f.local({5, 0, 0}, hint).along, 4 + kAlongSlope * 5);
   EXPECT_EQ(f.local({101, 0, 0}, hint).along, 1);
+  EXPECT_DOUBLE_EQ(f.local({302, 0, 0}, hint).along, 4 + kNearbySlope * 2) << "a short way";
   for (const double x : {0.0, 5.0, 101.0}) {
     EXPECT_EQ(f.local({x, 0, 0}, hint).length, 1) << x;
     EXPECT_EQ(f.size({x, 0, 0}), 1) << x;

@@ -9,21 +9,27 @@ namespace {
 
 constexpr double kSlope140 = 0.3;  // of the sides of a triangle of base 2, less high: its angle is above 140 degrees
 
+constexpr double kSlope150 = 0.2;  // likewise above 150 degrees
+
 TEST(StretchFlaws, are_obtuse_triangles) {
   const test::StretchedField field({0.1, 4, {1, 0, 0}});
   const std::vector<Triangle> one{{{0, 1, 2}}};
-  const std::vector<Vec3> right{{0, 0, 0}, {2, 0, 0}, {0, 0.1, 0}}, obtuse{{0, 0, 0}, {2, 0, 0}, {1, kSlope140, 0}};
+  const std::vector<Vec3> right{{0, 0, 0}, {2, 0, 0}, {0, 0.1, 0}}, obtuse{{0, 0, 0}, {2, 0, 0}, {1, kSlope140, 0}},
+      far{{0, 0, 0}, {2, 0, 0}, {1, kSlope150, 0}};
   EXPECT_EQ(find_stretch_flaws(right, one, field, 0).n_obtuse, 0u);
   const StretchFlaws flaws = find_stretch_flaws(obtuse, one, field, 0);
   EXPECT_EQ(flaws.n_obtuse, 1u);
-  ASSERT_EQ(flaws.stretched.size(), 1u);
-  EXPECT_NEAR(flaws.stretched[0].length, 0.6 * 2, 1e-12) << "of the longest side, which is shorter than lengths along";
-  EXPECT_GE(flaws.stretched[0].radius, 1) << "all of the triangle";
-  EXPECT_TRUE(flaws.obtuse.empty());
+  EXPECT_TRUE(flaws.stretched.empty() && flaws.obtuse.empty()) << "not worth another mesh";
+  const StretchFlaws worse = find_stretch_flaws(far, one, field, 0);
+  ASSERT_EQ(worse.stretched.size(), 1u);
+  EXPECT_NEAR(worse.stretched[0].length, 0.6 * 2, 1e-12) << "of the longest side, shorter than lengths along";
+  EXPECT_NEAR(worse.stretched[0].radius, 0.25 * 2, 1e-12);
+  EXPECT_EQ(worse.shortens(), Shortens::kAlongNearby);
+  EXPECT_TRUE(worse.obtuse.empty());
 }
 
 TEST(StretchFlaws, are_obtuse_triangles_where_nothing_is_stretched_too) {
-  const std::vector<Vec3> obtuse{{0, 0, 0}, {2, 0, 0}, {1, kSlope140, 0}};
+  const std::vector<Vec3> obtuse{{0, 0, 0}, {2, 0, 0}, {1, kSlope150, 0}};
   const StretchFlaws flaws = find_stretch_flaws(obtuse, std::vector<Triangle>{{{0, 1, 2}}}, UniformField(2), 0);
   EXPECT_TRUE(flaws.stretched.empty());
   ASSERT_EQ(flaws.obtuse.size(), 1u);
@@ -39,46 +45,64 @@ StretchFlaws flaws_of_step(double factor, const SizeField& field) {
 TEST(StretchFlaws, are_large_triangles_beside_small_ones) {
   const test::StretchedField field({0.1, 40, {1, 0, 0}});
   EXPECT_EQ(flaws_of_step(4.5, field).n_large, 0u) << "2.12 squared";
-  const StretchFlaws flaws = flaws_of_step(5, field);
-  ASSERT_EQ(flaws.stretched.size(), 1u);
-  EXPECT_GT(flaws.stretched[0].x.x, 1) << "the large one";
-  EXPECT_NEAR(flaws.stretched[0].length, 1.6 * 1.6 / 5 * std::hypot(5, 1), 1e-12);
-  EXPECT_NEAR(flaws_of_step(30, field).stretched[0].length, 0.35 * std::hypot(30, 1), 1e-12) << "at once";
-  const StretchFlaws alike = flaws_of_step(5, UniformField(1));
+  EXPECT_EQ(flaws_of_step(6, field).n_large, 1u);
+  EXPECT_TRUE(flaws_of_step(6, field).eased().empty()) << "2.45 squared: not worth another mesh";
+  StretchFlaws flaws = flaws_of_step(6.4, field);
+  ASSERT_EQ(flaws.eased().size(), 1u);
+  EXPECT_EQ(flaws.shortens(), Shortens::kAlongNearby);
+  EXPECT_GT(flaws.eased()[0].x.x, 1) << "the large one";
+  EXPECT_NEAR(flaws.eased()[0].length, 1.6 * 1.6 / 6.4 * std::hypot(6.4, 1), 1e-12);
+  EXPECT_NEAR(flaws.eased()[0].radius, 0.25 * std::hypot(6.4, 1), 1e-12);
+  flaws.n_unheld = 1;
+  EXPECT_NEAR(flaws.eased()[0].radius, 0.75 * std::hypot(6.4, 1), 1e-12) << "with what is not held";
+  EXPECT_EQ(flaws.shortens(), Shortens::kAlong);
+  flaws.n_far = 1;
+  EXPECT_EQ(flaws.eased().size(), 1u) << "the angle's lengths are alike";
+  flaws.stretched.push_back({.x = {7, 8, 9}, .length = 1, .radius = 1});
+  ASSERT_EQ(flaws.eased().size(), 1u);
+  EXPECT_EQ(flaws.eased()[0].x.x, 7) << "angles above 150 degrees come first";
+  EXPECT_EQ(flaws.shortens(), Shortens::kAlongNearby);
+  EXPECT_NEAR(flaws_of_step(30, field).eased()[0].length, 0.35 * std::hypot(30, 1), 1e-12) << "at once";
+  const StretchFlaws alike = flaws_of_step(7, UniformField(1));
   EXPECT_EQ(alike.n_large, 1u);
-  EXPECT_TRUE(alike.stretched.empty() && alike.obtuse.empty()) << "no lengths along can be shorter";
+  EXPECT_TRUE(alike.eased().empty() && alike.obtuse.empty()) << "no lengths along can be shorter";
 }
 
 TEST(StretchFlaws, shorten_lengths_along_to_those_across) {
   const test::StretchedField field({1.5, 2, {1, 0, 0}});
-  const std::vector<Vec3> obtuse{{0, 0, 0}, {2, 0, 0}, {1, kSlope140, 0}};
+  const std::vector<Vec3> obtuse{{0, 0, 0}, {2, 0, 0}, {1, kSlope150, 0}};
   EXPECT_EQ(find_stretch_flaws(obtuse, std::vector<Triangle>{{{0, 1, 2}}}, field, 0).stretched.at(0).length, 1.5);
 }
 
-TEST(StretchFlaws, take_all_of_the_stretch_after_some_tries_no_further_around) {
+TEST(StretchFlaws, never_take_all_of_the_stretch_about_an_angle) {
   const test::StretchedField field({0.1, 4, {1, 0, 0}});
-  const std::vector<Vec3> obtuse{{0, 0, 0}, {2, 0, 0}, {1, 0.2, 0}}, less{{0, 0, 0}, {2, 0, 0}, {1, kSlope140, 0}};
-  const std::vector<Triangle> one{{{0, 1, 2}}};
-  const RefinementPoint third = find_stretch_flaws(obtuse, one, field, 3).stretched.at(0);
-  const RefinementPoint fourth = find_stretch_flaws(obtuse, one, field, 4).stretched.at(0);
-  const RefinementPoint ninth = find_stretch_flaws(obtuse, one, field, 9).stretched.at(0);
-  EXPECT_NEAR(third.length, 1.2, 1e-12);
-  EXPECT_EQ(fourth.length, 0) << "that across, all over its radius";
-  EXPECT_EQ(fourth.radius, third.radius);
-  EXPECT_EQ(ninth.radius, third.radius) << "wider ones would leave lenses of equilateral triangles";
-  EXPECT_NEAR(find_stretch_flaws(less, one, field, 5).stretched.at(0).length, 1.2, 1e-12) << "below 150 degrees";
+  const std::vector<Vec3> far{{0, 0, 0}, {2, 0, 0}, {1, kSlope150, 0}};
+  const RefinementPoint place = find_stretch_flaws(far, std::vector<Triangle>{{{0, 1, 2}}}, field, 9).eased().at(0);
+  EXPECT_NEAR(place.radius, 0.25 * 2, 1e-12);
+  EXPECT_NEAR(place.length, 0.6 * 2, 1e-12);
 }
 
 TEST(StretchFlaws, take_stretch_from_unheld_places_bit_by_bit) {
   const RefinementPoint place{.x = {1, 2, 3}, .radius = 0.3};
   const LocalSize present{0.1, 4, {1, 0, 0}};
-  const RefinementPoint first = eased_unheld(place, present, 0), last = eased_unheld(place, present, 4);
-  EXPECT_EQ(first.x, place.x);
-  EXPECT_NEAR(first.length, 0.6 * 4, 1e-12);
-  EXPECT_NEAR(first.radius, 0.75 * 4, 1e-12);
-  EXPECT_EQ(eased_unheld(place, {0.1, 0.12, {1, 0, 0}}, 0).length, 0.1) << "no shorter than across";
-  EXPECT_EQ(last.length, 0) << "that across";
-  EXPECT_EQ(last.radius, place.radius);
+  StretchFlaws flaws, late, beside_others;
+  flaws.add_unheld(place, present);
+  flaws.add_unheld(place, {0.1, 0.12, {1, 0, 0}});
+  flaws.add_unheld(place, {0.1, 0.1, {}});
+  EXPECT_EQ(flaws.n_unheld, 3u);
+  EXPECT_EQ(flaws.all.size(), 3u);
+  ASSERT_EQ(flaws.eased().size(), 2u) << "nothing is stretched at the last";
+  EXPECT_EQ(flaws.eased()[0].x, place.x);
+  EXPECT_NEAR(flaws.eased()[0].length, 0.6 * 4, 1e-12);
+  EXPECT_NEAR(flaws.eased()[0].radius, 0.75 * 4, 1e-12);
+  EXPECT_EQ(flaws.eased()[1].length, 0.1) << "no shorter than across";
+  late.n_tries = 4;
+  late.add_unheld(place, present);
+  EXPECT_EQ(late.eased().at(0).length, 0) << "that across";
+  EXPECT_EQ(late.eased().at(0).radius, place.radius);
+  beside_others.n_far = 1;
+  beside_others.add_unheld(place, present);
+  EXPECT_NEAR(beside_others.eased().at(0).radius, 0.25 * 4, 1e-12) << "while angles are above 150 degrees";
 }
 
 TEST(StretchFlaws, above_150_degrees_are_counted_among_the_obtuse) {

@@ -40,12 +40,12 @@ inline std::vector<RasterBox> wall_boxes(float length) {
   return boxes;
 }
 
-/// What a stretched cone of `length` asks for along `unit`, a unit vector.
-inline float length_in(const ConeStretch& s, const float (&unit)[3], float length) {
-  if (!(s.along > length)) return length;
-  const float part = unit[0] * s.direction[0] + unit[1] * s.direction[1] + unit[2] * s.direction[2],
-              ratio = length / s.along;
-  return length / std::sqrt(1 - std::min(1.0F, part * part) * (1 - ratio * ratio));
+/// Of a stretched cone of `length` what it asks for along `unit`, a unit vector, where all its lengths grew by `rise`.
+inline float length_in(const ConeStretch& s, const float (&unit)[3], float length, float rise) {
+  if (!(s.along > length)) return length + rise;
+  const float part = unit[0] * s.direction[0] + unit[1] * s.direction[1] + unit[2] * s.direction[2];
+  const float across = length + rise, ratio = across / (s.along + rise);
+  return across / std::sqrt(1 - std::min(1.0F, part * part) * (1 - ratio * ratio));
 }
 
 }  // namespace st::test

@@ -126,7 +126,7 @@ TEST(ConeKernels, tell_lengths_along_the_directions_of_a_cell) {
         const float turning[3] = {directions[i], directions[kProbes + i], directions[2 * kProbes + i]};
         EXPECT_NEAR(
             site.best[i],
-            lengths[i / 4][i % 4] + test::length_in(stretch, turns == 0 ? turning : unit, cone.length) - cone.length,
+            test::length_in(stretch, turns == 0 ? turning : unit, cone.length, lengths[i / 4][i % 4] - cone.length),
             1e-6);
         EXPECT_EQ(site.winner[i], 7);
       }
@@ -200,8 +200,8 @@ struct StretchedCones {
   /// One by one, in the direction of a cone.
   float least_along(const std::vector<std::int32_t>& asked, std::int32_t of, Vec3 x, float least) const {
     for (const std::int32_t c : asked)
-      least = std::min(least, static_cast<float>(cones[c].length_at(x)) - cones[c].length +
-                                  test::length_in(stretches[c], stretches[of].direction, cones[c].length));
+      least = std::min(least, test::length_in(stretches[c], stretches[of].direction, cones[c].length,
+                                              static_cast<float>(cones[c].length_at(x)) - cones[c].length));
     return least;
   }
 };

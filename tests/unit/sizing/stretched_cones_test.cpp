@@ -110,6 +110,14 @@ TEST(StretchedCones, a_line_across_ends_the_stretch_and_lets_it_grow_by_the_slop
   }
 }
 
+TEST(StretchedCones, grow_before_they_are_asked_along_a_direction_that_turns) {
+  ConeStretch stretch(SampleStretch{SmallNormal(Vec3{1, 0, 0}), 1.0F});
+  const float turned[3] = {std::cos(0.1F), std::sin(0.1F), 0};
+  const float here = stretch.length_in(turned, 0.01F, 0), there = stretch.length_in(turned, 0.01F, 0.1F);
+  EXPECT_NEAR(here, 0.1, 0.01) << "a tenth";
+  EXPECT_GT(there, 0.6) << "nearly all where it is 10 to 1";
+}
+
 /// The smallest that all samples ask for along `t`.
 double exact_along(const Spread& p, Vec3 x, Vec3 t) {
   double least = kLargest;
@@ -117,8 +125,8 @@ double exact_along(const Spread& p, Vec3 x, Vec3 t) {
   const Vec3 lo = p.raster.shape.lo;
   for (const LengthSample& s : p.samples) {
     const Cone cone(s, static_cast<float>(kSlope), lo);
-    const double rise = cone.length_at(x - lo) - cone.length;
-    least = std::min(least, test::length_in(ConeStretch(s.stretch), unit, cone.length) + rise);
+    const auto rise = static_cast<float>(cone.length_at(x - lo) - cone.length);
+    least = std::min<double>(least, test::length_in(ConeStretch(s.stretch), unit, cone.length, rise));
   }
   return least;
 }
