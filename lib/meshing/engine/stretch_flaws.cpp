@@ -131,15 +131,18 @@ void StretchFlaws::add_unheld(RefinementPoint place, const LocalSize& present) {
   if (!(present.along > present.length)) return;  // what is not held there is not for stretch
   const bool is_last = n_tries > kGentleTries;
   place.length = is_last ? 0 : std::max(present.length, kShorter * present.along);
-  place.radius = std::max(place.radius, is_last ? 0 : kAround * present.along);
+  const double around = (is_wide() ? kFurther : 1) * kAround * present.along;
+  if (!is_last) place.radius = std::max(place.radius, around);
   stretched.push_back(place);
 }
 
 std::vector<RefinementPoint> StretchFlaws::eased() const {
   std::vector<RefinementPoint> all = stretched;
-  if (n_far == 0 || all.empty()) all.insert(all.end(), steps.begin(), steps.end());
-  for (RefinementPoint& place : all)
-    if (is_wide() && place.length > 0) place.radius *= kFurther;
+  if (n_far > 0) return all;
+  for (RefinementPoint step : steps) {
+    if (is_wide()) step.radius *= kFurther;
+    all.push_back(step);
+  }
   return all;
 }
 
