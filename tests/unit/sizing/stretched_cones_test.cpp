@@ -110,14 +110,6 @@ TEST(StretchedCones, a_line_across_ends_the_stretch_and_lets_it_grow_by_the_slop
   }
 }
 
-TEST(StretchedCones, grow_before_they_are_asked_along_a_direction_that_turns) {
-  ConeStretch stretch(SampleStretch{SmallNormal(Vec3{1, 0, 0}), 1.0F});
-  const float turned[3] = {std::cos(0.1F), std::sin(0.1F), 0};
-  const float here = stretch.length_in(turned, 0.01F, 0), there = stretch.length_in(turned, 0.01F, 0.1F);
-  EXPECT_NEAR(here, 0.1, 0.01) << "a tenth";
-  EXPECT_GT(there, 0.6) << "nearly all where it is 10 to 1";
-}
-
 /// The smallest that all samples ask for along `t`.
 double exact_along(const Spread& p, Vec3 x, Vec3 t) {
   double least = kLargest;
