@@ -138,7 +138,7 @@ void StretchFlaws::add_unheld(RefinementPoint place, const LocalSize& present) {
 
 std::vector<RefinementPoint> StretchFlaws::eased() const {
   std::vector<RefinementPoint> all = stretched;
-  if (n_far > 0) return all;
+  if (n_far > 0 && !all.empty()) return all;
   for (RefinementPoint step : steps) {
     if (is_wide()) step.radius *= kFurther;
     all.push_back(step);

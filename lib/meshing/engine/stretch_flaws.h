@@ -35,7 +35,7 @@ struct StretchFlaws {
 
   /// A place whose lengths across are not held. Lengths along become shorter, after a few tries those across.
   void add_unheld(RefinementPoint place, const LocalSize& present);
-  /// What is to be eased: steps only where there are no angles above 150 degrees.
+  /// What is to be eased: steps only where there is nothing else, or no angle above 150 degrees.
   std::vector<RefinementPoint> eased() const;
   /// Whether further around: where lengths are not held, and nothing else is the cause.
   bool is_wide() const { return n_far == 0 && n_unheld > 0; }
