@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "sizing/raster_face.h"
-
 namespace st {
 namespace {
 
@@ -70,7 +68,7 @@ double least_samples(const ModelTables& tables, const ModelLimits& limits) {
   double n = 0;
   for (std::size_t f = 0; f < limits.face.size(); ++f) {
     if (!limits.face[f]) continue;
-    const double side = largest_patch(*limits.face[f]);
+    const double side = patch_per_length(*limits.face[f]) * limits.face[f]->max_length;
     n += tables.face_area[f] / (kLargestArea * side * side);
   }
   return n;

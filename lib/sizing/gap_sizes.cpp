@@ -7,6 +7,7 @@
 
 #include "sizing/crossing_parts.h"
 #include "sizing/gap_stretch.h"
+#include "sizing/size_limits.h"
 
 namespace st {
 namespace {
@@ -17,7 +18,6 @@ constexpr double kBeyond = 0.13;       // of the patch's width beyond a crossing
 constexpr double kSidestep = 0.2;      // of the patch's width, along a crossing: more than such a cell
 constexpr double kLeastClosing = 0.5;  // of the slope that closes a gap at an edge: a cusp has twice
 constexpr double kMostClosing = 4;     // likewise
-constexpr double kFill = 0.9;          // largest side of a tile over the edge of its raster box
 constexpr double kLarge = 2.5;         // times this patch: its corners may miss this one
 constexpr int kMaxDepth = 8;           // of tiles in tiles
 constexpr int kMaxParts = 4;           // into which a tile is cut each way at once
@@ -185,7 +185,7 @@ class GapTiler {
   void visit(const Tile& tile, const Sight& closest, int depth) {
     const double length = closest.length;
     if (!(length < patch_.length) || !shape_.is_inside(tile.s_lo, tile.s_hi, tile.t_lo, tile.t_hi)) return;
-    const double room = kFill * cell_per_length_ * length;
+    const double room = kPatchFill * cell_per_length_ * length;
     const auto parts = [&](double width) {
       return std::clamp(static_cast<int>(std::ceil(width / room)), 1, kMaxParts);
     };

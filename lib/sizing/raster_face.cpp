@@ -18,26 +18,21 @@
 namespace st {
 namespace {
 
-constexpr double kFill = 0.9;         // largest extent of a patch over the edge of its raster box
-constexpr double kProbeReach = 2;     // lengths per patch, however large the raster boxes: three probes cannot see more
-constexpr int kFirstCuts = 4;         // per direction, on surfaces whose curvature varies freely
-constexpr int kDoubts = 6;            // splits (two per halving) granted to a curvature that no angle confirms
-constexpr double kConfirmed = 2;      // a curvature up to this times the largest angle per distance around counts as
-                                      // confirmed
-constexpr double kPart = 0.9;         // of a surface's range in u or v: less is a part of it
-constexpr double kAngleNoise = 1e-3;  // angles below this times alpha say nothing
-constexpr double kBreakInset = 1e-7;  // of the interval: probes stay on their side of a crease
-constexpr double kSingular2 = 1e-20;  // squared sine of the angle between du and dv at a singular point
+constexpr int kFirstCuts = 4;            // per direction, on surfaces whose curvature varies freely
+constexpr int kDoubts = 6;               // splits (two per halving) granted to a curvature that no angle confirms
+constexpr double kConfirmed = 2;         // a curvature up to this times the largest angle per distance around counts as
+                                         // confirmed
+constexpr double kPart = 0.9;            // of a surface's range in u or v: less is a part of it
+constexpr double kAngleNoise = 1e-3;     // angles below this times alpha say nothing
+constexpr double kBreakInset = 1e-7;     // of the interval: probes stay on their side of a crease
+constexpr double kSingular2 = 1e-20;     // squared sine of the angle between du and dv at a singular point
 constexpr double kClearlyFlatter = 0.3;  // smaller over larger curvature: their directions are certain
 constexpr double kClearlyCurved = 0.01;  // of alpha along one length: likewise
 constexpr double kAligned = 0.9;         // cosine: pairs of probes that tell of a direction; others turn across it, too
 constexpr double kLeastOfHalf = 0.2;     // of half a patch: ends nearer to its middle tell nothing
 constexpr double kCollapsed = 1e-9;  // derivative over the other one, scaled to the ranges, where a side has collapsed
 
-constexpr std::int64_t kBoxesPerNews = 1000;
-
-/// Largest extent of a patch over the length there.
-double patch_per_length(const SamplingLimits& limits) { return kFill * std::min(limits.cell_per_length, kProbeReach); }
+constexpr std::int64_t kBoxesPerNews = 1000;  // how far a large face is
 
 class FaceRaster {
  public:
@@ -327,8 +322,6 @@ class FaceRaster {
 };
 
 }  // namespace
-
-double largest_patch(const SamplingLimits& limits) { return patch_per_length(limits) * limits.max_length; }
 
 std::unique_ptr<Surface> whole_spline(const Surface& part) {
   const auto* spline = dynamic_cast<const BsplineSurface*>(&part);

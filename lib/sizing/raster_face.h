@@ -42,9 +42,6 @@ FaceRasterReport raster_face(const Surface& surface, const LoopPolygons& loops, 
                              std::vector<GapPatch>* patches = nullptr, const ChordLimit* chord = nullptr,
                              const std::function<void(double area)>& on_area = {});
 
-/// Longest side of the box around a patch that raster_face() leaves whole, at the largest length.
-double largest_patch(const SamplingLimits& limits);
-
 /// The spline that a face is a part of: patches of it are where they would be without the cut. nullptr where the
 /// surface is none, or goes beyond its knots.
 std::unique_ptr<Surface> whole_spline(const Surface& part);

@@ -34,6 +34,15 @@ struct SamplingLimits {
   std::uint64_t max_samples = std::numeric_limits<std::int32_t>::max();  ///< of one curve or face; TooManyCells beyond
 };
 
+inline constexpr double kPatchFill = 0.9;  ///< largest extent of a patch over the edge of its raster box
+inline constexpr double kProbeReach = 2;   ///< lengths per patch, however large the raster boxes: three probes cannot
+                                           ///< see more
+
+/// Lengths that a patch may have along its longest side, at most.
+inline double patch_per_length(const SamplingLimits& limits) {
+  return kPatchFill * std::min(limits.cell_per_length, kProbeReach);
+}
+
 /// The finest of each limit.
 inline SamplingLimits finest(const SamplingLimits& a, const SamplingLimits& b) {
   SamplingLimits both = a;

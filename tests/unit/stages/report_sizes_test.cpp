@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sizing/neighbours.h"
+
 namespace st {
 namespace {
 
@@ -22,10 +24,20 @@ SizingArtifact two_levels() {
     s.lengths.cells.push_back({h, {0, 0, 0}, h});
     s.lengths.cause.push_back(leaf < 8 ? pack_cause(CauseKind::kFace, 0) : kNone);
   }
-  s.lengths.cause[9] = pack_cause(CauseKind::kEdge, 1);
   s.scale = 2;
   s.model.edge_name = {"", "TE"};
   s.model.labels.face_name = {"WING", ""};
+  return s;
+}
+
+/// Likewise, with a sample of a face near the origin and one of an edge further along y.
+SizingArtifact two_samples() {
+  SizingArtifact s = two_levels();
+  s.numbers.far_length = 0.1;
+  const Neighbours neighbours(s.shape.view());
+  const std::vector<LengthSample> samples{{{0.1, 0.1, 0.1}, 0.02F, pack_cause(CauseKind::kFace, 0)},
+                                          {{0.2, 0.7, 0.2}, 0.02F, pack_cause(CauseKind::kEdge, 1)}};
+  s.cones = spread_cones(neighbours, samples, std::vector<float>(2, 0.2F), s.numbers.far_length, nullptr);
   return s;
 }
 
@@ -74,7 +86,7 @@ TEST(TriangleCauses, tell_the_own_face_from_edges_and_other_faces) {
   add({0.2, 0.7, 0.2}, 0);
   add({0.7, 0.7, 0.7}, 0);
   add({0.1, 0.1, 0.1}, 0);
-  const TriangleCauses causes = triangle_causes(two_levels(), mesh);
+  const TriangleCauses causes = triangle_causes(two_samples(), mesh);
   EXPECT_EQ(causes.index, (std::vector<std::uint16_t>{0, 1, 2, 3, 0}));
   const auto reason = [&](int i) { return static_cast<SizeReason>(causes.list[i]["reason"].get<int>()); };
   EXPECT_EQ(reason(0), SizeReason::kOwnFace);
