@@ -14,7 +14,7 @@ namespace {
 constexpr double kGrowthLeft = 1.6;     // what is aimed at there
 constexpr double kShorter = 0.6;        // lengths along, in one round
 constexpr double kLeastShorter = 0.35;  // at most
-constexpr int kGentleTries = 3;         // then lengths along become those across
+constexpr int kGentleTries = 3;         // then lengths that are alike become shorter
 constexpr double kLast = 0.9;           // of lengths that are alike, then
 constexpr double kAlike = 1.05;         // along over across: less is about the same
 constexpr double kAround = 0.25;        // of the longest side, or the length along: so far about an angle, in no more
@@ -40,7 +40,6 @@ class FlawFinder {
     for (std::size_t t = 0; t < triangles_.size(); ++t) is_obtuse_[t] = is_obtuse(triangles_[t], kMostCosine);
     compare_neighbours();
     StretchFlaws flaws;
-    flaws.n_tries = n_tries_;
     bool is_long = false;
     for (std::size_t t = 0; t < triangles_.size(); ++t) {
       if (!is_obtuse_[t] && factor_[t] == 1) continue;
@@ -129,10 +128,8 @@ void StretchFlaws::add_unheld(RefinementPoint place, const LocalSize& present) {
   ++n_unheld;
   all.push_back({place.x, FlawKind::kUnheld});
   if (!(present.along > present.length)) return;  // what is not held there is not for stretch
-  const bool is_last = n_tries > kGentleTries;
-  place.length = is_last ? 0 : std::max(present.length, kShorter * present.along);
-  const double around = (is_wide() ? kFurther : 1) * kAround * present.along;
-  if (!is_last) place.radius = std::max(place.radius, around);
+  place.length = std::max(present.length, kShorter * present.along);
+  place.radius = std::max(place.radius, (is_wide() ? kFurther : 1) * kAround * present.along);
   stretched.push_back(place);
 }
 

@@ -31,9 +31,8 @@ struct StretchFlaws {
   std::size_t n_far = 0;                   ///< of these, with one above 150 degrees
   std::size_t n_unheld = 0;                ///< places coarser than was asked for, where somebody looked for them
   std::size_t n_large = 0;                 ///< others with 2.2 squared times the area of a neighbour
-  int n_tries = 0;                         ///< made before
 
-  /// A place whose lengths across are not held. Lengths along become shorter, after a few tries those across.
+  /// A place whose lengths across are not held: lengths along become shorter.
   void add_unheld(RefinementPoint place, const LocalSize& present);
   /// What is to be eased: steps only where there is nothing else, or no angle above 150 degrees.
   std::vector<RefinementPoint> eased() const;
