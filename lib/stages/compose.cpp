@@ -238,12 +238,8 @@ bool has_short_ends(const ModelTables& t, const StripSides& strip) {
 void keep_strips(const ModelTables& t, JoinRequest& request) {
   std::vector<StripSides> strips = find_strip_sides(t);
   std::erase_if(strips, [&](const StripSides& strip) { return !has_short_ends(t, strip); });
-  std::vector<double> across(static_cast<std::size_t>(t.n_edges()), std::numeric_limits<double>::infinity());  // width
-                                                                                                               // of a
-                                                                                                               // strip
-                                                                                                               // beside
-                                                                                                               // the
-                                                                                                               // edge
+  // [n_edges] width of a strip beside the edge
+  std::vector<double> across(static_cast<std::size_t>(t.n_edges()), std::numeric_limits<double>::infinity());
   const auto narrow = [&](EdgeId side, double width) { across[side] = std::min(across[side], width); };
   for (const StripSides& strip : strips) {
     narrow(strip.single, strip.width);

@@ -33,8 +33,7 @@ std::vector<FaceId> find_missing_faces(const PatchesArtifact& rest, const std::v
   for (const PatchInFile& p : patches) is_meshed[p.face()] = 1;
   for (const FaceId f : closed_faces(rest.merged, rest.edges, rest.edge_vertices)) is_meshed[f] = 1;
   for (std::int32_t i = 0; i < rest.composites.size(); ++i)
-    for (const FaceId f : rest.composites.members(i).subspan(1))
-      is_meshed[f] = 1;  // the first one has the patch of all
+    for (const FaceId f : rest.composites.members(i).subspan(1)) is_meshed[f] = 1;  // the first has the patch of all
   std::vector<FaceId> missing;
   for (std::size_t f = 0; f < is_meshed.size(); ++f)
     if (!is_meshed[f]) missing.push_back(static_cast<FaceId>(f));

@@ -1,6 +1,5 @@
 #include "geometry/import/meridians.h"
 
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <GeomAPI_ProjectPointOnCurve.hxx>
@@ -19,6 +18,8 @@
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "geometry/brep/replace_children.h"
 
 namespace st::occt {
 namespace {
@@ -150,13 +151,10 @@ bool has_no_border(const TopoDS_Face& face) {
 }
 
 /// Leaves it to the healing to bound a face by its surface.
-void remove_loops(TopoDS_Shape face) {
+void remove_loops(const TopoDS_Face& face) {
   std::vector<TopoDS_Shape> loops;
   for (TopoDS_Iterator w(face, false); w.More(); w.Next()) loops.push_back(w.Value());
-  const bool was_free = face.Free();
-  face.Free(true);
-  for (const TopoDS_Shape& loop : loops) BRep_Builder().Remove(face, loop);
-  face.Free(was_free);
+  replace_children(face, loops, {});
 }
 
 /// The part of its meridian around which a face without a border looks outward; nullopt where that is not one part of

@@ -1,5 +1,4 @@
 #include "geometry/import/other_side.h"
-#include "geometry/import/vertex_loops.h"
 
 #include <BRepTools_WireExplorer.hxx>
 #include <BRep_Builder.hxx>
@@ -20,6 +19,8 @@
 #include <cmath>
 #include <optional>
 #include <vector>
+
+#include "geometry/import/vertex_loops.h"
 
 namespace st::occt {
 namespace {

@@ -26,6 +26,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/brep/replace_children.h"
+
 namespace st::occt {
 namespace {
 
@@ -202,15 +204,6 @@ std::vector<TopoDS_Edge> edges_of(const TopoDS_Shape& wire) {
   return edges;
 }
 
-void replace_edges(TopoDS_Shape& wire, const std::vector<TopoDS_Edge>& edges) {
-  BRep_Builder builder;
-  const bool was_free = wire.Free();
-  wire.Free(true);
-  for (const TopoDS_Edge& e : edges_of(wire)) builder.Remove(wire, e);
-  for (const TopoDS_Edge& e : edges) builder.Add(wire, e);
-  wire.Free(was_free);
-}
-
 /// Puts the first edge in the place of another where `join(edge, other)` says so; the edges that became seams.
 template <class Join>
 std::vector<TopoDS_Edge> join_edges(TopoDS_Shape& wire, Join join) {
@@ -221,7 +214,7 @@ std::vector<TopoDS_Edge> join_edges(TopoDS_Shape& wire, Join join) {
       edges[k] = TopoDS::Edge(edges[i].Reversed());
       seams.push_back(TopoDS::Edge(edges[i].Oriented(TopAbs_FORWARD)));
     }
-  if (!seams.empty()) replace_edges(wire, edges);
+  if (!seams.empty()) replace_children(wire, edges_of(wire), edges);
   return seams;
 }
 

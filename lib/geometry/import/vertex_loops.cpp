@@ -1,7 +1,6 @@
 #include "geometry/import/vertex_loops.h"
 
 #include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Curve.hxx>
@@ -18,6 +17,8 @@
 #include <cmath>
 #include <optional>
 #include <vector>
+
+#include "geometry/brep/replace_children.h"
 
 namespace st::occt {
 namespace {
@@ -136,16 +137,6 @@ TopoDS_Shape loop_beside(const std::vector<TopoDS_Shape>& holes, const TopoDS_Fa
   return seam ? natural_loop(surface, *seam, BRep_Tool::Tolerance(face)) : TopoDS_Shape();
 }
 
-void replace_loops(const TopoDS_Face& face, const std::vector<TopoDS_Shape>& old, const TopoDS_Shape& loop) {
-  TopoDS_Shape changed = face;
-  const bool was_free = changed.Free();
-  changed.Free(true);
-  BRep_Builder builder;
-  for (const TopoDS_Shape& wire : old) builder.Remove(changed, wire);
-  builder.Add(changed, loop);
-  changed.Free(was_free);
-}
-
 bool bound(const TopoDS_Face& face) {
   const Handle(Geom_Surface) surface = BRep_Tool::Surface(face);
   if (surface.IsNull() || surface->IsKind(STANDARD_TYPE(Geom_ElementarySurface))) return false;
@@ -165,7 +156,7 @@ bool bound_around_holes(const TopoDS_Face& face) {
   const std::optional<Loops> loops = loops_of(face);
   if (surface.IsNull() || !location.IsIdentity() || !loops || loops->holes.empty()) return false;
   const TopoDS_Shape loop = loop_beside(loops->holes, face, surface);
-  if (!loop.IsNull()) replace_loops(face, loops->points, loop);
+  if (!loop.IsNull()) replace_children(face, loops->points, {loop});
   return !loop.IsNull();
 }
 

@@ -234,7 +234,7 @@ class FlawMending {
     m_.nodes.push_back(node);
     const double gain = before - kNodeCost - cost_of_fan(static_cast<std::int32_t>(m_.nodes.size()) - 1);
     m_.nodes.pop_back();
-    if (gain > best.gain) best = {.gain = gain, .edge = -1, .node = kNone, .moved = node, .onto = -1, .is_new = true};
+    if (gain > best.gain) best = {.gain = gain, .moved = node, .is_new = true};
   }
 
   /// As cost() of the cavity's triangles about this node; much where one of them is not sound.

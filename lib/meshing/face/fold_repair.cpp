@@ -137,8 +137,8 @@ class SeenSurface final : public Surface {
       if (!nearest || std::pair(d, s.number) < std::pair(least, nearest->number)) nearest = &s, least = d;
       nearest2 = std::min(nearest2, d2);
     }
-    return nearest ? *nearest : *std::ranges::find(seeds_, 0u, &Seed::number);  // none is at a distance that is a
-                                                                                // number
+    if (nearest) return *nearest;
+    return *std::ranges::find(seeds_, 0u, &Seed::number);  // none is at a distance that is a number
   }
   /// Of (s,t) per (u,v).
   Eigen::Matrix2d change_of(const SurfacePoint& p) const {
