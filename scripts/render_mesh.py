@@ -165,13 +165,16 @@ def own_view(mesh, text):
     if len(values) not in (4, 7):
         sys.exit(f"render: error: --at '{text}': write NAME=X,Y,Z,HALF_HEIGHT or NAME=X,Y,Z,HALF_HEIGHT,DX,DY,DZ")
     focus, direction = numpy.array(values[:3]), values[4:]
+    corners = mesh.points[mesh.triangles]
+    nearest = numpy.argmin(numpy.linalg.norm(corners.mean(axis=1) - focus, axis=1))
     if not direction:
-        corners = mesh.points[mesh.triangles]
-        nearest = numpy.argmin(numpy.linalg.norm(corners.mean(axis=1) - focus, axis=1))
         direction = numpy.cross(corners[nearest, 1] - corners[nearest, 0], corners[nearest, 2] - corners[nearest, 0])
         # not quite along an axis: the picture needs an upright
         direction = direction / numpy.linalg.norm(direction) + 0.05
-    return name, (focus, direction, values[3], numpy.ones(len(mesh.triangles), bool), 1.0)
+    # an outer face in front of the place would hide it
+    outer = mesh.is_outer()
+    selected = ~outer | outer[nearest]
+    return name, (focus, direction, values[3], selected, 1.0)
 
 
 def main():

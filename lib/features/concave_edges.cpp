@@ -1,6 +1,8 @@
 #include "features/concave_edges.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
 
 #include "base/threads.h"
 
@@ -9,6 +11,7 @@ namespace {
 
 constexpr int kPlaces = 5;                // along each edge
 constexpr double kConcave = radians(30);  // beyond flat: where a body stands on another one
+constexpr double kFading = radians(10);   // likewise where it runs out between two such edges, both longer
 
 struct EdgePlaces {
   std::array<double, kPlaces> t;
@@ -29,10 +32,12 @@ struct EdgeSide {
   std::array<Vec3, kPlaces> normal, inward;  // unit: out of the solid; along the face, away from the edge
 };
 
-bool is_concave(const EdgeSide& a, const EdgeSide& b) {
+/// Beyond flat, where it is most so.
+double concave_angle(const EdgeSide& a, const EdgeSide& b) {
+  double most = 0;
   for (int i = 0; i < kPlaces; ++i)
-    if (dot(b.inward[i], a.normal[i]) > 0 && angle_between(a.inward[i], b.inward[i]) <= kPi - kConcave) return true;
-  return false;
+    if (dot(b.inward[i], a.normal[i]) > 0) most = std::max(most, kPi - angle_between(a.inward[i], b.inward[i]));
+  return most;
 }
 
 /// Of all coedges of a face, its normals turned round where `is_turned`.
@@ -51,6 +56,19 @@ void find_sides(const Model& model, FaceId f, bool is_turned, std::vector<EdgeSi
   }
 }
 
+/// Marks the edges along which a body fades out, as the tail of a pylon does. A body all around which stands clearly on
+/// another one would else be one with it, by that piece.
+void add_fading(const ModelTables& t, std::span<const double> angle, std::vector<std::uint8_t>& is_concave) {
+  std::vector<double> longest(t.vertex_xyz.size(), 0);  // of the clearly concave edges at each vertex, model unit
+  const auto ends = [&](std::size_t e) { return std::span(t.edge_vertices).subspan(2 * e, 2); };
+  for (std::size_t e = 0; e < is_concave.size(); ++e)
+    if (is_concave[e])
+      for (const VertexId v : ends(e)) longest[v] = std::max(longest[v], t.edge_length[e]);
+  for (std::size_t e = 0; e < is_concave.size(); ++e)
+    if (angle[e] >= kFading && std::ranges::all_of(ends(e), [&](VertexId v) { return longest[v] > t.edge_length[e]; }))
+      is_concave[e] = 1;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> find_concave_edges(const Model& model, const FaceRoles& roles) {
@@ -67,10 +85,14 @@ std::vector<std::uint8_t> find_concave_edges(const Model& model, const FaceRoles
     if (roles.role[f] == FaceRole::kWall)
       for (const CoedgeId c : t.coedges(f))
         if (!t.edge_is_degenerate[t.coedge_edge[c]]) of_edge[t.coedge_edge[c]].push_back(c);
-  std::vector<std::uint8_t> is_concave_edge;
-  for (const std::vector<CoedgeId>& own : of_edge)
-    is_concave_edge.push_back(own.size() == 2 && is_concave(side[own[0]], side[own[1]]));
-  return is_concave_edge;
+  std::vector<double> angle;
+  std::vector<std::uint8_t> is_concave;
+  for (const std::vector<CoedgeId>& own : of_edge) {
+    angle.push_back(own.size() == 2 ? concave_angle(side[own[0]], side[own[1]]) : 0);
+    is_concave.push_back(angle.back() >= kConcave);
+  }
+  add_fading(t, angle, is_concave);
+  return is_concave;
 }
 
 }  // namespace st

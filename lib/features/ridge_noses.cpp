@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "features/front_noses.h"
@@ -24,6 +25,7 @@ constexpr double kAlong = 0.95;    // cosine between noses that follow each othe
 constexpr double kSharp = 30;      // as kLeastBend: of noses that run along the chord, as a strake's
 constexpr double kJump = 6;        // of the step along the trailing edge: a nose swept by 80 degrees
 constexpr int kHalvings = 6;       // of a step
+constexpr double kUnlike = 0.25;   // of the way by which noses beside one were moved: from their line to it
 constexpr double kOff = 0.002;     // of the chord, from the surface: twice the length that rans asks for at noses
 
 /// A place on a face.
@@ -136,6 +138,22 @@ class RidgeMover {
   std::map<FaceId, FaceSurface> known_;
 };
 
+/// Leaves out noses beside the line of those on both sides that were moved: the ridge goes on along another face there.
+/// They would have their lengths in a spot of their own.
+void leave_out_unlike(std::span<const ChordStation> before, std::vector<ChordStation>& after) {
+  std::vector<ChordStation> kept;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const auto is_moved = [&](std::size_t k) { return after[k].is_measured && after[k].nose != before[k].nose; };
+    if (i > 0 && i + 1 < after.size() && is_moved(i - 1) && is_moved(i + 1)) {
+      const Vec3 a = after[i - 1].nose, b = after[i + 1].nose;
+      const double way = 0.5 * (distance(a, before[i - 1].nose) + distance(b, before[i + 1].nose));
+      if (segment_distance(after[i].nose, a, b) > kUnlike * way) continue;
+    }
+    kept.push_back(after[i]);
+  }
+  after = std::move(kept);
+}
+
 }  // namespace
 
 bool jumps(const ChordStation& a, const ChordStation& b) {
@@ -160,7 +178,7 @@ void put_on_ridges(const Model& model, LiftingSurface& wing) {
     return chord && a != b && std::abs(dot(normalized(b - a), normalized(chord->trailing - chord->nose))) > kAlong;
   };
   const auto move_all = [&](const std::vector<ChordEdge>& from, std::vector<ChordEdge>& to) {
-    for (std::size_t e = 0; e < from.size(); ++e)
+    for (std::size_t e = 0; e < from.size(); ++e) {
       for (std::size_t i = 0; i < from[e].stations.size(); ++i) {
         ChordStation& s = to[e].stations[i];
         if (!s.is_measured) continue;
@@ -170,6 +188,8 @@ void put_on_ridges(const Model& model, LiftingSurface& wing) {
         s.is_measured = is_nose;
         s.trailing = s.nose;
       }
+      leave_out_unlike(from[e].stations, to[e].stations);
+    }
   };
   if (wing.has_noses) move_all(before.trailing, wing.trailing);
   move_all(before.front, wing.front);

@@ -504,6 +504,13 @@ TopoDS_Shape iced_wing() {
   return BRepAlgoAPI_Fuse(wing(0.1036), BRepPrimAPI_MakePrism(face, gp_Vec(0, 0, 10)).Shape()).Shape();
 }
 
+/// On a plate, 6 long; one end is a ramp of 20 degrees.
+TopoDS_Shape block_with_ramp(double width) {
+  BRepBuilderAPI_MakePolygon side(gp_Pnt(3, 1, 1), gp_Pnt(9, 1, 1), gp_Pnt(9, 1, 2), gp_Pnt(5.75, 1, 2), true);
+  const TopoDS_Face face = BRepBuilderAPI_MakeFace(side.Wire(), true).Face();
+  return BRepAlgoAPI_Fuse(box(20, 10, 1), BRepPrimAPI_MakePrism(face, gp_Vec(0, width, 0)).Shape()).Shape();
+}
+
 /// A wing of chord 10 and span 30 with a rhombus as profile, 0.8 thick.
 TopoDS_Shape double_wedge() {
   BRepBuilderAPI_MakePolygon profile(gp_Pnt(0, 0, 0), gp_Pnt(5, -0.4, 0), gp_Pnt(10, 0, 0), gp_Pnt(5, 0.4, 0), true);
@@ -852,6 +859,8 @@ const std::map<std::string, Factory>& factories() {
       {"mirrored_cylinder", [] { return mirrored(drilled_cylinder()); }},
       {"thin_cylinder", [] { return BRepPrimAPI_MakeCylinder(0.05, 30).Shape(); }},
       {"stepped_box", [] { return BRepAlgoAPI_Fuse(box(10, 10, 5), moved(box(5, 10, 0.02), 0, 0, 5)).Shape(); }},
+      {"fading_block", [] { return block_with_ramp(2); }},
+      {"wide_ramp", [] { return block_with_ramp(8); }},
       {"ledge_in_hole",  // square, 0.02 wide, half way down
        [] {
          const TopoDS_Shape hole = BRepAlgoAPI_Cut(box(10, 10, 5), moved(box(4, 4, 7), 3, 3, -1)).Shape();

@@ -27,6 +27,15 @@ TEST(ConcaveEdges, are_those_where_a_step_rises) {
   EXPECT_EQ(count_concave(model, face_roles(model.tables())), 1);
 }
 
+TEST(ConcaveEdges, go_on_where_a_body_fades_out_between_them) {
+  const auto count = [](const char* shape) {
+    const Model model = test::make_model(shape);
+    return count_concave(model, face_roles(model.tables()));
+  };
+  EXPECT_EQ(count("fading_block"), 4) << "its ramp is shorter than the edges beside it";
+  EXPECT_EQ(count("wide_ramp"), 3);
+}
+
 TEST(ConcaveEdges, turn_with_the_side_of_the_material) {
   const Model model = test::make_model("wing_in_box");
   FaceRoles roles = face_roles(model.tables());

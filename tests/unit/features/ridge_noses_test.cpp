@@ -67,6 +67,18 @@ TEST(RidgeNoses, are_none_along_the_chord_where_the_surface_is_nearly_flat) {
   EXPECT_TRUE(w.station(1).is_measured) << "before a trailing edge";
 }
 
+TEST(RidgeNoses, are_left_out_beside_the_line_of_others_that_moved) {
+  for (const bool is_beside : {false, true}) {
+    RidgeWing w;
+    const std::size_t n = w.wing.trailing[0].stations.size();
+    for (const std::size_t i : {0, 2}) w.put_nose(i, 0.2, 0.25);
+    if (is_beside) w.put_nose(1, 5, 0.5);
+    put_on_ridges(w.model, w.wing);
+    EXPECT_EQ(w.wing.trailing[0].stations.size(), is_beside ? n - 1 : n);
+    EXPECT_LT(w.station(1).nose.x, 0.05) << "what follows it";
+  }
+}
+
 TEST(RidgeNoses, jump_where_they_are_far_apart_beside_their_trailing_edges) {
   ChordStation a{.trailing = {10, 0, 0}, .nose = {0, 0, 0}}, b{.trailing = {10, 1, 0}, .nose = {5, 1, 0}};
   EXPECT_FALSE(jumps(a, b)) << "swept by 79 degrees";
