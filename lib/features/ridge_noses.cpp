@@ -138,6 +138,24 @@ class RidgeMover {
   std::map<FaceId, FaceSurface> known_;
 };
 
+/// Puts back noses that were moved between two that were not, where their line is longer for that: what bends more
+/// beside a nose for a stretch of the span is not its ridge.
+void put_back_detours(std::span<const ChordStation> before, std::span<ChordStation> after) {
+  const auto length = [](std::span<const ChordStation> line) {
+    double sum = 0;
+    for (std::size_t i = 1; i < line.size(); ++i) sum += distance(line[i - 1].nose, line[i].nose);
+    return sum;
+  };
+  std::size_t last = after.size();  // that stayed
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (!after[i].is_measured) last = after.size();
+    if (!after[i].is_measured || after[i].nose != before[i].nose) continue;
+    if (last < i && length(after.subspan(last, i + 1 - last)) > length(before.subspan(last, i + 1 - last)))
+      for (std::size_t k = last; k < i; ++k) after[k].nose = before[k].nose;
+    last = i;
+  }
+}
+
 /// Leaves out noses beside the line of those on both sides that were moved: the ridge goes on along another face there.
 /// They would have their lengths in a spot of their own.
 void leave_out_unlike(std::span<const ChordStation> before, std::vector<ChordStation>& after) {
@@ -188,6 +206,7 @@ void put_on_ridges(const Model& model, LiftingSurface& wing) {
         s.is_measured = is_nose;
         s.trailing = s.nose;
       }
+      put_back_detours(from[e].stations, to[e].stations);
       leave_out_unlike(from[e].stations, to[e].stations);
     }
   };
