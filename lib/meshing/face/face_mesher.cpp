@@ -169,8 +169,4 @@ FaceMesh mesh_face(const Surface& surface, const FaceBoundary& boundary, const S
   return FaceMesher(surface, boundary).mesh(field, options);
 }
 
-std::vector<RefinementPoint> check_boundary(const Surface& surface, const FaceBoundary& boundary) {
-  return FaceMesher(surface, boundary).prepare();
-}
-
 }  // namespace st

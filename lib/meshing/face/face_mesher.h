@@ -65,8 +65,4 @@ struct FaceMesh {
 FaceMesh mesh_face(const Surface& surface, const FaceBoundary& boundary, const SizeField& field,
                    const FaceMeshOptions& options);
 
-/// Only the test of the loops that mesh_face makes first: crossing or touching segments, as places to refine. Empty:
-/// usable.
-std::vector<RefinementPoint> check_boundary(const Surface& surface, const FaceBoundary& boundary);
-
 }  // namespace st

@@ -165,14 +165,13 @@ TEST(MeshFace, says_where_loops_cross) {
   const FaceMesh mesh = mesh_face(kPlane, b, UniformField(1), {});
   EXPECT_EQ(mesh.cause, FailureCause::kCrossingLoops);
   EXPECT_TRUE(mesh.corners.empty());
-  const auto places = check_boundary(kPlane, b);
-  ASSERT_FALSE(places.empty());
-  for (const RefinementPoint& p : places) EXPECT_LE(distance(p.x, {10, 5, 0}), 3);
+  ASSERT_FALSE(mesh.refinement.empty());
+  for (const RefinementPoint& p : mesh.refinement) EXPECT_LE(distance(p.x, {10, 5, 0}), 3);
 }
 
 TEST(MeshFace, finds_no_fault_in_good_loops) {
-  EXPECT_TRUE(
-      check_boundary(kPlane, polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{4, 4}, {4, 6}, {6, 6}}}, 1.0)).empty());
+  const FaceBoundary b = polygons({{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {{4, 4}, {4, 6}, {6, 6}}}, 1.0);
+  EXPECT_EQ(mesh_face(kPlane, b, UniformField(1), {}).cause, FailureCause::kNone);
 }
 
 TEST(MeshFace, refuses_a_loop_of_two_nodes) {
