@@ -8,7 +8,6 @@
 #include "meshing/face/row_chains.h"
 #include "meshing/face/row_ladder.h"
 #include "meshing/face/row_layer.h"
-#include "meshing/face/row_line.h"
 #include "meshing/face/stretch.h"
 
 namespace st {
@@ -192,6 +191,27 @@ RowChain chain_inside(const std::vector<std::int32_t>& nodes) {
 }
 
 }  // namespace
+
+void open_at_gap(RowLine& line) {
+  const auto gap = std::find(line.joined.begin(), line.joined.end(), 0);
+  if (!line.is_closed || gap == line.joined.end()) return;
+  line.is_closed = false;
+  const auto for_columns = [&](const auto& change) {
+    const auto change_known = [&](auto& of_columns) {
+      if (!of_columns.empty()) change(of_columns);
+    };
+    change_known(line.nodes), change_known(line.arrived), change_known(line.asked);
+    change_known(line.lowest), change_known(line.highest);
+  };
+  if (line.nodes.front() == kNone) for_columns([](auto& of_columns) { of_columns.front() = of_columns.back(); });
+  for_columns([](auto& of_columns) { of_columns.pop_back(); });
+  const auto begin_at = [n = gap - line.joined.begin() + 1](auto& of_columns) {
+    std::rotate(of_columns.begin(), of_columns.begin() + n % std::ssize(of_columns), of_columns.end());
+  };
+  for_columns(begin_at);
+  begin_at(line.joined);
+  line.joined.pop_back();  // the gap
+}
 
 std::vector<Side> lay_row_blocks(FaceWork& work) {
   std::vector<Use> is_used(work.mesh.n_boundary, kFree);

@@ -25,7 +25,8 @@ constexpr double kSideMisfit = 1.8;               // between the height asked fo
 constexpr double kMostTurned = 0.9;               // of the largest turning of the normal: the height shrinks
 constexpr double kMostOver = 1.25;                // likewise, over a bend at which no lower height helps
 constexpr double kEvenly = 1.15;                  // of such a height: the one beside it
-constexpr double kTooLong = 1.5;                  // over the length asked for along a quadrilateral
+constexpr double kTooLong = 1.5;                  // over the length asked for, likewise
+constexpr double kFarTooLong = 2;                 // likewise, of one whose neighbours are not, on the mean
 constexpr double kFalling = 0.75;                 // of a column's greatest height: it comes to where others begin,
 constexpr double kRisen = 1.5;                    // over its least height before,
 constexpr double kAhead = 10;                     // if an edge lies within that many heights
@@ -45,6 +46,7 @@ class LineMaker {
     along_.resize(n());
     across_.resize(n());
     height_.assign(n(), 0);
+    over_asked_.assign(line.joined.size(), 0);
     stepped_.resize(n());
     across_node_.assign(n(), kNone);
   }
@@ -63,6 +65,7 @@ class LineMaker {
     }
     close();
     for (std::size_t i = 0; i + 1 < n(); ++i) next_.joined[i] = next_.joined[i] && is_good(i);
+    end_long();
     end_square();
     drop_short_runs();
     return std::move(next_);
@@ -247,7 +250,7 @@ class LineMaker {
   bool is_free(std::int32_t t) const { return t != kNone && w_.mesh.triangles[t].state == kUnfinished; }
 
   /// Is the quadrilateral between columns i and i+1 one of a row?
-  bool is_good(std::size_t i) const {
+  bool is_good(std::size_t i) {
     const NextLine::Column &c = next_.columns[i], &d = next_.columns[i + 1];
     if (!c.is_placed || !d.is_placed) return false;
     if (leads_across(i)) return is_good_across(i);
@@ -268,13 +271,13 @@ class LineMaker {
            !is_oblique(*w_.field, w_.field->local_on(middle, c.node.normal, w_.hint), along, c.node.x - node(i).x);
   }
 
-  /// Not too long for the sizes at its far side, nor oblique.
-  bool is_as_asked(std::size_t i) const {
+  /// Not far too long for the sizes at its far side, nor oblique. Sets over_asked_.
+  bool is_as_asked(std::size_t i) {
     const Vec3 a = next_.columns[i].node.x, b = next_.columns[i + 1].node.x;
     const LocalSize local = w_.field->local_on(0.5 * (a + b), next_.columns[i].node.normal, w_.hint);
     const bool is_along = std::abs(dot(local.direction, b - a)) > kAlong * distance(a, b);
-    return distance(a, b) <= kTooLong * (is_along ? local.along : local.in(b - a)) &&
-           !is_oblique(*w_.field, local, b - a, a - node(i).x);
+    over_asked_[i] = distance(a, b) / (is_along ? local.along : local.in(b - a));
+    return over_asked_[i] <= kFarTooLong && !is_oblique(*w_.field, local, b - a, a - node(i).x);
   }
 
   double aspect(std::size_t i) const {
@@ -283,22 +286,39 @@ class LineMaker {
            (distance(node(i).x, next_.columns[i].node.x) + distance(node(i + 1).x, next_.columns[i + 1].node.x));
   }
 
+  /// Where quadrilaterals are too long for the sizes, and not by chance: lengths along scatter.
+  void end_long() {
+    const std::vector<char> joined = next_.joined;
+    const std::size_t n_all = joined.size();
+    for (std::size_t i = 0; i < n_all; ++i) {
+      if (!(over_asked_[i] > kTooLong)) continue;
+      const bool is_between =
+          (line_.is_closed || (i > 0 && i + 1 < n_all)) && joined[(i + n_all - 1) % n_all] && joined[(i + 1) % n_all];
+      if (!is_between || mean_around(i, joined, [&](std::size_t k) { return over_asked_[k]; }) > kTooLong)
+        next_.joined[i] = 0;
+    }
+  }
+
   /// Where quadrilaterals and their neighbours are nearly as high as long.
   void end_square() {
-    std::vector<char> joined = next_.joined;
-    for (std::size_t i = 0; i < joined.size(); ++i) {
-      double sum = 0, count = 0;
-      const std::size_t before = line_.is_closed ? kNeighbours : std::min(i, kNeighbours);
-      const std::size_t after = line_.is_closed ? kNeighbours : std::min(joined.size() - 1 - i, kNeighbours);
-      for (std::size_t k = 0; k <= before + after; ++k) {
-        const std::size_t at = (i + joined.size() + k - before) % joined.size();
-        if (!next_.joined[at]) continue;
-        sum += aspect(at);
-        ++count;
-      }
-      if (sum < kSquareAspect * count) joined[i] = 0;
+    const std::vector<char> joined = next_.joined;
+    for (std::size_t i = 0; i < joined.size(); ++i)
+      if (mean_around(i, joined, [&](std::size_t k) { return aspect(k); }) < kSquareAspect) next_.joined[i] = 0;
+  }
+
+  /// Of a value of a quadrilateral and its neighbours that are joined.
+  template <typename ValueOf>
+  double mean_around(std::size_t i, const std::vector<char>& joined, const ValueOf& value_of) const {
+    double sum = 0, count = 0;
+    const std::size_t before = line_.is_closed ? kNeighbours : std::min(i, kNeighbours);
+    const std::size_t after = line_.is_closed ? kNeighbours : std::min(joined.size() - 1 - i, kNeighbours);
+    for (std::size_t k = 0; k <= before + after; ++k) {
+      const std::size_t at = (i + joined.size() + k - before) % joined.size();
+      if (!joined[at]) continue;
+      sum += value_of(at);
+      ++count;
     }
-    next_.joined = std::move(joined);
+    return count > 0 ? sum / count : 0;
   }
 
   void drop_short_runs() {
@@ -322,6 +342,7 @@ class LineMaker {
   NextLine next_;
   std::vector<Vec3> along_, across_;
   std::vector<double> height_;
+  std::vector<double> over_asked_;  // [quadrilaterals] length over what the sizes ask for; 0: they do not count
   struct Stepped {
     MeshNode node;
     double height = 0;
@@ -332,27 +353,6 @@ class LineMaker {
 };
 
 }  // namespace
-
-void open_at_gap(RowLine& line) {
-  const auto gap = std::find(line.joined.begin(), line.joined.end(), 0);
-  if (!line.is_closed || gap == line.joined.end()) return;
-  line.is_closed = false;
-  const auto for_columns = [&](const auto& change) {
-    const auto change_known = [&](auto& of_columns) {
-      if (!of_columns.empty()) change(of_columns);
-    };
-    change_known(line.nodes), change_known(line.arrived), change_known(line.asked);
-    change_known(line.lowest), change_known(line.highest);
-  };
-  if (line.nodes.front() == kNone) for_columns([](auto& of_columns) { of_columns.front() = of_columns.back(); });
-  for_columns([](auto& of_columns) { of_columns.pop_back(); });
-  const auto begin_at = [n = gap - line.joined.begin() + 1](auto& of_columns) {
-    std::rotate(of_columns.begin(), of_columns.begin() + n % std::ssize(of_columns), of_columns.end());
-  };
-  for_columns(begin_at);
-  begin_at(line.joined);
-  line.joined.pop_back();  // the gap
-}
 
 bool is_upright(const MeshNode& a, const MeshNode& b, const MeshNode& c, const MeshNode& d) {
   const MeshNode* corner[4] = {&a, &b, &c, &d};

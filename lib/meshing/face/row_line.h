@@ -22,9 +22,6 @@ struct RowLine {
   bool is_known(std::size_t i) const { return !asked.empty() && asked[i].length > 0; }
 };
 
-/// A closed line that is no longer joined all around becomes an open one, which begins and ends at a gap.
-void open_at_gap(RowLine& line);
-
 /// What bounds the next row at an end: the next node of a loop there, kNone: nothing.
 struct RowSides {
   std::int32_t first = kNone, last = kNone;

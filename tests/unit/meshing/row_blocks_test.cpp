@@ -204,5 +204,29 @@ TEST(RowBlocks, are_none_where_lengths_are_equal) {
   EXPECT_EQ(face.n_laid(), 0);
 }
 
+TEST(OpenAtGap, keeps_all_quadrilaterals_in_order) {
+  RowLine line{{kNone, 11, 12, 13, 10}, {0, 1, 2, 3, 4}, {0, 5, 6, 7, 8}, {0, 1, 1, 1}, true};
+  open_at_gap(line);
+  EXPECT_FALSE(line.is_closed);
+  EXPECT_EQ(line.nodes, (std::vector<std::int32_t>{11, 12, 13, 10}));
+  EXPECT_EQ(line.lowest, (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(line.highest, (std::vector<double>{5, 6, 7, 8}));
+  EXPECT_EQ(line.joined, (std::vector<char>{1, 1, 1}));
+  RowLine inside{{10, 11, 12, 13, 10}, {4, 1, 2, 3, 4}, {8, 5, 6, 7, 8}, {1, 1, 0, 1}, true};
+  for (const double length : {4, 1, 2, 3, 4}) inside.asked.push_back({length, length, {}});
+  open_at_gap(inside);
+  EXPECT_EQ(inside.asked.front().length, 3) << "as the nodes";
+  EXPECT_EQ(inside.asked.size(), 4u);
+  EXPECT_EQ(inside.nodes, (std::vector<std::int32_t>{13, 10, 11, 12}));
+  EXPECT_EQ(inside.joined, (std::vector<char>{1, 1, 1}));
+}
+
+TEST(OpenAtGap, leaves_whole_rings_closed) {
+  RowLine line{{10, 11, 12, 10}, {1, 2, 3, 1}, {1, 2, 3, 1}, {1, 1, 1}, true};
+  open_at_gap(line);
+  EXPECT_TRUE(line.is_closed);
+  EXPECT_EQ(line.nodes.size(), 4u);
+}
+
 }  // namespace
 }  // namespace st::test

@@ -79,6 +79,30 @@ TEST(NextLine, ends_where_a_shorter_length_is_asked_for_along_it) {
   EXPECT_EQ(std::count(next.joined.begin(), next.joined.end(), 1), 0);
 }
 
+/// Shorter along about one place.
+class ShortSpotField : public WallField {
+ public:
+  explicit ShortSpotField(double along) : WallField(0.1, 0, 1), along_(along) {}
+  LocalSize local(Vec3 x, int& hint) const override {
+    LocalSize local = WallField::local(x, hint);
+    if (std::abs(x.x - 5.5) < 0.3) local.along = along_;
+    return local;
+  }
+
+ private:
+  double along_;
+};
+
+TEST(NextLine, goes_on_where_one_place_alone_asks_for_a_shorter_length_along_it) {
+  for (const auto& [along, goes_on] : {std::pair{0.6, true}, {0.4, false}}) {
+    const ShortSpotField field(along);
+    RowCase face({band(10, 10, {5}, {5})}, field);
+    const NextLine next = next_line(face.work, line_of(11), {});
+    EXPECT_EQ(next.joined[5] != 0, goes_on) << along;
+    EXPECT_TRUE(next.joined[3]);
+  }
+}
+
 TEST(NextLine, ends_behind_the_crest_of_its_heights) {
   const WallField field(0.1, 0, 1);
   RowCase face({band(10, 10, {0.8}, {0.8})}, field);
@@ -114,30 +138,6 @@ TEST(NextLine, is_lower_where_the_surface_would_turn_too_far) {
     EXPECT_NEAR(angle_between(next.columns[5].node.normal, face.work.mesh.nodes[5].normal), turned, 0.08);
     EXPECT_TRUE(next.joined[5]);
   }
-}
-
-TEST(OpenAtGap, keeps_all_quadrilaterals_in_order) {
-  RowLine line{{kNone, 11, 12, 13, 10}, {0, 1, 2, 3, 4}, {0, 5, 6, 7, 8}, {0, 1, 1, 1}, true};
-  open_at_gap(line);
-  EXPECT_FALSE(line.is_closed);
-  EXPECT_EQ(line.nodes, (std::vector<std::int32_t>{11, 12, 13, 10}));
-  EXPECT_EQ(line.lowest, (std::vector<double>{1, 2, 3, 4}));
-  EXPECT_EQ(line.highest, (std::vector<double>{5, 6, 7, 8}));
-  EXPECT_EQ(line.joined, (std::vector<char>{1, 1, 1}));
-  RowLine inside{{10, 11, 12, 13, 10}, {4, 1, 2, 3, 4}, {8, 5, 6, 7, 8}, {1, 1, 0, 1}, true};
-  for (const double length : {4, 1, 2, 3, 4}) inside.asked.push_back({length, length, {}});
-  open_at_gap(inside);
-  EXPECT_EQ(inside.asked.front().length, 3) << "as the nodes";
-  EXPECT_EQ(inside.asked.size(), 4u);
-  EXPECT_EQ(inside.nodes, (std::vector<std::int32_t>{13, 10, 11, 12}));
-  EXPECT_EQ(inside.joined, (std::vector<char>{1, 1, 1}));
-}
-
-TEST(OpenAtGap, leaves_whole_rings_closed) {
-  RowLine line{{10, 11, 12, 10}, {1, 2, 3, 1}, {1, 2, 3, 1}, {1, 1, 1}, true};
-  open_at_gap(line);
-  EXPECT_TRUE(line.is_closed);
-  EXPECT_EQ(line.nodes.size(), 4u);
 }
 
 TEST(StepOnSurface, has_its_length_and_direction_on_a_curved_surface) {
