@@ -71,6 +71,12 @@ bool is_tip(const Model& model, const ChordEdge& trailing, std::size_t k) {
   return faces_out;
 }
 
+bool ends_inside(const Model& model, FaceId face, Vec3 x, double reach) {
+  return std::ranges::none_of(model.tables().edges_of(face), [&](EdgeId e) {
+    return !model.tables().edge_is_degenerate[e] && closest_point(*model.curve(e), x).distance <= reach;
+  });
+}
+
 double most_aspect_at(Vec3 end, Vec3 direction) {
   return end != Vec3{} && lies_across(end, direction) ? kEndAspect : std::numeric_limits<double>::infinity();
 }

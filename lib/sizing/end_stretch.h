@@ -23,6 +23,10 @@ inline constexpr double kSharpEndAspect = 1.8;
 /// one, a face looks outward there, and none has a pole. Local, linear in the model's edges.
 bool is_tip(const Model& model, const ChordEdge& trailing, std::size_t k);
 
+/// Whether a line on a face that ends at `x` ends there by more than `reach` before all of its edges. Local, a search
+/// of each edge of the face.
+bool ends_inside(const Model& model, FaceId face, Vec3 x, double reach);
+
 /// Bounds the stretch of boxes from `first` on, and tells patches, where they reach a side across it. `sides`: of the
 /// face; `ends` tells the coedges at which it ends: across others the surface goes on. Local.
 void bound_stretch_at_ends(std::span<const SpaceSide> sides, const std::function<bool(CoedgeId)>& ends,

@@ -25,6 +25,7 @@ constexpr double kNose = 0.9;           // of the length asked for: s / (exp(s) 
 constexpr double kBentTail = 0.5;       // of the length asked for: curvature of round tails asks for no less
 constexpr double kDefaultTail = 0.003;  // of the chord: likewise of this length at most
 constexpr double kAtEnd = 0.01;         // of the chord: noses that end nearer to tip or root end there
+constexpr double kBefore = 5;           // lengths: noses that end further before their face does
 constexpr double kFlat = 1;             // of the chord: asks for nothing
 constexpr double kTrailing = 0.95;      // likewise, along edges, where lengths along are exact
 
@@ -143,13 +144,16 @@ class WingRaster {
     return {most_at(0), most_at(1)};
   }
 
-  /// Of noses or tails in a row, if they come as near to a tip as their trailing edge.
-  Ends ends_of_run(std::span<const ChordStation* const> run, const ChordEdge& trailing) const {
+  /// Of noses or tails in a row that come to a tip, or to a root so oblique that their face goes on without them.
+  Ends ends_of_run(std::span<const ChordStation* const> run, const ChordEdge& trailing, Vec3 ChordStation::*place,
+                   FaceId ChordStation::*face) const {
     const Ends of_edge = ends_of(trailing);
     if (of_edge == Ends{}) return {};
     const double way = ArcTable(*model_.curve(trailing.edge)).length();
     const auto most_at = [&](std::size_t k, const ChordStation& s, double share) {
-      return of_edge[k] > 0 && is_tip(model_, trailing, k) && share * way <= kAtEnd * s.chord ? kEndAspect : 0;
+      if (!(of_edge[k] > 0 && share * way <= kAtEnd * s.chord)) return 0.0;
+      const double reach = kBefore * kNose * length_of(s.chord);
+      return is_tip(model_, trailing, k) || ends_inside(model_, s.*face, s.*place, reach) ? kEndAspect : 0;
     };
     return {most_at(0, *run.front(), run.front()->share), most_at(1, *run.back(), 1 - run.back()->share)};
   }
@@ -213,7 +217,7 @@ class WingRaster {
   void end_run(std::vector<const ChordStation*>& run, const ChordEdge& trailing, Vec3 ChordStation::*place,
                FaceId ChordStation::*face) {
     if (run.empty()) return;
-    const Ends most = ends_of_run(run, trailing);
+    const Ends most = ends_of_run(run, trailing, place, face);
     const bool is_tail = face == &ChordStation::tail_face;
     std::vector<Vec3> x;
     for (const ChordStation* s : run) x.push_back(s->*place);

@@ -108,6 +108,27 @@ TEST(WingSizes, are_hardly_longer_along_noses_and_sharp_edges_at_a_tip) {
   }
 }
 
+TEST(WingSizes, are_hardly_longer_along_noses_that_end_before_their_face_does) {
+  const Model model = test::make_model("sharp_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  std::vector<LiftingSurface> wings =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)));
+  for (ChordStation& s : wings.at(0).trailing.at(0).stations)
+    s.nose = {s.nose.x + 1, s.nose.y, 1 + s.nose.z * 28 / 30};  // on no edge, and root and tip are oblique
+  WingSizes sizes = share_of_chord("0.5%chord");
+  sizes.stretch.max_aspect = 16;
+  const std::vector<std::uint8_t> is_left_out(static_cast<std::size_t>(model.tables().n_edges()), 0);
+  Sampled s;
+  raster_wing(model, wings[0], sizes, {}, is_left_out, s.boxes);
+  std::vector<std::pair<double, double>> boxes;  // place, and length along over that across
+  for (const RasterBox& b : s.with(CauseKind::kFace)) boxes.push_back({b.center.z, b.stretch.along / b.length});
+  std::ranges::sort(boxes);
+  ASSERT_GT(boxes.size(), 100u);
+  EXPECT_NEAR(boxes.front().second, 3, 0.01);
+  EXPECT_NEAR(boxes[boxes.size() / 2].second, 16, 0.01);
+  EXPECT_NEAR(boxes.back().second, 3, 0.01);
+}
+
 TEST(WingSizes, run_along_a_trailing_edge_inside_a_face) {
   const Sampled s = sample("closed_wing", share_of_chord("0.5%chord"));
   for (const double x : {-5.0, 5.0}) expect_run_along(s, x);
