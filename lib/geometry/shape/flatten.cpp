@@ -9,6 +9,7 @@
 
 #include "base/eigen.h"
 #include "base/sparse.h"
+#include "geometry/shape/rim_pinches.h"
 
 namespace st {
 namespace {
@@ -59,72 +60,6 @@ bool rim_crosses(const PatchTopology& topology, std::span<const Vec2> p) {
       if (o.a != s.a && o.a != s.b && o.b != s.a && o.b != s.b && touch(p[o.a], p[o.b], p[s.a], p[s.b])) return true;
     open.push_back(s);
   }
-  return false;
-}
-
-bool is_pinched(double flat2, double in_space2) { return kMostStretch * kMostStretch * flat2 < in_space2; }
-
-/// Points of the rim that follow each other, and the boxes around them: most pairs of runs need no look at their
-/// points.
-struct RimRun {
-  std::size_t first = 0, end = 0;
-  Box3 flat, in_space;
-};
-
-std::vector<RimRun> make_runs(std::span<const Vec2> flat, std::span<const Vec3> in_space) {
-  constexpr std::size_t kPoints = 16;
-  std::vector<RimRun> runs;
-  for (std::size_t i = 0; i < flat.size(); ++i) {
-    if (i % kPoints == 0) runs.push_back({i, i, {}, {}});
-    RimRun& run = runs.back();
-    run.end = i + 1;
-    run.flat.add(Vec3{flat[i].x, flat[i].y, 0});
-    run.in_space.add(in_space[i]);
-  }
-  return runs;
-}
-
-/// False where no two points of the runs can pinch: the boxes are far apart in the plane, or all is near in space.
-bool may_pinch(const RimRun& a, const RimRun& b) {
-  const auto gap = [](double lo_a, double hi_a, double lo_b, double hi_b) {
-    return std::max({0.0, lo_b - hi_a, lo_a - hi_b});
-  };
-  const Vec2 apart{gap(a.flat.lo.x, a.flat.hi.x, b.flat.lo.x, b.flat.hi.x),
-                   gap(a.flat.lo.y, a.flat.hi.y, b.flat.lo.y, b.flat.hi.y)};
-  Box3 both = a.in_space;
-  both.add(b.in_space);
-  return is_pinched(dot(apart, apart), norm2(both.hi - both.lo));
-}
-
-/// Whether points of the rim are nearer to each other than a tenth of their distance in space: across such a gap places
-/// would jump. Two thousand points, evenly spaced, are compared.
-bool rim_pinches(std::span<const Vec3> x, const PatchTopology& topology, std::span<const Vec2> p) {
-  constexpr double kCompared = 2000;
-  double length = 0;
-  for (const double l : topology.loop_length) length += l;
-  std::vector<Vec2> flat;
-  std::vector<Vec3> in_space;
-  for (const auto& loop : topology.loops) {
-    double left = 0;  // to the next point
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const std::int32_t a = loop[i], b = loop[(i + 1) % loop.size()];
-      const double side = distance(x[a], x[b]);
-      for (; left < side; left += length / kCompared) {
-        const double share = left / side;
-        flat.push_back((1 - share) * p[a] + share * p[b]);
-        in_space.push_back((1 - share) * x[a] + share * x[b]);
-      }
-      left -= side;
-    }
-  }
-  const std::vector<RimRun> runs = make_runs(flat, in_space);
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    for (std::size_t l = 0; l <= k; ++l) {
-      if (!may_pinch(runs[k], runs[l])) continue;
-      for (std::size_t i = runs[k].first; i < runs[k].end; ++i)
-        for (std::size_t j = runs[l].first; j < std::min(i, runs[l].end); ++j)
-          if (const Vec2 d = flat[i] - flat[j]; is_pinched(dot(d, d), norm2(in_space[i] - in_space[j]))) return true;
-    }
   return false;
 }
 
