@@ -39,49 +39,55 @@ bool may_pinch(const RimBoxes& a, const RimBoxes& b) {
   return is_pinched(apart, both.hi - both.lo);
 }
 
+struct RimPoint {
+  Vec2 p;
+  Vec3 x;
+};
+
 /// A straight side of the rim, and the points on it.
 struct RimSide {
-  Vec3 x[2];
-  Vec2 p[2];
+  RimPoint ends[2];
   double length = 0;
-  std::vector<double> points;  // from x[0], ascending
+  std::vector<double> points = {};  // from the first end, ascending
 
-  RimBoxes place(std::size_t i) const {
+  RimPoint point(std::size_t i) const {
     const double share = points[i] / length;
-    const Vec2 flat = (1 - share) * p[0] + share * p[1];
-    RimBoxes boxes;
-    boxes.flat.add(Vec3{flat.x, flat.y, 0});
-    boxes.in_space.add((1 - share) * x[0] + share * x[1]);
-    return boxes;
+    return {(1 - share) * ends[0].p + share * ends[1].p, (1 - share) * ends[0].x + share * ends[1].x};
   }
-  bool is_clear() const { return !is_pinched(p[1] - p[0], x[1] - x[0], kClear * kMostStretch); }
-};
-
-/// Points of a side from `begin` up to `end`.
-struct RimPart {
-  const RimSide* side;
-  std::size_t begin, end;
-
-  explicit RimPart(const RimSide& s) : RimPart(s, 0, s.points.size()) {}
-  RimPart(const RimSide& s, std::size_t first, std::size_t last) : side(&s), begin(first), end(last) {}
-  std::size_t size() const { return end - begin; }
   RimBoxes boxes() const {
-    RimBoxes boxes = side->place(begin);
-    if (size() > 1) boxes.add(side->place(end - 1));
+    RimBoxes boxes;
+    for (const RimPoint& q : {point(0), point(points.size() - 1)}) {
+      boxes.flat.add(Vec3{q.p.x, q.p.y, 0});
+      boxes.in_space.add(q.x);
+    }
     return boxes;
   }
-  std::pair<RimPart, RimPart> halves() const {
-    const std::size_t middle = begin + size() / 2;
-    return {{*side, begin, middle}, {*side, middle, end}};
+  bool is_clear() const { return !is_pinched(ends[1].p - ends[0].p, ends[1].x - ends[0].x, kClear * kMostStretch); }
+
+  /// Whether no place of the side pinches with q, rounded as well: the squared distance in space that the one in the
+  /// plane allows exceeds what it is. The difference is a parabola along the side.
+  bool is_clear_of(const RimPoint& q) const {
+    constexpr double kScale = kClear * kClear * kMostStretch * kMostStretch, kRounded = 1e-12;
+    const Vec2 side = ends[1].p - ends[0].p, way = q.p - ends[0].p;
+    const Vec3 side_in_space = ends[1].x - ends[0].x, way_in_space = q.x - ends[0].x;
+    const double at0 = kScale * dot(way, way) - norm2(way_in_space),
+                 slope = kScale * dot(way, side) - dot(way_in_space, side_in_space),
+                 bend = kScale * dot(side, side) - norm2(side_in_space),
+                 least = kRounded * kScale * (dot(way, way) + dot(side, side));
+    const auto is_clear_at = [&](double share) { return at0 + share * (share * bend - 2 * slope) > least; };
+    return bend > 0 ? is_clear_at(std::clamp(slope / bend, 0.0, 1.0)) : is_clear_at(0) && is_clear_at(1);
   }
 };
 
-bool pinch(RimPart a, RimPart b) {
-  if (!may_pinch(a.boxes(), b.boxes())) return false;
-  if (a.size() < b.size()) std::swap(a, b);
-  if (a.size() == 1) return true;  // boxes of single points are exact
-  const auto [first, second] = a.halves();
-  return pinch(first, b) || pinch(second, b);
+bool pinch(const RimSide& a, const RimSide& b) {
+  if (a.points.size() > b.points.size()) return pinch(b, a);
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    const RimPoint q = a.point(i);
+    if (b.is_clear_of(q)) continue;
+    for (std::size_t j = 0; j < b.points.size(); ++j)
+      if (const RimPoint r = b.point(j); is_pinched(q.p - r.p, q.x - r.x)) return true;
+  }
+  return false;
 }
 
 class Rim {
@@ -95,13 +101,13 @@ class Rim {
       for (std::size_t i = 0; i < loop.size(); ++i) {
         const std::int32_t a = loop[i], b = loop[(i + 1) % loop.size()];
         const double side = distance(x[a], x[b]);
-        if (left < side) sides_.push_back({{x[a], x[b]}, {p[a], p[b]}, side, {}});
+        if (left < side) sides_.push_back({{{p[a], x[a]}, {p[b], x[b]}}, side});
         for (; left < side; left += step) sides_.back().points.push_back(left);
         left -= side;
       }
     }
     boxes_.emplace_back();
-    for (const RimSide& s : sides_) boxes_[0].push_back(RimPart(s).boxes());
+    for (const RimSide& s : sides_) boxes_[0].push_back(s.boxes());
     while (boxes_.back().size() > 1) {
       std::vector<RimBoxes> pairs;
       for (std::size_t i = 0; i < boxes_.back().size(); ++i)
@@ -116,7 +122,7 @@ class Rim {
   /// Whether a point of sides k pinches with one of sides l <= k.
   bool pinches(std::size_t level, std::size_t k, std::size_t l) const {
     if (k >= boxes_[level].size() || !may_pinch(boxes_[level][k], boxes_[level][l])) return false;
-    if (level == 0) return (k != l || !sides_[k].is_clear()) && pinch(RimPart(sides_[k]), RimPart(sides_[l]));
+    if (level == 0) return (k != l || !sides_[k].is_clear()) && pinch(sides_[k], sides_[l]);
     for (std::size_t i = 2 * k; i < 2 * k + 2; ++i)
       for (std::size_t j = 2 * l; j < std::min(i + 1, 2 * l + 2); ++j)
         if (pinches(level - 1, i, j)) return true;
