@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 
 #include "base/assert.h"
+#include "base/threads.h"
 
 namespace st {
 namespace {
@@ -28,22 +30,39 @@ class StepWeights {
   std::array<std::array<float, kLargestStep2 + 1>, kMaxLevel + 1> weight_;
 };
 
+/// A cell that has got this length, and passes it on unless it has got a smaller one since.
+struct Lowered {
+  std::int32_t leaf;
+  float length;
+};
+
 /// Cells to be looked at, in rising order of length in steps of 1/8 octave. The order is for speed only: the result
 /// does not depend on it.
 class LengthBuckets {
  public:
   LengthBuckets(float smallest, float largest)
       : first_(bucket_bits(smallest)), buckets_(bucket_bits(largest) - first_ + 1) {}
-  void push(float length, std::int32_t leaf) { buckets_[bucket_bits(length) - first_].push_back(leaf); }
+  void push(const Lowered& cell) { buckets_[bucket_bits(cell.length) - first_].push_back(cell); }
   std::size_t size() const { return buckets_.size(); }
-  std::vector<std::int32_t>& operator[](std::size_t b) { return buckets_[b]; }
+  void move_to(std::vector<Lowered>& all, std::size_t b) {
+    all.insert(all.end(), buckets_[b].begin(), buckets_[b].end());
+    std::vector<Lowered>().swap(buckets_[b]);
+  }
 
  private:
   // The bits of positive floats order like their values; 20 dropped bits leave exponent and 3 bits of mantissa.
   static std::size_t bucket_bits(float length) { return std::bit_cast<std::uint32_t>(length) >> 20; }
   std::size_t first_;
-  std::vector<std::vector<std::int32_t>> buckets_;
+  std::vector<std::vector<Lowered>> buckets_;
 };
+
+/// Whether `limit` was less. Other threads may do the same.
+bool lower(float& length, float limit) {
+  const std::atomic_ref<float> shared(length);
+  for (float now = shared.load(std::memory_order_relaxed); limit < now;)
+    if (shared.compare_exchange_weak(now, limit, std::memory_order_relaxed)) return true;
+  return false;
+}
 
 }  // namespace
 
@@ -56,30 +75,28 @@ std::vector<float> prolong(const Neighbours& neighbours, std::span<const float> 
   const auto max_length = static_cast<float>(options.max_length);
   std::vector<float> lengths(stored_length.begin(), stored_length.end());
   for (float& length : lengths) length = std::min(length, max_length);
-  LengthBuckets buckets(*std::min_element(lengths.begin(), lengths.end()), max_length);
+  constexpr std::size_t kShares = 8, kLeastShare = 256;  // of the cells of a bucket
+  std::vector<LengthBuckets> shares(kShares, {*std::min_element(lengths.begin(), lengths.end()), max_length});
   const StepWeights weight(octree.edge, options.slope);
-  std::vector<std::uint8_t> is_waiting(lengths.size(), 0);
   for (std::size_t leaf = 0; leaf < lengths.size(); ++leaf)
-    if (lengths[leaf] < max_length) {
-      buckets.push(lengths[leaf], static_cast<std::int32_t>(leaf));
-      is_waiting[leaf] = 1;
-    }
-  for (std::size_t b = 0; b < buckets.size(); ++b) {
-    for (std::size_t i = 0; i < buckets[b].size(); ++i) {  // grows while cells of this bucket are improved again
-      const std::int32_t leaf = buckets[b][i];
-      if (!is_waiting[leaf]) continue;
-      is_waiting[leaf] = 0;
-      const float length = lengths[leaf];
-      neighbours.for_each_across_face(leaf, [&](std::int32_t other, const CellStep& step) {
-        const std::size_t o = static_cast<std::size_t>(other);
-        const float limit = length + weight(step);
-        if (limit >= lengths[o]) return;
-        lengths[o] = limit;
-        is_waiting[o] = 1;
-        buckets.push(limit, other);
-      });
-    }
-    std::vector<std::int32_t>().swap(buckets[b]);
+    if (lengths[leaf] < max_length) shares.front().push({static_cast<std::int32_t>(leaf), lengths[leaf]});
+  std::vector<Lowered> cells;
+  for (std::size_t b = 0; b < shares.front().size();) {
+    cells.clear();
+    for (LengthBuckets& own : shares) own.move_to(cells, b);
+    if (cells.empty()) ++b;  // else cells of this bucket may be lowered again
+    const std::size_t share = std::max(kLeastShare, (cells.size() + kShares - 1) / kShares);
+    parallel_for(cells.size(), share, [&](std::size_t begin, std::size_t end) {
+      LengthBuckets& own = shares[begin / share];
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto [leaf, length] = cells[i];
+        if (std::atomic_ref(lengths[leaf]).load(std::memory_order_relaxed) < length) continue;
+        neighbours.for_each_across_face(leaf, [&](std::int32_t other, const CellStep& step) {
+          const float limit = length + weight(step);
+          if (lower(lengths[other], limit)) own.push({other, limit});
+        });
+      }
+    });
   }
   return lengths;
 }

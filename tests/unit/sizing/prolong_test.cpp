@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/threads.h"
 #include "unit/sizing/cases.h"
 
 namespace st {
@@ -63,6 +64,17 @@ TEST(Prolong, is_larger_than_straight_ways_by_the_detours_alone) {
     n_larger += c.lengths[leaf] > 1.1 * straight;
   }
   EXPECT_GT(n_larger, 0);
+}
+
+TEST(Prolong, gives_the_same_bits_on_any_number_of_threads) {
+  const std::vector<RasterBox> boxes = test::sphere_boxes(20'000);  // more cells than one share of a bucket has
+  const std::vector<float> one = make_case(boxes).lengths;
+  for (int run = 0; run < 20; ++run) {
+    set_thread_count(2 + run % 7);
+    const std::vector<float> more = make_case(boxes).lengths;
+    set_thread_count(1);
+    ASSERT_EQ(one, more);
+  }
 }
 
 TEST(Prolong, does_nothing_without_stored_lengths) { EXPECT_EQ(make_case({}, 0.5).lengths, std::vector<float>{0.5F}); }
