@@ -36,7 +36,7 @@ class BoxTree {
   template <class Matters, class Visit>
   void visit_near(Vec3 x, const Matters& matters, const Visit& visit) const {
     if (nodes_.empty()) return;
-    std::array<std::pair<std::int32_t, double>, kDeepest> stack;
+    std::array<Ahead, kDeepest> stack;
     std::size_t n = 0;
     stack[n++] = {0, distance2(x, nodes_[0].box)};
     while (n > 0) {
@@ -47,15 +47,19 @@ class BoxTree {
         for (std::int32_t i = node.begin; i < node.end; ++i) visit(items_[i]);
         continue;
       }
-      std::pair<std::int32_t, double> a{at + 1, distance2(x, nodes_[at + 1].box)},
-          b{node.right, distance2(x, nodes_[node.right].box)};
-      if (b.second < a.second) std::swap(a, b);
+      Ahead a{at + 1, distance2(x, nodes_[at + 1].box)}, b{node.right, distance2(x, nodes_[node.right].box)};
+      if (b.distance2 < a.distance2) std::swap(a, b);
       stack[n++] = b;
       stack[n++] = a;
     }
   }
 
  private:
+  /// Without first values: they would be set for the whole stack, which costs as much as a short search.
+  struct Ahead {
+    std::int32_t node;
+    double distance2;
+  };
   static constexpr std::size_t kDeepest = 80;  // halved until few are left: 2 per level of at most 31 levels
   void build(std::span<const Vec3> centers, const std::function<Box3(std::int32_t)>& box_of, std::int32_t begin,
              std::int32_t end);
