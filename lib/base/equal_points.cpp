@@ -13,8 +13,9 @@ struct Place {
   std::int32_t node;
 };
 
-/// Of all bits of the coordinates; equal places have equal keys.
-std::uint64_t key_of(Vec3 x) {
+}  // namespace
+
+std::uint64_t hash_of_place(Vec3 x) {
   std::uint64_t key = 0;
   for (const double value : {x.x, x.y, x.z}) {
     key ^= std::bit_cast<std::uint64_t>(value + 0.0);  // -0 becomes 0
@@ -24,12 +25,10 @@ std::uint64_t key_of(Vec3 x) {
   return key;
 }
 
-}  // namespace
-
 void join_equal_points(std::span<const Vec3> x, std::vector<std::array<std::int32_t, 3>>& corners) {
   std::vector<Place> places, other;
   places.reserve(x.size());
-  for (const Vec3 place : x) places.push_back({key_of(place), static_cast<std::int32_t>(places.size())});
+  for (const Vec3 place : x) places.push_back({hash_of_place(place), static_cast<std::int32_t>(places.size())});
   radix_sort(places, other, [](const Place& p) { return p.key; });
   std::vector<std::int32_t> first(x.size());
   std::iota(first.begin(), first.end(), 0);

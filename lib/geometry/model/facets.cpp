@@ -71,6 +71,25 @@ void weld(Facets& facets) {
     for (std::int32_t& node : triangle) node = one[node];
 }
 
+/// Nodes from `n_nodes` on become the first at their place, in triangles from `n_triangles` on. Those before are looked
+/// at no more, as facets may come face by face.
+void join_equal(std::size_t n_nodes, std::size_t n_triangles, Facets& facets) {
+  std::vector<std::int32_t>& slots = facets.along_x;
+  const auto slot_of = [&](Vec3 x) -> std::int32_t& {
+    std::size_t i = hash_of_place(x) % slots.size();
+    while (slots[i] != kNone && !(facets.xyz[slots[i]] == x)) i = (i + 1) % slots.size();
+    return slots[i];
+  };
+  if (2 * facets.xyz.size() > slots.size()) {  // all go into a larger table
+    slots.assign(4 * facets.xyz.size(), kNone);
+    n_nodes = 0;
+  }
+  for (std::size_t n = n_nodes; n < facets.xyz.size(); ++n)
+    if (std::int32_t& first = slot_of(facets.xyz[n]); first == kNone) first = static_cast<std::int32_t>(n);
+  for (std::size_t t = n_triangles; t < facets.triangle.size(); ++t)
+    for (std::int32_t& node : facets.triangle[t]) node = slot_of(facets.xyz[node]);
+}
+
 /// Those of some faces, not welded.
 Facets facets_of(const Model::Impl& brep, std::span<const FaceId> ids, const FacetLimits& limits) {
   Facets facets;
@@ -177,8 +196,9 @@ void append_facets(Facets&& more, Facets& all) {
 }
 
 void join_facets(const Model& model, Facets&& unjoined, Facets& facets) {
+  const std::size_t n_nodes = facets.xyz.size(), n_triangles = facets.triangle.size();
   append_facets(std::move(unjoined), facets);
-  model.facets().empty() ? weld(facets) : join_equal_points(facets.xyz, facets.triangle);
+  model.facets().empty() ? weld(facets) : join_equal(n_nodes, n_triangles, facets);
   sort_by_face(facets);
 }
 

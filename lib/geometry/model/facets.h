@@ -23,7 +23,8 @@ struct Facets {
   std::vector<Vec3> xyz;                              ///< [n_nodes] model unit
   std::vector<std::array<std::int32_t, 3>> triangle;  ///< [n_triangles] nodes, in no certain orientation
   std::vector<FaceId> face;                           ///< [n_triangles] ascending
-  std::vector<std::int32_t> along_x = {};             ///< nodes by x, then by number, for add_facets(): not packed
+  std::vector<std::int32_t> along_x = {};             ///< nodes by x, then by number; of a model that has facets a hash
+                                                      ///< table of nodes by place. For add_facets(): not packed
 
   static auto fields(auto& f) { return std::tie(f.xyz, f.triangle, f.face); }
 };

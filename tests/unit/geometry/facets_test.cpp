@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/facet/facet_cuts.h"
+#include "geometry/facet/facet_faces.h"
+#include "geometry/facet/facet_model.h"
 #include "support/backward_executor.h"
 #include "support/shapes.h"
+#include "unit/geometry/facet_inputs.h"
 
 namespace st {
 namespace {
@@ -51,30 +55,43 @@ TEST(Facets, join_those_of_other_faces) {
   EXPECT_EQ(std::unique(nodes.begin(), nodes.end()) - nodes.begin(), 8);
 }
 
-TEST(Facets, that_come_one_by_one_are_joined_as_if_they_came_at_once) {
-  constexpr int kCubes = 12;
-  const Model model = test::make_row_of_cubes(kCubes);
-  const auto only = [](FaceId f) {
-    std::vector<std::uint8_t> wanted(6 * kCubes, 0);
+/// Returns those that came one by one.
+Facets expect_same_one_by_one(const Model& model) {
+  const FaceId n_faces = model.tables().n_faces();
+  const auto only = [&](FaceId f) {
+    std::vector<std::uint8_t> wanted(static_cast<std::size_t>(n_faces), 0);
     wanted[static_cast<std::size_t>(f)] = 1;
     return wanted;
   };
   Facets steps, unjoined;
-  for (FaceId k = 0; k < 6 * kCubes; ++k) {
-    const FaceId f = (k * 31) % (6 * kCubes);  // here and there
+  for (FaceId k = 0; k < n_faces; ++k) {
+    const FaceId f = (k * 31) % n_faces;  // here and there
     add_facets(model, only(f), {.deflection = 0.1}, SerialExecutor(), steps);
-    const Facets own = make_unjoined_facets(model, only(f), {.deflection = 0.1}, SerialExecutor());
-    const auto first = static_cast<std::int32_t>(unjoined.xyz.size());
-    unjoined.xyz.insert(unjoined.xyz.end(), own.xyz.begin(), own.xyz.end());
-    for (const auto& t : own.triangle) unjoined.triangle.push_back({first + t[0], first + t[1], first + t[2]});
-    unjoined.face.insert(unjoined.face.end(), own.face.begin(), own.face.end());
+    append_facets(make_unjoined_facets(model, only(f), {.deflection = 0.1}, SerialExecutor()), unjoined);
   }
   Facets once;
   join_facets(model, std::move(unjoined), once);
   EXPECT_EQ(steps.face, once.face);
   EXPECT_EQ(steps.xyz, once.xyz);
   EXPECT_EQ(steps.triangle, once.triangle) << "nodes in one place are the first of them";
+  return steps;
+}
+
+TEST(Facets, that_come_one_by_one_are_joined_as_if_they_came_at_once) {
+  const Facets steps = expect_same_one_by_one(test::make_row_of_cubes(12));
   EXPECT_TRUE(std::ranges::is_sorted(steps.along_x, {}, [&](std::int32_t n) { return steps.xyz[n].x; }));
+}
+
+TEST(Facets, of_a_model_of_facets_that_come_one_by_one_are_joined_as_if_they_came_at_once) {
+  FacetMesh mesh = find_smooth_faces(test::drum_facets(24, 3), radians(40));
+  cut_into_charts(mesh);
+  const FacetModel made = make_facet_model(mesh, {""}, radians(40));
+  const Model model(made.tables, made.shape);
+  expect_same_one_by_one(model);
+  const Facets all = make_facets(model, std::vector<std::uint8_t>(made.tables.n_faces(), 1), {.deflection = 0.1});
+  for (const auto& t : all.triangle)
+    for (const std::int32_t n : t)
+      EXPECT_EQ(std::ranges::find(all.xyz, all.xyz[n]) - all.xyz.begin(), n) << "the first node at its place";
 }
 
 }  // namespace
