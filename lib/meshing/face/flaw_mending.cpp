@@ -23,12 +23,12 @@ constexpr double kAlongCosine = 0.95;  // likewise of two nodes, if the third ha
 constexpr double kAngleFrom = 0.75;  // of the negative cosine of the largest angle
 constexpr double kAngleUnit = 0.1;
 constexpr double kGrowthFrom = 2.1;  // of steps of size
-constexpr double kGrowthUnit = 0.4;
-constexpr double kLackFrom = 0.2;  // of what a triangle's quality lacks of 1
-constexpr double kLackUnit = 0.2;
-constexpr double kMostLack = 0.25;                 // triangles outside rows that lack more are flawed
+constexpr double kGrowthUnit = 0.2;
+constexpr double kLackFrom = 0.134;  // of what a triangle's quality lacks of 1: half a square
+constexpr double kLackUnit = 0.1;
+constexpr double kMostLack = 0.15;                 // triangles outside rows that lack more are flawed
 constexpr double kNodeCost = 0.3;                  // of a node more
-constexpr double kFlawCost = 0.5;                  // more where an angle or a step is above what is asked for
+constexpr double kFlawCost = 1;                    // more where an angle or a step is above what is asked for
 constexpr double kMostCost = 10;                   // of one angle or step
 constexpr std::array<double, 2> kSteps{0.5, 0.2};  // of the way to a node beside, or to the middle of all
 // where a node goes onto one beside it
@@ -111,10 +111,11 @@ class FlawMending {
     return false;
   }
 
-  /// Of these triangles as they are, and of their steps.
-  double cost(std::span<const std::int32_t> triangles) const {
+  /// Of these triangles as they are, and of their steps; where it is above `most`, of the first ones alone.
+  double cost(std::span<const std::int32_t> triangles, double most = kUnsound) const {
     double sum = 0;
     for (const std::int32_t t : triangles) {
+      if (sum > most) return sum;
       const double own = area(t);
       if (!(own > 0)) continue;
       sum += shape_cost(corners(m_.triangles[t]));
@@ -232,17 +233,18 @@ class FlawMending {
     const double before = cost(m_.cavity());
     if (before - kNodeCost <= best.gain) return;
     m_.nodes.push_back(node);
-    const double gain = before - kNodeCost - cost_of_fan(static_cast<std::int32_t>(m_.nodes.size()) - 1);
+    const auto added = static_cast<std::int32_t>(m_.nodes.size()) - 1;
+    const double gain = before - kNodeCost - cost_of_fan(added, before - kNodeCost - best.gain);
     m_.nodes.pop_back();
     if (gain > best.gain) best = {.gain = gain, .moved = node, .is_new = true};
   }
 
   /// As cost() of the cavity's triangles about this node; much where one of them is not sound.
-  double cost_of_fan(std::int32_t node) const {
+  double cost_of_fan(std::int32_t node, double most) const {
     const auto& ring = m_.ring();
     const auto corners_at = [&](std::size_t i) { return Corners{ring[i].a, ring[i].b, node}; };
     double sum = 0, last = area(corners_at(ring.size() - 1));
-    for (std::size_t i = 0; i < ring.size(); ++i) {
+    for (std::size_t i = 0; i < ring.size() && !(sum > most); ++i) {
       const Corners c = corners_at(i);
       if (is_steep(c) || orient2d(m_.nodes[c[0]].p, m_.nodes[c[1]].p, m_.nodes[node].p) <= 0) return kUnsound;
       const double here = area(c);
@@ -270,7 +272,7 @@ class FlawMending {
       if (!is_valid_at(moved.p)) continue;
       w_.evaluate(moved);
       m_.nodes[node] = moved;
-      const double gain = before - cost(tris_);
+      const double gain = before - cost(tris_, before - best.gain);
       const bool is_sound = gain > best.gain && std::ranges::none_of(tris_, [&](std::int32_t t) {
                               return is_steep(corners(m_.triangles[t]));
                             });
@@ -286,7 +288,7 @@ class FlawMending {
     const double before = cost(tris_);
     longest_ = before > best.gain ? longest_about(node) : 0;
     for (int onto = 0; onto < std::ssize(around_) && before > best.gain; ++onto) {
-      const double gain = before - cost_after(onto);
+      const double gain = before - cost_after(onto, before - best.gain);
       if (gain > best.gain && may_collapse(onto)) best = {.gain = gain, .edge = -1, .node = node, .onto = onto};
     }
   }
@@ -305,10 +307,10 @@ class FlawMending {
   }
 
   /// As cost() of what is left of the ring.
-  double cost_after(int onto) const {
+  double cost_after(int onto, double most) const {
     const std::size_t n_left = around_.size() - 2;
     double sum = 0, last = area_outside(onto);
-    for (std::size_t i = 1; i <= n_left; ++i) {
+    for (std::size_t i = 1; i <= n_left && !(sum > most); ++i) {
       const Corners own = left(onto, i);
       const double here = area(own);
       const bool is_inside = i > 1;
@@ -331,9 +333,7 @@ class FlawMending {
     }
     return worst >= worst_before;
   }
-  double quality(const Corners& c) const {
-    return TriangleShape<true>::quality(m_.nodes[c[0]], m_.nodes[c[1]], m_.nodes[c[2]]);
-  }
+  double quality(const Corners& c) const { return metric_quality(m_.nodes[c[0]], m_.nodes[c[1]], m_.nodes[c[2]]); }
   /// Of the lengths asked for.
   double relative_length(std::int32_t i, std::int32_t j) const {
     return std::sqrt(w_.edge_length2<true>(i, j)) / (0.5 * (m_.nodes[i].h + m_.nodes[j].h));

@@ -8,6 +8,13 @@
 
 namespace st {
 
+/// 4 sqrt(3) A / sum l^2 in the mean metric of the corners: what st-check judges.
+inline double metric_quality(const MeshNode& a, const MeshNode& b, const MeshNode& c) {
+  const Vec3 ab = b.x - a.x, ac = c.x - a.x, bc = c.x - b.x;
+  const double sum = length2(ab, a, b, c) + length2(ac, a, b, c) + length2(bc, a, b, c);
+  return sum > 0 ? 3.4641016151377544 * norm(cross(ab, ac)) * std::sqrt(area_share2(a, b, c)) / sum : 0;
+}
+
 /// Compiled twice, as FaceWork::edge_length2() is.
 template <bool kStretched>
 class TriangleShape {
