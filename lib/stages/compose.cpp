@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "base/progress.h"
@@ -18,6 +19,7 @@
 #include "features/ridge_edges.h"
 #include "features/smooth_edges.h"
 #include "features/strip.h"
+#include "geometry/model/edge_angles.h"
 #include "geometry/model/edge_faces.h"
 #include "geometry/model/joined_tables.h"
 #include "io/foreign/triangulation_reader.h"
@@ -31,6 +33,7 @@ constexpr double kSharpCorner = radians(25);  // a triangle in it has no larger 
 constexpr double kShort = 0.7;                // of the length: an edge or a width below it spoils triangles
 constexpr double kAcross = 1.5;               // widths: an edge across a narrow face is no longer
 constexpr double kMostEnds = 0.5;             // of its longest edge: edges at the ends of a strip together
+constexpr double kKnifeDeg = 120;             // between normals: a fold to whoever reads the mesh face by face
 constexpr double kChartDeflection = 1e-3;     // of the diagonal
 constexpr double kChartAngle = radians(12);
 
@@ -253,6 +256,29 @@ void keep_strips(const ModelTables& t, JoinRequest& request) {
   }
 }
 
+/// Keeps smooth edges, the least urgent, by which both sides of a knife edge, such as a trailing edge, would be one
+/// face.
+void keep_between_knives(const Model& cad, JoinRequest& request) {
+  const EdgeFaces faces_at(cad.tables());
+  EdgeAngles angles(cad, kKnifeDeg);
+  std::vector<EdgeId> joins, knives;
+  for (EdgeId e = 0; e < cad.tables().n_edges(); ++e)
+    if (request.may_join[e])
+      joins.push_back(e);
+    else if (faces_at[e].size() == 2 && angles.largest_deg(e) > kKnifeDeg)
+      knives.push_back(e);
+  std::ranges::stable_sort(joins, [&](EdgeId a, EdgeId b) { return request.urgency[a] > request.urgency[b]; });
+  DisjointSets sets(cad.tables().n_faces());
+  const auto sides = [&](EdgeId e) { return std::minmax({sets.find(faces_at[e][0]), sets.find(faces_at[e][1])}); };
+  for (const EdgeId e : joins) {
+    const auto own = sides(e);
+    if (own.first != own.second && std::ranges::any_of(knives, [&](EdgeId k) { return sides(k) == own; }))
+      keep(cad.tables(), e, "both sides of a knife edge would be one face", request);
+    else
+      sets.join(own.first, own.second);
+  }
+}
+
 /// "3 faces and 7 edges after joining (12 faces became 2)" and what was refused, by reason; each composite that was
 /// divided or refused is logged.
 std::string said(const GeometryArtifact& geometry, const FoundComposites& found) {
@@ -294,6 +320,7 @@ JoinRequest join_request(const Model& cad, bool is_harm_only) {
   const std::vector<std::uint8_t> is_ridge = find_ridge_edges(cad, request.may_join);
   for (EdgeId e = 0; e < t.n_edges(); ++e)
     if (is_ridge[e]) keep(t, e, "along a nose", request);
+  if (!is_harm_only) keep_between_knives(cad, request);
   request.must_end.assign(static_cast<std::size_t>(t.n_vertices()), 0);
   for (const EntityGroup& g : t.labels.vertex_groups)
     for (const VertexId v : g.ids) request.must_end[v] = 1;

@@ -629,6 +629,16 @@ TopoDS_Shape shallow_prism() {
   return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 40)).Shape();
 }
 
+/// A prism of a drop's outline: half a cylinder and two planes that meet smoothly there and in a knife edge.
+TopoDS_Shape drop_prism() {
+  const double radius = 5, tip = 16, x = radius * radius / tip, y = radius * std::sqrt(1 - x / tip);
+  const gp_Pnt upper(x, y, 0), lower(x, -y, 0), end(tip, 0, 0);
+  BRepBuilderAPI_MakeWire outline(
+      BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(upper, gp_Pnt(-radius, 0, 0), lower).Value()),
+      BRepBuilderAPI_MakeEdge(lower, end), BRepBuilderAPI_MakeEdge(end, upper));
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(outline.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
+}
+
 /// A part of a cylinder in three layers, the one in the middle 0.002 high, the upper one in two parts of its angle.
 TopoDS_Shape banded_pie() {
   const auto pie = [](double z, double height, double from, double to) {
@@ -957,6 +967,7 @@ const std::map<std::string, Factory>& factories() {
       {"wing_of_2", [] { return cut_wing(2, 1); }},
       {"wing_of_8", [] { return cut_wing(4, 2); }},
       {"wing_of_200", [] { return cut_wing(10, 20); }},
+      {"drop_prism", drop_prism},
       {"melon", melon},
       {"plate_of_2_with_touching_hole", plate_of_2_with_touching_hole},
       {"bar_with_sliver_end", bar_with_sliver_end},

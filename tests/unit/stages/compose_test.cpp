@@ -50,6 +50,12 @@ TEST(Compose, keeps_the_cad_as_it_is_without_the_option) {
   EXPECT_EQ(g.tables.n_faces(), 10);
 }
 
+TEST(Compose, leaves_a_smooth_edge_where_one_face_would_be_both_sides_of_a_knife_edge) {
+  const GeometryArtifact g = composed("drop_prism", "smooth", "");
+  ASSERT_EQ(g.composites.size(), 1);
+  EXPECT_EQ(g.composites.members(0).size(), 2u);  // of three faces around it
+}
+
 TEST(Compose, asks_only_for_edges_that_do_harm) {
   const Model fine = test::make_model("wing_of_200"), coarse = test::make_model("cylinder_of_8");
   const JoinRequest harm = join_request(fine, true), narrow = join_request(coarse, true);  // strips of 0.16
