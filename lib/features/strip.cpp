@@ -9,6 +9,7 @@
 #include "base/share.h"
 #include "base/threads.h"
 #include "features/arc_table.h"
+#include "features/strip_shape.h"
 #include "geometry/shape/projection.h"
 
 namespace st {
@@ -24,6 +25,7 @@ constexpr double kNarrow = 0.25;                 // of its length: wider faces a
 constexpr double kAlike = 0.2;                   // of its length: how much longer or shorter what lies across may be
 constexpr double kEnd = 4;                       // widths: shorter edges are ends of a strip
 constexpr double kShortEnd = 0.5;                // of the long edges: all other edges of a strip together are shorter
+constexpr double kAlikeSides = 0.8;              // length of the shorter one over the longer one, at least
 
 /// How often each edge is used by coedges of any face.
 std::vector<int> count_uses(const ModelTables& t) {
@@ -42,14 +44,12 @@ bool long_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, St
   for (std::size_t i = 2; i < edges.size(); ++i) rest += t.edge_length[edges[i]];
   for (const EdgeId e : {edges[0], edges[1]})
     if (t.edge_is_degenerate[e] || t.edge_vertices[2 * e] == t.edge_vertices[2 * e + 1] || uses[e] != 2) return false;
-  if (edges[0] == edges[1] || rest > kShortEnd * t.edge_length[edges[1]] ||
-      t.edge_length[edges[1]] < 0.8 * t.edge_length[edges[0]])
-    return false;
+  if (edges[0] == edges[1] || !are_long_sides(t.edge_length[edges[0]], t.edge_length[edges[1]], rest)) return false;
   strip.face = f;
   strip.edges[0] = std::min(edges[0], edges[1]);
   strip.edges[1] = std::max(edges[0], edges[1]);
   strip.length = t.edge_length[strip.edges[0]];
-  return t.face_area[f] < kNarrow * strip.length * strip.length;
+  return is_narrow(t.face_area[f], strip.length);
 }
 
 /// So many intervals that each turns little.
@@ -119,7 +119,7 @@ void measure_crossing(const ModelTables& t, const Curve& kept, const Curve& clos
 
 void measure_widths(const Model& model, Strip& strip) {
   const auto kept = model.curve(strip.edges[0]), closed = model.curve(strip.edges[1]);
-  strip.stations = stations_of(*kept, *closed, strip.is_opposed, count_stations(*kept));
+  strip.stations = stations_between(*kept, *closed, strip.is_opposed);
   measure_crossing(model.tables(), *kept, *closed, strip);
 }
 
@@ -147,7 +147,7 @@ bool closed_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, 
   strip.edges[0] = std::min(closed[0], closed[1]);
   strip.edges[1] = std::max(closed[0], closed[1]);
   strip.length = t.edge_length[strip.edges[0]];
-  return t.face_area[f] < kNarrow * strip.length * strip.length;
+  return is_narrow(t.face_area[f], strip.length);
 }
 
 /// Closed edges may begin anywhere.
@@ -182,7 +182,7 @@ bool find_sides(const ModelTables& t, FaceId f, const std::vector<int>& uses, St
   for (const CoedgeId c : loop)
     if (t.edge_length[edge(c)] > t.edge_length[edge(single)]) single = c;
   const double length = t.edge_length[edge(single)];
-  if (!(t.face_area[f] < kNarrow * length * length)) return false;
+  if (!is_narrow(t.face_area[f], length)) return false;
   strip = {f, edge(single), {}, t.face_area[f] / length};
   std::vector<CoedgeId> across = edges_across(t, loop, single, strip.width);
   double sum = 0;
@@ -220,6 +220,16 @@ std::vector<StripSides> find_strip_sides(const ModelTables& tables) {
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (StripSides strip; find_sides(tables, f, uses, strip)) strips.push_back(std::move(strip));
   return strips;
+}
+
+bool is_narrow(double area, double side) { return area < kNarrow * side * side; }
+
+bool are_long_sides(double longer, double shorter, double ends) {
+  return ends <= kShortEnd * shorter && shorter >= kAlikeSides * longer;
+}
+
+std::vector<Strip::Station> stations_between(const Curve& from, const Curve& to, bool is_opposed) {
+  return stations_of(from, to, is_opposed, count_stations(from));
 }
 
 double strip_exactness(const Model& model, EdgeId first, EdgeId second, bool is_opposed) {

@@ -15,6 +15,7 @@
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/share.h"
+#include "features/cut_strips.h"
 #include "sizing/cell_limit.h"
 #include "sizing/common_edges.h"
 #include "sizing/end_stretch.h"
@@ -37,6 +38,7 @@ class RasterTasks {
       : model_(sampled.model),
         limits_(sampled.limits),
         strips_(sampled.strips),
+        cut_strips_(find_cut_strips(model_, limits_.edge_is_smooth)),
         seconds_(sampled.seconds),
         loops_(sampled.loops),
         vertex_edge_(first_edges(model_.tables())),
@@ -175,14 +177,18 @@ class RasterTasks {
 
   /// Null where the face is none.
   const Strip* strip_of(FaceId f) const {
-    const auto strip =
-        std::lower_bound(strips_.begin(), strips_.end(), f, [](const Strip& s, FaceId id) { return s.face < id; });
-    return strip != strips_.end() && strip->face == f ? &*strip : nullptr;
+    const bool is_of_wing = limits_.face_wing[f] != kNone;  // bases in pieces are narrow parts, of CAD, too
+    const std::span<const Strip> cut = is_of_wing ? std::span<const Strip>() : cut_strips_;
+    for (const std::span<const Strip> strips : {strips_, cut})
+      if (const auto at = std::ranges::lower_bound(strips, f, {}, &Strip::face); at != strips.end() && at->face == f)
+        return &*at;
+    return nullptr;
   }
 
   const Model& model_;
   const ModelLimits& limits_;
   std::span<const Strip> strips_;
+  std::vector<Strip> cut_strips_;
   double seconds_;
   FaceLoops& loops_;
   std::vector<EdgeId> vertex_edge_;  // first edge at each vertex
