@@ -125,6 +125,7 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   if (!name) return;
   read_step_units(reader.WS()->Model(), file);
   reader.TransferRoots();
+  refuse_scaled_parts(reader.WS(), path);
   if (reader.NbShapes() != 1) return;
   const TopoDS_Shape shape = reader.Shape(1);
   if (shape.IsNull() || !shape.Location().IsIdentity() || !is_one_representation(reader.WS(), shape)) return;

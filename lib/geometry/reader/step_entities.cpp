@@ -2,15 +2,18 @@
 
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_Product.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
+#include <StepRepr_MappedItem.hxx>
 #include <StepShape_Edge.hxx>
 #include <StepShape_EdgeLoop.hxx>
 #include <StepShape_FaceBound.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_OrientedEdge.hxx>
 #include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
 #include <TransferBRep.hxx>
 #include <XSAlgo.hxx>
 #include <XSAlgo_AlgoContainer.hxx>
@@ -18,9 +21,11 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "base/ids.h"
 #include "geometry/brep/faces_of.h"
 #include "geometry/import/meridians.h"
@@ -116,6 +121,22 @@ void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel) & model) {
     if (const auto product = Handle(StepBasic_Product)::DownCast(model->Value(i));
         !product.IsNull() && !product->Name().IsNull() && is_beyond_ascii(product->Name()->ToCString()))
       product->SetId(product->Name());
+}
+
+void refuse_scaled_parts(const Handle(XSControl_WorkSession) & session, const std::string& path) {
+  constexpr double kSame = 1e-9;
+  for (int i = 1; i <= session->Model()->NbEntities(); ++i) {
+    const auto item = Handle(StepRepr_MappedItem)::DownCast(session->Model()->Value(i));
+    if (item.IsNull()) continue;
+    const auto place = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(item->MappingTarget());
+    if (place.IsNull() || !place->HasScale() || std::abs(place->Scale() - 1) <= kSame) continue;
+    const TopoDS_Shape shape = TransferBRep::ShapeResult(session->TransferReader()->TransientProcess(), item);
+    if (!TopExp_Explorer(shape, TopAbs_FACE).More()) continue;
+    std::ostringstream what;
+    what << path << ": a part is placed with the scale " << place->Scale()
+         << ", which OpenCASCADE leaves out; export it in its true size";
+    throw Error(ExitCode::kGeometry, what.str());
+  }
 }
 
 void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file) {

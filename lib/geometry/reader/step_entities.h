@@ -6,6 +6,7 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cstdint>
+#include <string>
 
 #include "geometry/brep/cad_file.h"
 
@@ -36,6 +37,9 @@ void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& fi
 
 /// XCAF takes a product's id where the name has no ASCII letter: the id becomes the name.
 void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel) & model);
+
+/// OpenCASCADE places a part that is mapped with a scale in its own size. Throws Error(kGeometry) where one has faces.
+void refuse_scaled_parts(const Handle(XSControl_WorkSession) & session, const std::string& path);
 
 /// What ADVANCED_FACEs say of the side that they face, and of their seams.
 void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file);

@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "geometry/import/import.h"
 #include "geometry/import/reader_module.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
@@ -124,6 +125,40 @@ TEST(PlainStep, leaves_files_with_names_colours_and_assemblies_alone) {
   EXPECT_FALSE(read_changed_box("ADVANCED_FACE(''", "ADVANCED_FACE('flap'"));
   EXPECT_FALSE(read_changed_box("EDGE_CURVE(''", "EDGE_CURVE('nose'"));
   EXPECT_FALSE(read_changed_box("ENDSEC;\nEND-ISO", "/* DOCUMENT_FILE */ ENDSEC;\nEND-ISO"));
+}
+
+/// A box that stands in the file as a mapped item of this scale.
+void write_mapped_box(const std::string& path, const std::string& scale) {
+  test::write_step("box", path, "MM");
+  std::string text = bytes_of(path);
+  const std::string shape = "SHAPE_DEFINITION_REPRESENTATION(#4,#10);", axes = "(#11,#15),#";
+  const std::size_t context = text.find(axes) + axes.size(), at = text.find(shape);
+  ASSERT_NE(context, axes.size() - 1);
+  ASSERT_NE(at, std::string::npos);
+  const std::string id = text.substr(context, text.find(')', context) - context);
+  std::ofstream(path) << text.replace(
+      at, shape.size(),
+      "SHAPE_DEFINITION_REPRESENTATION(#4,#9000);\n#9000=SHAPE_REPRESENTATION('',(#11,#9001),#" + id +
+          ");\n#9001=MAPPED_ITEM('',#9002,#9003);\n#9002=REPRESENTATION_MAP(#11,#10);\n"
+          "#9003=CARTESIAN_TRANSFORMATION_OPERATOR_3D('','',$,#9004,#9005,#9006," +
+          scale +
+          ",#9007);\n#9004=DIRECTION('',(1.,0.,0.));\n#9005=DIRECTION('',(0.,1.,0.));\n"
+          "#9006=CARTESIAN_POINT('',(5.,0.,0.));\n#9007=DIRECTION('',(0.,0.,1.));\n");
+}
+
+TEST(PlainStep, refuses_parts_that_are_scaled_where_they_are_placed) {
+  const TemporaryDirectory dir;
+  write_mapped_box(dir / "same.step", "1.");
+  write_mapped_box(dir / "default.step", "$");
+  write_mapped_box(dir / "twice.step", "2.");
+  for (const char* module : {"plain_step", "step_document"}) {
+    EXPECT_NO_THROW(occt::read_by_module(module, dir / "same.step")) << module;
+    EXPECT_NO_THROW(occt::read_by_module(module, dir / "default.step")) << module;
+    EXPECT_ERROR(occt::read_by_module(module, dir / "twice.step"), kGeometry, "the scale 2, ");
+  }
+  const ImportResult box = import_model(dir / "same.step", {});
+  EXPECT_NEAR(box.area, 8800, 1e-6);
+  EXPECT_NEAR(box.tables.box().lo.x, 5, 1e-5);
 }
 
 TEST(PlainStep, says_what_it_cannot_parse) {
