@@ -46,11 +46,11 @@ void visit_faces(const Io& io, Tables& t) {
   io("/st/face/solid", t.face_solid, {n}, ids_below(t.n_solids, kNone));
 }
 
-/// A number of shells or solids, each of which has a face.
+/// A number of shells or solids. Each has a face, which may be that of another, too: a ball in a ball has three shells.
 std::int32_t read_count(const Hdf5Reader& r, const std::string& name) {
   const std::int64_t n = r.int_attribute("/st", name);
   const std::size_t n_faces = r.info("/st/face/is_reversed").shape[0];
-  if (n < 0 || static_cast<std::uint64_t>(n) > n_faces)
+  if (n < 0 || static_cast<std::uint64_t>(n) > 2 * n_faces)
     r.fail("/st@" + name, std::to_string(n) + " is not possible with " + std::to_string(n_faces) + " faces");
   return static_cast<std::int32_t>(n);
 }

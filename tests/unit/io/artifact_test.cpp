@@ -282,6 +282,17 @@ TEST(GeometryArtifact, keeps_a_model_without_unit_without_one) {
   EXPECT_EQ(read_geometry(dir / "g.hdf").tables.unit_in_m, std::nullopt);
 }
 
+TEST(GeometryArtifact, has_as_many_shells_as_its_faces_have_sides) {
+  TemporaryDirectory dir;
+  GeometryArtifact g = sample_geometry();
+  g.tables.n_shells = 2 * g.tables.n_faces();  // walls between solids are faces of both
+  write_geometry(dir / "g.hdf", g);
+  EXPECT_EQ(read_geometry(dir / "g.hdf").tables.n_shells, g.tables.n_shells);
+  ++g.tables.n_shells;
+  write_geometry(dir / "g.hdf", g);
+  EXPECT_ERROR(read_geometry(dir / "g.hdf"), kInput, "n_shells");
+}
+
 TEST(PatchesArtifact, gives_back_every_array) {
   TemporaryDirectory dir;
   write_patches(dir / "p.hdf", sample_patches());
