@@ -9,6 +9,7 @@ SampleStretch stretch_along(const std::function<Vec3(double)>& point_at, double 
                             const StretchLimits& limits) {
   constexpr double kSagitta = 0.15;  // of the length across: rows that bend more would run into each other
   constexpr double kShorter = 0.7;   // next length to try
+  if (!(way > 0)) return {};         // a point has no direction
   for (double along = std::min(limits.max_length, limits.max_aspect * across); along > kLeastStretch * across;
        along *= kShorter) {
     const double step = std::min(along / way, 0.5), middle = std::clamp(share, step, 1 - step);

@@ -177,7 +177,7 @@ class WingRaster {
         note_raised({std::max(place.length, place.asked), least}, most_raised_);
         place.length = least;
       }
-      const double step = std::max(place.length / way, 1.0 / kMaxBoxes);
+      const double step = std::clamp(place.length / way, 1.0 / kMaxBoxes, 2.0);  // noses at one place: no way
       boxes_.push_back({place.x,
                         static_cast<float>(0.5 * sizes_.cell_per_length * place.length),
                         static_cast<float>(place.length),

@@ -23,6 +23,7 @@ TEST(StretchAlong, is_as_long_as_the_aspect_or_the_largest_length_allows_on_a_li
 TEST(StretchAlong, is_none_where_it_may_not_be_longer_than_across) {
   EXPECT_EQ(stretch_along(on_line, 0.5, 10, 0.1, {1, 3, radians(10)}).along, 0);
   EXPECT_EQ(stretch_along(on_line, 0.5, 10, 2.9, kLimits).along, 0);
+  EXPECT_EQ(stretch_along([](double) { return Vec3{1, 2, 3}; }, 0.5, 0, 0.1, kLimits).along, 0) << "a point";
 }
 
 TEST(StretchAlong, turns_no_further_than_alpha_and_stays_near_its_chord) {

@@ -129,6 +129,24 @@ TEST(WingSizes, are_hardly_longer_along_noses_that_end_before_their_face_does) {
   EXPECT_NEAR(boxes.back().second, 3, 0.01);
 }
 
+TEST(WingSizes, are_finite_where_noses_are_at_one_place) {
+  const Model model = test::make_model("sharp_wing");
+  const FaceRoles roles = face_roles(model.tables());
+  std::vector<LiftingSurface> wings =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model)));
+  std::vector<ChordStation>& stations = wings.at(0).trailing.at(0).stations;
+  ASSERT_GT(stations.size(), 4u);
+  for (std::size_t i = 2; i < 5; ++i) stations[i].nose = stations[1].nose;  // as at the apex of a body
+  const std::vector<std::uint8_t> is_left_out(static_cast<std::size_t>(model.tables().n_edges()), 0);
+  for (const double aspect : {1.0, 16.0}) {
+    WingSizes sizes = share_of_chord("0.5%chord");
+    sizes.stretch.max_aspect = aspect;
+    Sampled s;
+    ASSERT_NO_THROW(raster_wing(model, wings[0], sizes, {}, is_left_out, s.boxes)) << aspect;
+    for (const RasterBox& b : s.boxes) ASSERT_TRUE(std::isfinite(norm(b.center)) && b.length > 0) << aspect;
+  }
+}
+
 TEST(WingSizes, run_along_a_trailing_edge_inside_a_face) {
   const Sampled s = sample("closed_wing", share_of_chord("0.5%chord"));
   for (const double x : {-5.0, 5.0}) expect_run_along(s, x);
