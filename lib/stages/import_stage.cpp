@@ -372,8 +372,9 @@ std::string extent(const ImportResult& r) {
   const std::string& unit = r.tables.unit;
   std::string text = fmt::format("box {:.6g} x {:.6g} x {:.6g}{}, area {:.6g}{}", box.hi.x - box.lo.x,
                                  box.hi.y - box.lo.y, box.hi.z - box.lo.z, in_unit(unit), r.area, in_unit(unit, 2));
-  if (r.is_closed) text += fmt::format(", volume {:.6g}{}", r.volume, in_unit(unit, 3));
-  return text;
+  if (!r.is_closed || r.volume == 0) return text;
+  if (!r.tables.volume) text += " (faces between solids once)";
+  return text + fmt::format(", volume {:.6g}{}", r.volume, in_unit(unit, 3));
 }
 
 /// Processor time for a file: whole ones take about 0.2 s per megabyte.

@@ -111,6 +111,9 @@ class Bodies(ToolTest):
         report, _ = self.run_import("stacked.step", "--join")
         self.assertEqual(self.group_names(report), {"plate", "block", "interface_block_plate"})
         self.assertEqual(report["faces"], 12)
+        for options, says in ((["--join"], True), ([], False)):
+            run = must("st-import", MODELS / "stacked.step", "-o", self.folder / "g.hdf", *options)
+            self.assertEqual(" (faces between solids once), volume " in run.out, says, run.out)
         report, _ = self.run_import("stacked.step")
         self.assertEqual((report["faces"], self.group_names(report)), (12, {"plate", "block"}))
 
