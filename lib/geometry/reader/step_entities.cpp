@@ -29,6 +29,7 @@
 #include "base/ids.h"
 #include "geometry/brep/faces_of.h"
 #include "geometry/import/meridians.h"
+#include "geometry/import/ring_edges.h"
 #include "geometry/import/seam_curves.h"
 #include "geometry/import/swapped_seams.h"
 #include "geometry/import/vertex_loops.h"
@@ -68,7 +69,9 @@ class HealingOfLoops : public XSAlgo_AlgoContainer {
       move_curves_between_poles(faces);
       swap_seams(faces);
     } else if (std::string(sequence) == "read.iges.sequence") {
-      make_seams(faces_of(shape));
+      const std::vector<TopoDS_Face> faces = faces_of(shape);
+      join_ring_ends(faces, precision);
+      make_seams(faces);
     }
     return XSAlgo_AlgoContainer::ProcessShape(shape, precision, tolerance, resource, sequence, info, progress,
                                               is_non_manifold);

@@ -29,7 +29,7 @@ class FacesOfEntities {
 
 /// From here on, shapes of STEP files get outer loops and seams right before OpenCASCADE heals them:
 /// trim_meridians(), bound_whole_surfaces(), give_seams_curves(), move_curves_between_poles(), swap_seams(). Those of
-/// IGES files get seams: make_seams(). Precondition: a controller of OpenCASCADE's readers is there.
+/// IGES files: join_ring_ends(), make_seams(). Precondition: a controller of OpenCASCADE's readers is there.
 void mend_loops_before_healing();
 
 /// The file's unit: unit_in_mm and has_mixed_units.
