@@ -25,6 +25,7 @@ constexpr double kAlong = 0.95;    // cosine between noses that follow each othe
 constexpr double kSharp = 30;      // as kLeastBend: of noses that run along the chord, as a strake's
 constexpr double kJump = 6;        // of the step along the trailing edge: a nose swept by 80 degrees
 constexpr int kHalvings = 6;       // of a step
+constexpr double kDetour = 1.005;  // of the way along noses where none is moved: moved ones may make it as long
 constexpr double kUnlike = 0.25;   // of the way by which noses beside one were moved: from their line to it
 constexpr double kOff = 0.002;     // of the chord, from the surface: twice the length that rans asks for at noses
 
@@ -40,12 +41,12 @@ class RidgeMover {
  public:
   explicit RidgeMover(const Model& model) : model_(model) {}
 
-  /// `is_along`: the noses there run along the chord. False: there is no nose.
-  bool move(ChordStation& s, bool is_along) {
+  /// `is_along`: the noses there run along the chord. `start` becomes the nose on its surface. False: there is no nose.
+  bool move(ChordStation& s, bool is_along, Vec3& start) {
     const FaceSurface& own = surface_of(s.nose_face);
     const std::optional<Place> nose = place_at(*own.surface, closest_point(*own.surface, s.nose).uv);
     if (!nose) return true;
-    if (distance(nose->x, s.nose) > kOff * s.chord) s.nose = nose->x;  // it lay on a facet
+    if (distance(nose->x, s.nose) > kOff * s.chord) start = s.nose = nose->x;  // it lay on a facet
     const double step = kStep * s.chord;
     std::vector<Place> way = walk(own, *nose, -nose->across, step);
     const std::size_t at = way.size();
@@ -138,24 +139,6 @@ class RidgeMover {
   std::map<FaceId, FaceSurface> known_;
 };
 
-/// Puts back noses that were moved between two that were not, where their line is longer for that: what bends more
-/// beside a nose for a stretch of the span is not its ridge.
-void put_back_detours(std::span<const ChordStation> before, std::span<ChordStation> after) {
-  const auto length = [](std::span<const ChordStation> line) {
-    double sum = 0;
-    for (std::size_t i = 1; i < line.size(); ++i) sum += distance(line[i - 1].nose, line[i].nose);
-    return sum;
-  };
-  std::size_t last = after.size();  // that stayed
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    if (!after[i].is_measured) last = after.size();
-    if (!after[i].is_measured || after[i].nose != before[i].nose) continue;
-    if (last < i && length(after.subspan(last, i + 1 - last)) > length(before.subspan(last, i + 1 - last)))
-      for (std::size_t k = last; k < i; ++k) after[k].nose = before[k].nose;
-    last = i;
-  }
-}
-
 /// Leaves out noses beside the line of those on both sides that were moved: the ridge goes on along another face there.
 /// They would have their lengths in a spot of their own.
 void leave_out_unlike(std::span<const ChordStation> before, std::vector<ChordStation>& after) {
@@ -178,6 +161,27 @@ bool jumps(const ChordStation& a, const ChordStation& b) {
   return distance(a.nose, b.nose) > kJump * distance(a.trailing, b.trailing);
 }
 
+void put_back_detours(std::span<const ChordStation> before, std::span<ChordStation> after) {
+  std::size_t last = after.size();                  // that stayed
+  double moved = 0, way_before = 0, way_after = 0;  // since then; the furthest, and lengths of the lines
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    if (!after[i].is_measured) {
+      last = after.size();
+      continue;
+    }
+    if (last < i) {
+      way_before += distance(before[i - 1].nose, before[i].nose);
+      way_after += distance(after[i - 1].nose, after[i].nose);
+      moved = std::max(moved, distance(before[i].nose, after[i].nose));
+    }
+    if (after[i].nose != before[i].nose) continue;
+    if (last + 2 < i && way_after > kDetour * way_before && moved * static_cast<double>(i - last) < way_before)
+      for (std::size_t k = last; k < i; ++k) after[k].nose = before[k].nose;
+    last = i;
+    moved = way_before = way_after = 0;
+  }
+}
+
 void put_on_ridges(const Model& model, LiftingSurface& wing) {
   RidgeMover mover(model);
   const LiftingSurface before = wing;
@@ -197,17 +201,18 @@ void put_on_ridges(const Model& model, LiftingSurface& wing) {
   };
   const auto move_all = [&](const std::vector<ChordEdge>& from, std::vector<ChordEdge>& to) {
     for (std::size_t e = 0; e < from.size(); ++e) {
+      std::vector<ChordStation> start = from[e].stations;
       for (std::size_t i = 0; i < from[e].stations.size(); ++i) {
         ChordStation& s = to[e].stations[i];
         if (!s.is_measured) continue;
         const bool is_alone = s.trailing == s.nose;
-        const bool is_nose = mover.move(s, is_along_chord(from[e], i));
+        const bool is_nose = mover.move(s, is_along_chord(from[e], i), start[i].nose);
         if (!is_alone) continue;  // what is before a trailing edge stays a nose
         s.is_measured = is_nose;
         s.trailing = s.nose;
       }
-      put_back_detours(from[e].stations, to[e].stations);
-      leave_out_unlike(from[e].stations, to[e].stations);
+      put_back_detours(start, to[e].stations);
+      leave_out_unlike(start, to[e].stations);
     }
   };
   if (wing.has_noses) move_all(before.trailing, wing.trailing);

@@ -79,6 +79,22 @@ TEST(RidgeNoses, are_left_out_beside_the_line_of_others_that_moved) {
   }
 }
 
+TEST(RidgeNoses, stay_where_moving_them_makes_their_line_longer) {
+  const auto is_put_back = [](std::size_t n_moved, double way) {
+    std::vector<ChordStation> before;
+    for (std::size_t i = 0; i < n_moved + 2; ++i)
+      before.push_back({.is_measured = true, .nose = {0, 0, static_cast<double>(i)}});
+    std::vector<ChordStation> after = before;
+    for (std::size_t i = 1; i <= n_moved; ++i) after[i].nose.y = way;
+    put_back_detours(before, after);
+    return after[1].nose == before[1].nose;
+  };
+  EXPECT_TRUE(is_put_back(4, 0.3));
+  EXPECT_FALSE(is_put_back(4, 0.1)) << "hardly longer";
+  EXPECT_FALSE(is_put_back(4, 1.5)) << "further than they are apart";
+  EXPECT_FALSE(is_put_back(1, 0.3)) << "one alone";
+}
+
 TEST(RidgeNoses, jump_where_they_are_far_apart_beside_their_trailing_edges) {
   ChordStation a{.trailing = {10, 0, 0}, .nose = {0, 0, 0}}, b{.trailing = {10, 1, 0}, .nose = {5, 1, 0}};
   EXPECT_FALSE(jumps(a, b)) << "swept by 79 degrees";
