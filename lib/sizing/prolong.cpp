@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <span>
 
 #include "base/assert.h"
 #include "base/threads.h"
@@ -64,6 +65,18 @@ bool lower(float& length, float limit) {
   return false;
 }
 
+/// From these cells to those across their faces; those that get a smaller one become `lowered`.
+void pass_on(const Neighbours& neighbours, const StepWeights& weight, std::span<const Lowered> cells,
+             std::span<float> lengths, LengthBuckets& lowered) {
+  for (const Lowered& cell : cells) {
+    if (std::atomic_ref(lengths[cell.leaf]).load(std::memory_order_relaxed) < cell.length) continue;
+    neighbours.for_each_across_face(cell.leaf, [&](std::int32_t other, const CellStep& step) {
+      const float limit = cell.length + weight(step);
+      if (lower(lengths[other], limit)) lowered.push({other, limit});
+    });
+  }
+}
+
 }  // namespace
 
 // Label-correcting shortest paths: start from every cell with a stored length, pass length + slope * distance on until
@@ -87,15 +100,7 @@ std::vector<float> prolong(const Neighbours& neighbours, std::span<const float> 
     if (cells.empty()) ++b;  // else cells of this bucket may be lowered again
     const std::size_t share = std::max(kLeastShare, (cells.size() + kShares - 1) / kShares);
     parallel_for(cells.size(), share, [&](std::size_t begin, std::size_t end) {
-      LengthBuckets& own = shares[begin / share];
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto [leaf, length] = cells[i];
-        if (std::atomic_ref(lengths[leaf]).load(std::memory_order_relaxed) < length) continue;
-        neighbours.for_each_across_face(leaf, [&](std::int32_t other, const CellStep& step) {
-          const float limit = length + weight(step);
-          if (lower(lengths[other], limit)) own.push({other, limit});
-        });
-      }
+      pass_on(neighbours, weight, std::span(cells).subspan(begin, end - begin), lengths, shares[begin / share]);
     });
   }
   return lengths;
