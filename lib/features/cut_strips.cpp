@@ -23,8 +23,7 @@ class CutStripFinder {
       : model_(model),
         t_(model.tables()),
         is_cut_end_(static_cast<std::size_t>(t_.n_vertices()), 0),
-        n_uses_(static_cast<std::size_t>(t_.n_edges()), 0) {
-    for (const EdgeId e : t_.coedge_edge) ++n_uses_[e];
+        n_uses_(count_uses(t_)) {
     for (EdgeId e = 0; e < t_.n_edges(); ++e)
       for (const std::size_t k : {0, 1})
         if (is_smooth[e]) is_cut_end_[t_.edge_vertices[2 * static_cast<std::size_t>(e) + k]] = 1;

@@ -27,13 +27,6 @@ constexpr double kEnd = 4;                       // widths: shorter edges are en
 constexpr double kShortEnd = 0.5;                // of the long edges: all other edges of a strip together are shorter
 constexpr double kAlikeSides = 0.8;              // length of the shorter one over the longer one, at least
 
-/// How often each edge is used by coedges of any face.
-std::vector<int> count_uses(const ModelTables& t) {
-  std::vector<int> uses(t.n_edges(), 0);
-  for (const EdgeId e : t.coedge_edge) ++uses[e];
-  return uses;
-}
-
 /// The two long edges of a face with one loop; false when there are no such two.
 bool long_edges(const ModelTables& t, FaceId f, const std::vector<int>& uses, Strip& strip) {
   if (t.loops(f).size() != 1) return false;
@@ -220,6 +213,12 @@ std::vector<StripSides> find_strip_sides(const ModelTables& tables) {
   for (FaceId f = 0; f < tables.n_faces(); ++f)
     if (StripSides strip; find_sides(tables, f, uses, strip)) strips.push_back(std::move(strip));
   return strips;
+}
+
+std::vector<int> count_uses(const ModelTables& t) {
+  std::vector<int> uses(t.n_edges(), 0);
+  for (const EdgeId e : t.coedge_edge) ++uses[e];
+  return uses;
 }
 
 bool is_narrow(double area, double side) { return area < kNarrow * side * side; }

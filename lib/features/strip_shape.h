@@ -8,6 +8,8 @@
 
 namespace st {
 
+/// [n_edges] how often each edge is used by coedges of any face.
+std::vector<int> count_uses(const ModelTables& t);
 /// Whether two edges, or what goes on as one, are the sides of a strip: `ends` are all others of its loop together.
 bool are_long_sides(double longer, double shorter, double ends);
 /// Four times as long as the face is wide on average.
