@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -21,14 +22,17 @@ namespace {
 
 constexpr std::array kPassedOn = {SIGINT, SIGTERM, SIGHUP};
 
-// What a signal handler may look at.
-volatile pid_t g_program = 0;
-volatile std::sig_atomic_t g_passed_signal = 0;
+// What a signal handler may look at. Handler and begin() each write one and then read the other, perhaps at once on two
+// processors: in one order for all (not so with volatile), else a signal at the start of a program is lost.
+std::atomic<pid_t> g_program = 0;
+std::atomic<int> g_passed_signal = 0;
+static_assert(std::atomic<pid_t>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 /// A terminal has sent its signal to the program as well.
 extern "C" void pass_on(int signal, siginfo_t* info, void*) {
   g_passed_signal = signal;
-  if (info->si_code <= 0 && g_program > 0) kill(g_program, signal);
+  const pid_t program = g_program;
+  if (info->si_code <= 0 && program > 0) kill(program, signal);
 }
 
 /// Passes signals on as long as it lives; those that are ignored (nohup) stay ignored. Made before the program is: a
@@ -51,7 +55,8 @@ class SignalPassing {
   /// From now on, and what came before.
   void begin(pid_t program) const {
     g_program = program;
-    if (g_passed_signal != 0) kill(program, g_passed_signal);
+    const int signal = g_passed_signal;
+    if (signal != 0) kill(program, signal);
   }
   /// In the program as well, which has signals of its own.
   void stop() const {
