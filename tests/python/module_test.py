@@ -66,6 +66,8 @@ class Module(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         shutil.rmtree(WORK, ignore_errors=True)
+        tempfile.tempdir = WORK / "temporary"  # of its own: what other runs leave there for a while would count
+        tempfile.tempdir.mkdir(parents=True)
         cls.said = st.mesh(MODELS / "assembly.step", WORK)
 
     def test_options_of_stages_and_of_all_reach_them(self):
