@@ -35,10 +35,10 @@ bool is_near(const Model& model, EdgeId e, const ChordStation& end) {
 
 }  // namespace
 
-std::vector<EndRim> find_end_rims(const Model& model, const LiftingSurface& wing) {
+std::vector<EdgeWithChord> find_end_rims(const Model& model, const LiftingSurface& wing) {
   const ModelTables& t = model.tables();
   const auto ends = end_stations(wing);
-  std::vector<EndRim> rims;
+  std::vector<EdgeWithChord> rims;
   if (!ends[0] || ends[0] == ends[1]) return rims;
   std::vector<int> n_own(static_cast<std::size_t>(t.n_edges()), 0);
   for (const FaceId f : wing.faces)

@@ -112,14 +112,14 @@ std::vector<LiftingSurface> find_lifting_surfaces(const Model& model, const Face
 /// Appends the leading ones of `edges` that run along the noses of a surface. Local.
 void add_leading(const Model& model, std::span<const WingEdge> edges, LiftingSurface& surface);
 
-/// An edge at an end of a lifting surface.
-struct EndRim {
+/// An edge, and the chord there.
+struct EdgeWithChord {
   EdgeId edge = kNone;
-  double chord = 0;  ///< of that end, model unit
+  double chord = 0;  ///< model unit
 };
 
 /// Edges around the first and the last measured profile along the span: between faces of the surface and others, near
-/// the chord there, and no trailing or leading edges. Ascending. A tip that is pinched has none. Local.
-std::vector<EndRim> find_end_rims(const Model& model, const LiftingSurface& wing);
+/// the chord of that end, and no trailing or leading edges. Ascending. A tip that is pinched has none. Local.
+std::vector<EdgeWithChord> find_end_rims(const Model& model, const LiftingSurface& wing);
 
 }  // namespace st

@@ -81,7 +81,7 @@ class TailMeasurer {
   TailMeasurer(const Model& model, const FaceRoles& roles)
       : model_(model), roles_(roles), facets_(model, roles), faces_at_(model.tables()) {}
 
-  std::optional<Draft> run(const SpanEdge& span_edge) {
+  std::optional<Draft> run(const EdgeWithChord& span_edge) {
     leave_other_bodies(span_edge.edge);
     const WingEdge own{.edge = span_edge.edge, .length = model_.tables().edge_length[span_edge.edge]};
     ProfileFacets& facets = facets_.near(kDeflection * span_edge.chord, true);
@@ -262,11 +262,11 @@ class TailFinder {
   TailFinder(const Model& model, const FaceRoles& roles, std::span<const std::uint8_t> is_excluded)
       : model_(model), t_(model.tables()), roles_(roles), is_excluded_(is_excluded) {}
 
-  std::vector<LiftingSurface> run(std::span<const SpanEdge> along_span) {
+  std::vector<LiftingSurface> run(std::span<const EdgeWithChord> along_span) {
     TailMeasurer measurer(model_, roles_);
     std::vector<Draft> drafts;
     std::vector<std::vector<Vec3>> excluded = excluded_edges();
-    for (const SpanEdge& e : along_span) {
+    for (const EdgeWithChord& e : along_span) {
       std::optional<Draft> own = measurer.run(e);
       if (own && is_excluded_[e.edge]) excluded.push_back(tail_of(*own));
       if (own && !is_excluded_[e.edge]) drafts.push_back(std::move(*own));
@@ -369,7 +369,7 @@ class TailFinder {
 void add_round_tails(const Model& model, const FaceRoles& roles, std::span<const WingEdge> edges,
                      std::span<const std::uint8_t> is_excluded, std::vector<LiftingSurface>& wings,
                      const Executor& executor) {
-  const std::vector<SpanEdge> along_span = find_span_edges(model, roles, wings, executor);
+  const std::vector<EdgeWithChord> along_span = find_span_edges(model, roles, wings, executor);
   if (!executor.is_root()) return;
   for (LiftingSurface& wing : TailFinder(model, roles, is_excluded).run(along_span)) {
     add_leading(model, edges, wing);

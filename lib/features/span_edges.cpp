@@ -48,8 +48,8 @@ class SpanEdgeFinder {
   }
 
   /// Among `kEdgesPerTask` edges.
-  std::vector<SpanEdge> run(std::int32_t task) {
-    std::vector<SpanEdge> found;
+  std::vector<EdgeWithChord> run(std::int32_t task) {
+    std::vector<EdgeWithChord> found;
     for (EdgeId e = task * kEdgesPerTask; e < std::min((task + 1) * kEdgesPerTask, t_.n_edges()); ++e) {
       if (!is_candidate(e)) continue;
       if (const double chord = thin_chord(e); chord > 0) found.push_back({e, chord});
@@ -214,20 +214,20 @@ class SpanEdgeFinder {
 
 }  // namespace
 
-std::vector<SpanEdge> find_span_edges(const Model& model, const FaceRoles& roles, std::span<const LiftingSurface> wings,
-                                      const Executor& executor) {
+std::vector<EdgeWithChord> find_span_edges(const Model& model, const FaceRoles& roles,
+                                           std::span<const LiftingSurface> wings, const Executor& executor) {
   std::vector<std::uint8_t> is_taken(static_cast<std::size_t>(model.tables().n_faces()), 0);
   for (const LiftingSurface& wing : wings)
     for (const FaceId f : wing.faces) is_taken[static_cast<std::size_t>(f)] = 1;
   share(executor, is_taken);
   SpanEdgeFinder finder(model, roles, is_taken);
-  std::vector<std::vector<SpanEdge>> parts((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask);
+  std::vector<std::vector<EdgeWithChord>> parts((model.tables().n_edges() + kEdgesPerTask - 1) / kEdgesPerTask);
   executor.run_tasks(
       static_cast<std::int32_t>(parts.size()), heaviest_first(std::vector<double>(parts.size(), 1)),
       [&](std::int32_t task) { return packed(finder.run(task)); },
       [&](std::int32_t task, Bytes&& bytes) { unpack(bytes, parts[static_cast<std::size_t>(task)]); });
-  std::vector<SpanEdge> found;
-  for (const std::vector<SpanEdge>& part : parts) found.insert(found.end(), part.begin(), part.end());
+  std::vector<EdgeWithChord> found;
+  for (const std::vector<EdgeWithChord>& part : parts) found.insert(found.end(), part.begin(), part.end());
   return found;
 }
 

@@ -87,7 +87,7 @@ class WingRaster {
     });
   }
 
-  void add_rim(const EndRim& rim, const LengthSpec& size) {
+  void add_rim(const EdgeWithChord& rim, const LengthSpec& size) {
     const auto curve = model_.curve(rim.edge);
     const ArcTable arc(*curve);
     const double length =
@@ -295,8 +295,8 @@ std::optional<RaisedLength> raster_wing(const Model& model, const LiftingSurface
   for (const ChordEdge& front : wing.front)
     if (has_noses) raster.add_noses(front);
   if (sizes.end_size) {
-    const std::vector<EndRim> rims = find_end_rims(model, wing);
-    for (const EndRim& rim : rims)
+    const std::vector<EdgeWithChord> rims = find_end_rims(model, wing);
+    for (const EdgeWithChord& rim : rims)
       if (!is_ruled(rim.edge)) raster.add_rim(rim, *sizes.end_size);
     if (rims.empty() && !wing.trailing.empty())
       log_warning("--end-size: no edge runs around the tip or root of the lifting surface at edge " +

@@ -263,10 +263,6 @@ class Marker {
 
 std::int64_t HoleMarks::n_triangles() const { return std::count(triangle.begin(), triangle.end(), 1); }
 
-HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options) {
-  return mark_share(mesh, {0, static_cast<TriangleId>(mesh.mesh.triangles.size()), 0}, wanted, options, {});
-}
-
 HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted,
                      const HoleMarkOptions& options, const NodeExchange& exchange) {
   return Marker(mesh, share, wanted, options, exchange).run();

@@ -60,13 +60,10 @@ using NodeExchange = std::function<std::vector<TouchedNode>(const std::vector<To
 
 /// An edge is marked when its length is out of bounds for `wanted` ([n_nodes], > 0) where that differs from the size
 /// stored with the mesh; with it its triangles, and `layers` around them within their face (over a CAD edge where its
-/// segments are marked); segments between marked ones and triangles with marked ones at all corners follow. Local,
-/// pure.
-HoleMarks mark_holes(const HoleMesh& mesh, std::span<const double> wanted, const HoleMarkOptions& options);
-
-/// Marks on several ranks, each with its share: together they mark what one would. Of the triangles only those of
-/// the share are marked, of `wanted` only the values on their nodes and on all edges are used; segments are marked on
-/// every rank. `options.redo` numbers the whole mesh's triangles. Calls `exchange` layers + 1 times.
+/// segments are marked); segments between marked ones and triangles with marked ones at all corners follow. On several
+/// ranks, each with its share: together they mark what one would. Of the triangles only those of the share are marked,
+/// of `wanted` only the values on their nodes and on all edges are used; segments are marked on every rank.
+/// `options.redo` numbers the whole mesh's triangles. Calls `exchange` layers + 1 times. Pure but for that.
 HoleMarks mark_share(const HoleMesh& mesh, const MeshShare& share, std::span<const double> wanted,
                      const HoleMarkOptions& options, const NodeExchange& exchange);
 

@@ -8,14 +8,14 @@
 namespace st {
 namespace {
 
-std::vector<SpanEdge> span_edges_of(const Model& model, std::span<const LiftingSurface> wings = {}) {
+std::vector<EdgeWithChord> span_edges_of(const Model& model, std::span<const LiftingSurface> wings = {}) {
   return find_span_edges(model, face_roles(model.tables()), wings);
 }
 
 TEST(SpanEdges, are_seams_along_thin_bodies) {
   for (const char* shape : {"closed_wing", "oval_bar"}) {
     const Model model = test::make_model(shape);
-    const std::vector<SpanEdge> found = span_edges_of(model);
+    const std::vector<EdgeWithChord> found = span_edges_of(model);
     ASSERT_EQ(found.size(), 1u) << shape;
     EXPECT_NEAR(model.tables().edge_length[found[0].edge], 30, 1e-6);
     EXPECT_NEAR(found[0].chord, 10, 1) << "by samples";

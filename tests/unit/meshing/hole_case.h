@@ -9,6 +9,7 @@
 #include "meshing/hole/hole_curves.h"
 #include "meshing/hole/hole_filler.h"
 #include "meshing/hole/hole_merger.h"
+#include "unit/meshing/mark_holes.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {

@@ -34,7 +34,7 @@ TEST(HoleMarker, marks_what_mark_holes_marks) {
   const test::LinearField finer = test::finer_at_a_corner(box);
   const HoleMesh old(box.mesh, box.model.tables());
   const HoleMarker holes(box.model, old, {0, static_cast<TriangleId>(box.mesh.n_triangles()), 0}, finer, {}, one_rank);
-  const HoleMarks marks = mark_holes(old, box.wanted(finer), {});
+  const HoleMarks marks = test::mark_holes(old, box.wanted(finer), {});
   EXPECT_EQ(holes.marks().triangle, marks.triangle);
   EXPECT_EQ(holes.marks().segment, marks.segment);
   EXPECT_EQ(holes.n_marked_triangles, marks.n_triangles());

@@ -2,6 +2,7 @@
 #include "meshing/hole/hole_marks.h"
 
 #include "mesh/quality.h"
+#include "unit/meshing/mark_holes.h"
 #include "unit/meshing/shape_mesh.h"
 
 namespace st::test {

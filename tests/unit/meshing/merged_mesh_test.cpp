@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "geometry/model/edge_faces.h"
 #include "mesh/checks.h"
 #include "mesh/edge_segments.h"
 #include "support/meshed.h"
@@ -97,13 +98,11 @@ TEST(SmallFeatures, a_plate_thinner_than_the_bound_keeps_its_two_sides) {
 MergedFeatures merged_edges_of_box(double length, bool is_closed) {
   const Model box = test::make_model("box");
   ModelTables t = box.tables();
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  t.edge_faces(offsets, faces);
+  const EdgeFaces faces_at(t);
   const auto is_apart = [&](EdgeId e) {
     for (int i = 0; i < 2; ++i)
       for (int k = 0; k < 2; ++k)
-        if (faces[offsets[e] + i] == faces[offsets[0] + k]) return false;
+        if (faces_at[e][i] == faces_at[0][k]) return false;
     return true;
   };
   EdgeId other = 1;
@@ -163,13 +162,11 @@ TEST(SmallFeatures, in_a_group_with_a_tolerance_are_merged_by_it_and_not_by_the_
 
 TEST(SmallFeatures, between_a_group_with_a_tolerance_and_the_rest_have_the_smaller_limit) {
   const Model model = stepped_box(0.03);
-  std::vector<std::int32_t> offsets;
-  std::vector<FaceId> faces;
-  model.tables().edge_faces(offsets, faces);
+  const EdgeFaces faces_at(model.tables());
   const MergedFeatures all = find_merged_features(model, UniformField(0.2), 0.05);
   ASSERT_FALSE(all.edge.empty());
   const EdgeId e = all.edge[0];
-  const MergedFeatures some = find_merged_features(stepped_box(0.03, {faces[offsets[e]]}), UniformField(0.2), 0.05);
+  const MergedFeatures some = find_merged_features(stepped_box(0.03, {faces_at[e][0]}), UniformField(0.2), 0.05);
   EXPECT_FALSE(std::binary_search(some.edge.begin(), some.edge.end(), e));
 }
 

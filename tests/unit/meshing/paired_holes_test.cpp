@@ -7,6 +7,7 @@
 
 #include "mesh/checks.h"
 #include "sizing/paired_field.h"
+#include "unit/meshing/mark_holes.h"
 #include "unit/meshing/paired_mesh.h"
 
 namespace st {
@@ -94,7 +95,7 @@ TEST(PairedHoles, leave_edges_that_are_images_of_kept_ones) {
 std::vector<std::ptrdiff_t> marked_segments(const Remeshed& m, const std::vector<double>& wanted,
                                             HoleMarkOptions options) {
   options.pairs = &m.before.pairs;
-  const HoleMarks marks = mark_holes(m.old, wanted, options);
+  const HoleMarks marks = test::mark_holes(m.old, wanted, options);
   std::vector<std::ptrdiff_t> n;
   for (EdgeId e = 0; e < m.old.edges.n_edges(); ++e) {
     const auto first = marks.segment.begin() + m.old.edges.first_node(e);

@@ -16,6 +16,7 @@
 #include "stages/raster_stage.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
+#include "unit/meshing/mark_holes.h"
 
 namespace st {
 namespace {
@@ -121,7 +122,7 @@ TEST_F(MeshShares, mark_what_one_rank_marks) {
   HoleMarkOptions options;
   options.redo = {0, static_cast<TriangleId>(whole.triangles.size()) - 1,
                   static_cast<TriangleId>(whole.triangles.size()) / 2};
-  const HoleMarks expected = mark_holes(holes, wanted, options);
+  const HoleMarks expected = test::mark_holes(holes, wanted, options);
   ASSERT_GT(expected.n_triangles(), whole.n_triangles() / 10);
   ASSERT_LT(expected.n_triangles(), whole.n_triangles() * 9 / 10);
   for (const int n_parts : {2, 3, 5, 40}) {
