@@ -49,7 +49,7 @@ class EndSides {
 
 }  // namespace
 
-bool is_tip(const Model& model, const ChordEdge& trailing, std::size_t k) {
+bool is_tip(const Model& model, bool is_material_ahead, const ChordEdge& trailing, std::size_t k) {
   const ModelTables& t = model.tables();
   const double begin = trailing.stations.front().chord, end = trailing.stations.back().chord;
   if (!(k == 0 ? begin < kTapered * end : end < kTapered * begin)) return false;
@@ -66,7 +66,7 @@ bool is_tip(const Model& model, const ChordEdge& trailing, std::size_t k) {
     if (std::ranges::count(edges, trailing.edge) > 0) continue;
     const auto surface = model.surface(f);
     const Vec3 n = surface_normal(*surface, closest_point(*surface, t.vertex_xyz[own]).uv);
-    faces_out |= dot(t.face_is_reversed[f] ? -n : n, out) > kOutward;
+    faces_out |= dot((t.face_is_reversed[f] != 0) != is_material_ahead ? -n : n, out) > kOutward;
   }
   return faces_out;
 }

@@ -20,8 +20,9 @@ inline constexpr double kEndAspect = 3;
 inline constexpr double kSharpEndAspect = 1.8;
 
 /// Whether a trailing edge ends at a tip: the chord is less at its end `k` (0: where it begins, 1) than at the other
-/// one, a face looks outward there, and none has a pole. Local, linear in the model's edges.
-bool is_tip(const Model& model, const ChordEdge& trailing, std::size_t k);
+/// one, a face looks out of the wing there, and none has a pole. Normals of faces point into the material or away from
+/// it. Local, linear in the model's edges.
+bool is_tip(const Model& model, bool is_material_ahead, const ChordEdge& trailing, std::size_t k);
 
 /// Whether a line on a face that ends at `x` ends there by more than `reach` before all of its edges. Local, a search
 /// of each edge of the face.

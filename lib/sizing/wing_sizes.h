@@ -37,6 +37,7 @@ struct WingSizes {
   StretchLimits stretch = {};                         ///< along edge, nose and base
   GivenFloors given = {};                             ///< by rules: likewise nothing is finer there
   std::optional<LengthSpec> end_size = std::nullopt;  ///< along the rims of tip and root; nullopt: not asked for
+  bool is_material_ahead = false;                     ///< normals of faces point into the material
 };
 
 /// What is asked for along a trailing edge where its chord is `chord`, model unit. Throws Error(kUsage).

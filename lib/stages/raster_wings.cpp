@@ -97,6 +97,7 @@ void sample_wings(const RasterStageOptions& o, const Model& model, const std::ve
   sizes.stretch = {o.max_aspect, max_length, radians(o.alpha_deg)};
   if (!o.lmin.empty()) sizes.least = parse_length(o.lmin, "--lmin");
   sizes.end_size = end_size(o);
+  sizes.is_material_ahead = limits.is_material_ahead;
   sizes.given = find_floors(rules, false, model.tables(), wings.edges, limits);
   const std::string unit = in_unit(model.tables().unit);
   warn_of_floor(o, wings.aircraft.wings, sizes, unit);

@@ -44,10 +44,23 @@ TEST(IsTip, is_where_the_chord_is_less_and_a_face_looks_outward) {
   const FaceRoles roles = face_roles(model.tables());
   ChordEdge trailing =
       find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0).trailing.at(0);
-  for (const std::size_t k : {0, 1}) EXPECT_FALSE(is_tip(model, trailing, k)) << "a wing of one chord";
+  for (const std::size_t k : {0, 1}) EXPECT_FALSE(is_tip(model, false, trailing, k)) << "a wing of one chord";
   trailing.stations.back().chord *= 0.9;
-  EXPECT_FALSE(is_tip(model, trailing, 0));
-  EXPECT_TRUE(is_tip(model, trailing, 1));
+  EXPECT_FALSE(is_tip(model, false, trailing, 0));
+  EXPECT_TRUE(is_tip(model, false, trailing, 1));
+  EXPECT_FALSE(is_tip(model, true, trailing, 1)) << "a hub";
+}
+
+TEST(IsTip, looks_out_of_the_wing_in_a_domain) {
+  const Model model = test::make_model("wing_in_box");
+  FaceRoles roles = face_roles(model.tables());
+  for (FaceId f = 0; f < model.tables().n_faces(); ++f)
+    if (model.tables().face_box[f].diagonal() > 50) roles.role[f] = FaceRole::kFarfield;
+  ASSERT_TRUE(is_material_ahead(model.tables(), roles));
+  ChordEdge trailing =
+      find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0).trailing.at(0);
+  trailing.stations.back().chord *= 0.9;
+  EXPECT_TRUE(is_tip(model, true, trailing, 1));
 }
 
 TEST(EndStretch, is_bounded_at_sides_across_it_alone) {
