@@ -21,9 +21,9 @@ void StretchEasing::run() {
   n_first_ = n_triangles(all_faces());
   flaws_ = find_flaws(0);
   const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
-  if (!is_on_root(!flaws_.eased().empty()) && !has_obtuse) return;
+  if (!is_on_root(flaws_.has_eased()) && !has_obtuse) return;
   best_ = {count_flaws(), has_obtuse, faces_.state(), refinements_.all()};
-  run_rounds([&] { return shorten(flaws_.eased(), flaws_.shortens()); });
+  run_rounds([&] { return shorten_along(); });
   if (!is_best_) go_back();
   mix_rounds();
   if (!best_.has_obtuse) return;
@@ -114,6 +114,16 @@ std::vector<Refinement> StretchEasing::shorten(const Places& places, Shortens sh
   share(executor_, all);
   refinements_.assign(all);
   return {all.begin() + static_cast<std::ptrdiff_t>(n_before), all.end()};
+}
+
+/// Of what is stretched. Steps are single triangles, whatever is eased elsewhere.
+std::vector<Refinement> StretchEasing::shorten_along() {
+  std::vector<Refinement> all =
+      shorten(flaws_.stretched, flaws_.is_wide() ? Shortens::kAlong : Shortens::kAlongNearby);
+  const std::vector<Refinement> of_steps =
+      shorten(flaws_.eases_steps() ? flaws_.steps : Places(), Shortens::kAlongNearby);
+  all.insert(all.end(), of_steps.begin(), of_steps.end());
+  return all;
 }
 
 /// Where more folds and crosses than at the beginning: shorter lengths that reach these places are given up for good.

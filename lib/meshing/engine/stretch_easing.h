@@ -59,6 +59,7 @@ class StretchEasing {
   std::size_t n_worst() const { return std::get<1>(best_.n_flaws) + std::get<2>(best_.n_flaws); }
   void run_rounds(const std::function<std::vector<Refinement>()>& shorten_more);
   bool keep_if_better();
+  std::vector<Refinement> shorten_along();
   std::vector<Refinement> shorten(const Places& places, Shortens shortens);
   void take_back_spoiling(std::size_t first);
   void mix_rounds();

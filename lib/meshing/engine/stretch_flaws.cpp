@@ -20,7 +20,7 @@ constexpr double kAlike = 1.05;         // along over across: less is about the 
 constexpr double kAround = 0.25;        // of the longest side, or the length along: so far about an angle, in no more
                                         // columns than must be
 constexpr double kFarGrowth = 2.5;      // larger steps of size are eased
-constexpr double kFurther = 3;          // times as far: steps, and what is not held
+constexpr double kFurther = 3;          // times as far: what is not held
 const double kMostCosine = std::cos(kMostAngle), kFarCosine = std::cos(kFarAngle);
 
 class FlawFinder {
@@ -133,14 +133,5 @@ void StretchFlaws::add_unheld(RefinementPoint place, const LocalSize& present) {
   stretched.push_back(place);
 }
 
-std::vector<RefinementPoint> StretchFlaws::eased() const {
-  std::vector<RefinementPoint> all = stretched;
-  if (n_far > 0 && !all.empty()) return all;
-  for (RefinementPoint step : steps) {
-    if (is_wide()) step.radius *= kFurther;
-    all.push_back(step);
-  }
-  return all;
-}
 
 }  // namespace st

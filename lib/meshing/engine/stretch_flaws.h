@@ -34,11 +34,11 @@ struct StretchFlaws {
 
   /// A place whose lengths across are not held: lengths along become shorter.
   void add_unheld(RefinementPoint place, const LocalSize& present);
-  /// What is to be eased: steps only where there is nothing else, or no angle above 150 degrees.
-  std::vector<RefinementPoint> eased() const;
-  /// Whether further around: where lengths are not held, and nothing else is the cause.
+  bool has_eased() const { return !stretched.empty() || !steps.empty(); }
+  /// Are steps eased, too? Only where there is nothing else, or no angle above 150 degrees.
+  bool eases_steps() const { return n_far == 0 || stretched.empty(); }
+  /// Is `stretched` eased further around? Where lengths are not held, and nothing else is the cause.
   bool is_wide() const { return n_far == 0 && n_unheld > 0; }
-  Shortens shortens() const { return is_wide() ? Shortens::kAlong : Shortens::kAlongNearby; }
 };
 
 /// `present`: the lengths that the triangles were made for. `n_tries`: made before. Local, linear.

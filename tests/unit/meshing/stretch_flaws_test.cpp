@@ -24,7 +24,7 @@ TEST(StretchFlaws, are_obtuse_triangles) {
   ASSERT_EQ(worse.stretched.size(), 1u);
   EXPECT_NEAR(worse.stretched[0].length, 0.6 * 2, 1e-12) << "of the longest side, shorter than lengths along";
   EXPECT_NEAR(worse.stretched[0].radius, 0.25 * 2, 1e-12);
-  EXPECT_EQ(worse.shortens(), Shortens::kAlongNearby);
+  EXPECT_FALSE(worse.is_wide());
   EXPECT_TRUE(worse.obtuse.empty());
 }
 
@@ -46,26 +46,21 @@ TEST(StretchFlaws, are_large_triangles_beside_small_ones) {
   const test::StretchedField field({0.1, 40, {1, 0, 0}});
   EXPECT_EQ(flaws_of_step(4.5, field).n_large, 0u) << "2.12 squared";
   EXPECT_EQ(flaws_of_step(6, field).n_large, 1u);
-  EXPECT_TRUE(flaws_of_step(6, field).eased().empty()) << "2.45 squared: not worth another mesh";
+  EXPECT_FALSE(flaws_of_step(6, field).has_eased()) << "2.45 squared: not worth another mesh";
   StretchFlaws flaws = flaws_of_step(6.4, field);
-  ASSERT_EQ(flaws.eased().size(), 1u);
-  EXPECT_EQ(flaws.shortens(), Shortens::kAlongNearby);
-  EXPECT_GT(flaws.eased()[0].x.x, 1) << "the large one";
-  EXPECT_NEAR(flaws.eased()[0].length, 1.6 * 1.6 / 6.4 * std::hypot(6.4, 1), 1e-12);
-  EXPECT_NEAR(flaws.eased()[0].radius, 0.25 * std::hypot(6.4, 1), 1e-12);
-  flaws.n_unheld = 1;
-  EXPECT_NEAR(flaws.eased()[0].radius, 0.75 * std::hypot(6.4, 1), 1e-12) << "with what is not held";
-  EXPECT_EQ(flaws.shortens(), Shortens::kAlong);
+  ASSERT_EQ(flaws.steps.size(), 1u);
+  EXPECT_TRUE(flaws.stretched.empty() && flaws.has_eased() && flaws.eases_steps());
+  EXPECT_GT(flaws.steps[0].x.x, 1) << "the large one";
+  EXPECT_NEAR(flaws.steps[0].length, 1.6 * 1.6 / 6.4 * std::hypot(6.4, 1), 1e-12);
+  EXPECT_NEAR(flaws.steps[0].radius, 0.25 * std::hypot(6.4, 1), 1e-12);
   flaws.n_far = 1;
-  EXPECT_EQ(flaws.eased().size(), 1u) << "no angle above 150 degrees is where lengths are stretched";
+  EXPECT_TRUE(flaws.eases_steps()) << "no angle above 150 degrees is where lengths are stretched";
   flaws.stretched.push_back({.x = {7, 8, 9}, .length = 1, .radius = 1});
-  ASSERT_EQ(flaws.eased().size(), 1u);
-  EXPECT_EQ(flaws.eased()[0].x.x, 7) << "angles above 150 degrees come first";
-  EXPECT_EQ(flaws.shortens(), Shortens::kAlongNearby);
-  EXPECT_NEAR(flaws_of_step(30, field).eased()[0].length, 0.35 * std::hypot(30, 1), 1e-12) << "at once";
+  EXPECT_FALSE(flaws.eases_steps()) << "angles above 150 degrees come first";
+  EXPECT_NEAR(flaws_of_step(30, field).steps.at(0).length, 0.35 * std::hypot(30, 1), 1e-12) << "at once";
   const StretchFlaws alike = flaws_of_step(7, UniformField(1));
   EXPECT_EQ(alike.n_large, 1u);
-  EXPECT_TRUE(alike.eased().empty() && alike.obtuse.empty()) << "no lengths along can be shorter";
+  EXPECT_TRUE(!alike.has_eased() && alike.obtuse.empty()) << "no lengths along can be shorter";
 }
 
 TEST(StretchFlaws, shorten_lengths_along_to_those_across) {
@@ -77,7 +72,7 @@ TEST(StretchFlaws, shorten_lengths_along_to_those_across) {
 TEST(StretchFlaws, never_take_all_of_the_stretch_about_an_angle) {
   const test::StretchedField field({0.1, 4, {1, 0, 0}});
   const std::vector<Vec3> far{{0, 0, 0}, {2, 0, 0}, {1, kSlope150, 0}};
-  const RefinementPoint place = find_stretch_flaws(far, std::vector<Triangle>{{{0, 1, 2}}}, field, 9).eased().at(0);
+  const RefinementPoint place = find_stretch_flaws(far, std::vector<Triangle>{{{0, 1, 2}}}, field, 9).stretched.at(0);
   EXPECT_NEAR(place.radius, 0.25 * 2, 1e-12);
   EXPECT_NEAR(place.length, 0.6 * 2, 1e-12);
 }
@@ -91,14 +86,15 @@ TEST(StretchFlaws, take_stretch_from_unheld_places_bit_by_bit) {
   flaws.add_unheld(place, {0.1, 0.1, {}});
   EXPECT_EQ(flaws.n_unheld, 3u);
   EXPECT_EQ(flaws.all.size(), 3u);
-  ASSERT_EQ(flaws.eased().size(), 2u) << "nothing is stretched at the last";
-  EXPECT_EQ(flaws.eased()[0].x, place.x);
-  EXPECT_NEAR(flaws.eased()[0].length, 0.6 * 4, 1e-12);
-  EXPECT_NEAR(flaws.eased()[0].radius, 0.75 * 4, 1e-12);
-  EXPECT_EQ(flaws.eased()[1].length, 0.1) << "no shorter than across";
+  EXPECT_TRUE(flaws.is_wide() && flaws.eases_steps());
+  ASSERT_EQ(flaws.stretched.size(), 2u) << "nothing is stretched at the last";
+  EXPECT_EQ(flaws.stretched[0].x, place.x);
+  EXPECT_NEAR(flaws.stretched[0].length, 0.6 * 4, 1e-12);
+  EXPECT_NEAR(flaws.stretched[0].radius, 0.75 * 4, 1e-12);
+  EXPECT_EQ(flaws.stretched[1].length, 0.1) << "no shorter than across";
   beside_others.n_far = 1;
   beside_others.add_unheld(place, present);
-  EXPECT_NEAR(beside_others.eased().at(0).radius, 0.25 * 4, 1e-12) << "while angles are above 150 degrees";
+  EXPECT_NEAR(beside_others.stretched.at(0).radius, 0.25 * 4, 1e-12) << "while angles are above 150 degrees";
 }
 
 TEST(StretchFlaws, above_150_degrees_are_counted_among_the_obtuse) {
