@@ -24,6 +24,11 @@ inline constexpr double kSharpEndAspect = 1.8;
 /// it. Local, linear in the model's edges.
 bool is_tip(const Model& model, bool is_material_ahead, const ChordEdge& trailing, std::size_t k);
 
+/// What is allowed at the end of a trailing edge: less where a sharp one ends at a tip. As is_tip().
+inline double end_aspect(const Model& model, bool is_material_ahead, const ChordEdge& trailing, std::size_t k) {
+  return trailing.base == kNone && is_tip(model, is_material_ahead, trailing, k) ? kSharpEndAspect : kEndAspect;
+}
+
 /// Whether a line on a face that ends at `x` ends there by more than `reach` before all of its edges. Local, a search
 /// of each edge of the face.
 bool ends_inside(const Model& model, FaceId face, Vec3 x, double reach);

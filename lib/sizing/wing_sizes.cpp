@@ -139,7 +139,7 @@ class WingRaster {
       std::ptrdiff_t n = 0;
       for (const ChordEdge& other : wing_.trailing)
         for (const std::size_t side : {0, 1}) n += other.edge != kNone && vertex(other, side) == vertex(trailing, k);
-      return n != 1 ? 0 : trailing.base == kNone && is_tip(model_, sizes_.is_material_ahead, trailing, k) ? kSharpEndAspect : kEndAspect;
+      return n != 1 ? 0 : end_aspect(model_, sizes_.is_material_ahead, trailing, k);
     };
     return {most_at(0), most_at(1)};
   }
@@ -153,7 +153,8 @@ class WingRaster {
     const auto most_at = [&](std::size_t k, const ChordStation& s, double share) {
       if (!(of_edge[k] > 0 && share * way <= kAtEnd * s.chord)) return 0.0;
       const double reach = kBefore * kNose * length_of(s.chord);
-      return is_tip(model_, sizes_.is_material_ahead, trailing, k) || ends_inside(model_, s.*face, s.*place, reach) ? kEndAspect : 0;
+      if (is_tip(model_, sizes_.is_material_ahead, trailing, k)) return kEndAspect;
+      return ends_inside(model_, s.*face, s.*place, reach) ? kEndAspect : 0;
     };
     return {most_at(0, *run.front(), run.front()->share), most_at(1, *run.back(), 1 - run.back()->share)};
   }

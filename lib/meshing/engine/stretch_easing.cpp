@@ -118,8 +118,7 @@ std::vector<Refinement> StretchEasing::shorten(const Places& places, Shortens sh
 
 /// Of what is stretched. Steps are single triangles, whatever is eased elsewhere.
 std::vector<Refinement> StretchEasing::shorten_along() {
-  std::vector<Refinement> all =
-      shorten(flaws_.stretched, flaws_.is_wide() ? Shortens::kAlong : Shortens::kAlongNearby);
+  std::vector<Refinement> all = shorten(flaws_.stretched, flaws_.is_wide() ? Shortens::kAlong : Shortens::kAlongNearby);
   const std::vector<Refinement> of_steps =
       shorten(flaws_.eases_steps() ? flaws_.steps : Places(), Shortens::kAlongNearby);
   all.insert(all.end(), of_steps.begin(), of_steps.end());

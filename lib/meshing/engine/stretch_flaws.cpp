@@ -133,5 +133,4 @@ void StretchFlaws::add_unheld(RefinementPoint place, const LocalSize& present) {
   stretched.push_back(place);
 }
 
-
 }  // namespace st
