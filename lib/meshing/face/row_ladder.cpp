@@ -8,7 +8,7 @@
 
 #include "base/predicates.h"
 #include "meshing/face/row_layer.h"
-#include "meshing/face/row_line.h"
+#include "meshing/face/row_shape.h"
 
 namespace st {
 namespace {

@@ -3,23 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/predicates.h"
 #include "meshing/face/row_across.h"
 #include "meshing/face/row_chains.h"
+#include "meshing/face/row_shape.h"
 #include "meshing/face/stretch.h"
 
 namespace st {
 namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
-constexpr double kGrowth = 1.4;        // of heights from row to row, at most
-constexpr double kTooSquare = 1.0;     // length over height of a quadrilateral
-constexpr double kSquareAspect = 2.2;  // on the mean of a quadrilateral and its neighbours
-constexpr double kFreeBeyond = 0.7;    // of a row's height, which must be free behind it,
-constexpr double kFreeOfWidth = 0.3;   // and of the length of its quadrilaterals,
-constexpr double kMostFree = 4;        // but no more than of the height
-constexpr double kLeastAngle = 50;     // degrees, of a quadrilateral's corners
-constexpr double kMostAngle = 130;
+constexpr double kGrowth = 1.4;                   // of heights from row to row, at most
+constexpr double kTooSquare = 1.0;                // length over height of a quadrilateral
+constexpr double kSquareAspect = 2.2;             // on the mean of a quadrilateral and its neighbours
+constexpr double kFreeBeyond = 0.7;               // of a row's height, which must be free behind it,
+constexpr double kFreeOfWidth = 0.3;              // and of the length of its quadrilaterals,
+constexpr double kMostFree = 4;                   // but no more than of the height
 constexpr double kMostShear = radians(50);        // of a side against the square
 constexpr double kSideMisfit = 1.8;               // between the height asked for and that of the side's segment
 constexpr double kMostTurned = 0.9;               // of the largest turning of the normal: the height shrinks
@@ -31,7 +29,7 @@ constexpr double kFalling = 0.75;                 // of a column's greatest heig
 constexpr double kRisen = 1.5;                    // over its least height before,
 constexpr double kAhead = 10;                     // if an edge lies within that many heights
 constexpr double kAlong = 0.94;                   // cosine to the direction of a stretch: the row is along it
-constexpr double kMostOblique = 0.8;              // cosine between directions that metrics see
+constexpr double kFreeAside = 0.7;                // of a quadrilateral's length, beside the last one of a row
 constexpr double kMiss = 0.01;                    // of a height, by which a node may miss its place
 constexpr double kBetween[] = {0.25, 0.5, 0.75};  // of a quadrilateral's length: where room is looked for
 constexpr int kSmoothing = 3;                     // passes over the heights
@@ -67,6 +65,7 @@ class LineMaker {
     for (std::size_t i = 0; i + 1 < n(); ++i) next_.joined[i] = next_.joined[i] && is_good(i);
     end_long();
     end_square();
+    end_beside();
     drop_short_runs();
     return std::move(next_);
   }
@@ -306,6 +305,21 @@ class LineMaker {
       if (mean_around(i, joined, [&](std::size_t k) { return aspect(k); }) < kSquareAspect) next_.joined[i] = 0;
   }
 
+  /// Where what is beside the ends of a row is near: a narrower gap has room for no triangles.
+  void end_beside() {
+    if (line_.is_closed) return;
+    for (const auto& [first, last] : find_runs()) {
+      std::size_t from = first, to = last;
+      while (from < to && is_hemmed(from, from + 1)) next_.joined[from++] = 0;
+      while (from < to && is_hemmed(to, to - 1)) next_.joined[--to] = 0;
+    }
+  }
+  bool is_hemmed(std::size_t end, std::size_t inner) const {
+    const NextLine::Column &c = next_.columns[end], &d = next_.columns[inner];
+    if (c.existing != kNone || across_node_[end] != kNone) return false;
+    return !is_free(w_.mesh.seen_from(line_.nodes[end], c.node.p + kFreeAside * (c.node.p - d.node.p)));
+  }
+
   /// Of a value of a quadrilateral and its neighbours that are joined.
   template <typename ValueOf>
   double mean_around(std::size_t i, const std::vector<char>& joined, const ValueOf& value_of) const {
@@ -353,25 +367,6 @@ class LineMaker {
 };
 
 }  // namespace
-
-bool is_upright(const MeshNode& a, const MeshNode& b, const MeshNode& c, const MeshNode& d) {
-  const MeshNode* corner[4] = {&a, &b, &c, &d};
-  for (int k = 0; k < 4; ++k) {
-    const MeshNode &here = *corner[k], &next = *corner[(k + 1) % 4], &last = *corner[(k + 3) % 4];
-    if (orient2d(here.p, next.p, last.p) <= 0) return false;
-    const double angle = degrees(turning(next.x - here.x, last.x - here.x, here.normal));
-    if (!(angle > kLeastAngle && angle < kMostAngle)) return false;
-  }
-  return true;
-}
-
-bool is_oblique(const SizeField& field, const LocalSize& local, Vec3 along, Vec3 up) {
-  if (!field.has_metrics()) return false;
-  const Vec3 squeeze = local.squeeze();
-  const auto product = [&](Vec3 a, Vec3 b) { return dot(a, b) - dot(squeeze, a) * dot(squeeze, b); };
-  const double cosine2 = product(along, up) * product(along, up) / (product(along, along) * product(up, up));
-  return cosine2 > kMostOblique * kMostOblique;
-}
 
 bool step_on_surface(const FaceWork& work, const MeshNode& a, Vec3 d, double length, MeshNode& p) {
   const auto first = tangent_step(a.du, a.dv, length * d);

@@ -46,13 +46,6 @@ struct NextLine {
 /// rows away, whole rows lead to it.
 NextLine next_line(FaceWork& work, const RowLine& line, const RowSides& sides);
 
-/// Is a quadrilateral, counter-clockwise, convex in the plane and near to a rectangle in space?
-bool is_upright(const MeshNode& a, const MeshNode& b, const MeshNode& c, const MeshNode& d);
-
-/// Whether rows along one of these directions, and up the other, are so oblique to metrics in space that their
-/// triangles are flat; false where the field has none. `local`: the sizes there.
-bool is_oblique(const SizeField& field, const LocalSize& local, Vec3 along, Vec3 up);
-
 /// The point at a distance from `a` along the unit vector `d` of its tangent plane; false where the surface turns away.
 bool step_on_surface(const FaceWork& work, const MeshNode& a, Vec3 d, double length, MeshNode& p);
 

@@ -104,7 +104,7 @@ TEST(RowBlocks, end_one_by_one_at_nodes_across_in_a_wedge) {
   const WallField field(0.1, 0, 1);
   std::vector<Vec2> loop{{-1, 0.1}};
   for (int i = 0; i <= 20; ++i) loop.push_back({static_cast<double>(i), 0});
-  loop.push_back({21, 0.3});
+  loop.push_back({23, 0.3});
   for (int i = 20; i >= 0; --i) loop.push_back({static_cast<double>(i), 0.2 + 0.02 * i});
   RowCase face({loop}, field);
   lay_row_blocks(face.work);

@@ -54,6 +54,19 @@ TEST(NextLine, comes_off_a_side_whose_segment_is_much_longer) {
   EXPECT_TRUE(next.joined[1]);
 }
 
+TEST(NextLine, ends_before_what_is_beside_it_nearer_than_most_of_a_length) {
+  const WallField field(0.1, 0, 1);
+  for (const auto& [left, is_room] : {std::pair{8.6, false}, {8.8, true}}) {  // of the hole; the row ends at x = 8
+    RowCase face({band(10, 10, {5}, {5}), {{left, 0.05}, {left, 0.5}, {9.6, 0.5}, {9.6, 0.05}}}, field);
+    RowLine line = line_of(11);
+    std::fill_n(line.joined.begin() + 8, 2, 0);
+    const NextLine next = next_line(face.work, line, {});
+    EXPECT_EQ(next.joined[7] != 0, is_room) << left;
+    EXPECT_TRUE(next.joined[6]);
+    EXPECT_FALSE(next.joined[0]) << "beside the side";
+  }
+}
+
 TEST(NextLine, leaves_out_columns_in_front_of_something) {
   const WallField field(0.1, 0, 1);
   RowCase face({band(20, 10, {5}, {5}), {{2.4, 0.12}, {2.4, 0.5}, {2.6, 0.5}, {2.6, 0.12}}}, field);
@@ -152,19 +165,6 @@ TEST(StepOnSurface, has_its_length_and_direction_on_a_curved_surface) {
   ASSERT_TRUE(step_on_surface(work, a, d, 0.5, p));
   EXPECT_NEAR(distance(a.x, p.x), 0.5, 0.006);
   EXPECT_NEAR(dot(p.x - a.x, cross(a.normal, d)), 0, 0.006);
-}
-
-TEST(IsUpright, refuses_folded_and_slanted_quadrilaterals) {
-  const auto at = [](double x, double y) {
-    MeshNode n;
-    n.p = {x, y};
-    n.x = {x, y, 0};
-    n.normal = {0, 0, 1};
-    return n;
-  };
-  EXPECT_TRUE(is_upright(at(0, 0), at(3, 0), at(3, 1), at(0, 1)));
-  EXPECT_FALSE(is_upright(at(0, 0), at(3, 0), at(5, 1), at(2, 1)));
-  EXPECT_FALSE(is_upright(at(0, 0), at(3, 0), at(0, 1), at(3, 1)));
 }
 
 }  // namespace
