@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "geometry/flite/flite_file.h"
 #include "geometry/flite/flite_reader.h"
+#include "geometry/import/file_numbers.h"
 #include "geometry/import/reader_module.h"
 
 namespace st::occt {
@@ -152,6 +153,7 @@ CadFile read_cad(const std::string& path) {
   Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   try {
     if (format == "FLITE") return read_flite_shape(path);
+    require_sound_numbers(path, format);
     return format == "STEP"   ? read_step(path)
            : format == "IGES" ? read_by_module("iges_document", path)
                               : read_brep(path);

@@ -1,0 +1,100 @@
+#include "geometry/import/file_numbers.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <fstream>
+
+#include "base/error.h"
+
+namespace st::occt {
+namespace {
+
+constexpr int kLargestExponent = 200;  // squares of lengths overflow beyond 154; OpenCASCADE writes 2e100
+
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Without its sign: "nan", "inf", "infinity", whatever the case.
+bool is_word_of_no_number(std::string_view word) {
+  if (word.empty() || (word[0] | 0x20) < 'i' || word.size() > 8) return false;
+  std::string small(word);
+  std::transform(small.begin(), small.end(), small.begin(), [](unsigned char c) { return std::tolower(c); });
+  return small == "nan" || small == "inf" || small == "infinity";
+}
+
+bool is_sound(std::string_view word) {
+  if (word[0] == '-' || word[0] == '+') word.remove_prefix(1);
+  if (word.empty() || (!is_digit(word[0]) && word[0] != '.')) return !is_word_of_no_number(word);
+  std::size_t at = word.find_first_not_of("0123456789.");
+  if (at == std::string_view::npos) return true;
+  if (word[at] == '#') return false;                                                   // 1.#INF of an old C library
+  if (std::string_view("eEdD").find(word[at]) == std::string_view::npos) return true;  // the text 5HABCDE of IGES
+  if (++at < word.size() && word[at] == '+') ++at;
+  int exponent = 0;
+  const auto [end, error] = std::from_chars(word.data() + at, word.data() + word.size(), exponent);
+  return error == std::errc() ? exponent < kLargestExponent : end == word.data() + at || word[at] == '-';
+}
+
+class NumberScan {
+ public:
+  NumberScan(std::string_view text, const std::string& format, const std::string& path)
+      : text_(text), path_(path), is_step_(format == "STEP"), is_iges_(format == "IGES") {}
+
+  void run() const {
+    if (!is_iges_) return scan(0, text_.size());
+    constexpr std::size_t kSection = 72, kEndOfData = 64;  // columns
+    for (std::size_t begin = 0, end = 0; begin < text_.size(); begin = end + 1) {
+      end = std::min(text_.find('\n', begin), text_.size());
+      if (end > begin + kSection && text_[begin + kSection] == 'P') scan(begin, begin + kEndOfData);
+    }
+  }
+
+ private:
+  bool ends_word(char c) const {
+    return c == ',' || c == ';' || (!is_iges_ && (c == ' ' || (c >= '\t' && c <= '\r') || c == '(' || c == ')'));
+  }
+
+  /// A number in the parentheses behind the name of its type.
+  bool is_typed(std::size_t at) const {
+    return is_step_ && at > 1 && text_[at - 1] == '(' && (std::isalnum(static_cast<unsigned char>(text_[at - 2])) != 0);
+  }
+
+  void scan(std::size_t at, std::size_t end) const {
+    while (at < end) {
+      if (ends_word(text_[at])) {
+        ++at;
+        continue;
+      }
+      const std::size_t begin = at;
+      while (at < end && !ends_word(text_[at])) {
+        if (is_step_ && text_[at] == '\'') at = std::min(text_.find('\'', at + 1), end - 1);  // a name
+        ++at;
+      }
+      if (!is_sound(text_.substr(begin, at - begin)) && !is_typed(begin)) fail(begin, at);
+    }
+  }
+
+  [[noreturn]] void fail(std::size_t begin, std::size_t end) const {
+    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+    throw Error(ExitCode::kGeometry, path_ + ": line " + std::to_string(line) + " has the number " +
+                                         std::string(text_.substr(begin, end - begin)) +
+                                         "; the file is damaged: export it again from the CAD system");
+  }
+
+  std::string_view text_;
+  const std::string& path_;
+  bool is_step_, is_iges_;
+};
+
+}  // namespace
+
+void require_sound_numbers(const std::string& path, const std::string& format) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
+  std::string text(static_cast<std::size_t>(std::max<std::streamoff>(0, in.tellg())), '\0');
+  in.seekg(0);
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  const bool is_binary = text.find("Open CASCADE Topology V") < 64;
+  if (!is_binary) NumberScan(text, format, path).run();
+}
+
+}  // namespace st::occt
