@@ -6,8 +6,10 @@
 #include <array>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "base/boxes.h"
+#include "base/disjoint_sets.h"
 #include "base/error.h"
 #include "base/lists_by_key.h"
 #include "geometry/facet/facet_flaps.h"
@@ -62,7 +64,11 @@ class FacetRepair {
 
   std::vector<ImportFinding> run() {
     drop_duplicates();
-    if (join_free_nodes()) drop_duplicates();
+    const bool were_apart = are_parts_apart();
+    if (join_free_nodes()) {
+      drop_duplicates();
+      if (were_apart) unite_parts();
+    }
     if (has_free_sides_) divide_at_nodes();
     join_short_sides();
     drop_unused_nodes();
@@ -142,6 +148,28 @@ class FacetRepair {
     for (Corners& c : in_.corners)
       for (std::int32_t& n : c) n = one[n];
     return true;
+  }
+
+  /// Connected parts of a file that tells no solids.
+  bool are_parts_apart() const {
+    std::vector<std::int32_t> part(in_.x.size(), kNone);
+    for (std::size_t t = 0; t < in_.corners.size(); ++t)
+      for (const std::int32_t n : in_.corners[t])
+        if (const std::int32_t before = std::exchange(part[n], in_.part[t]); before != kNone && before != in_.part[t])
+          return false;
+    return true;
+  }
+
+  /// Parts without a name that hang together now: gaps alone divided them.
+  void unite_parts() {
+    DisjointSets sets(static_cast<std::int64_t>(in_.part_name.size()));
+    const auto is_named = [&](std::int32_t part) { return !in_.part_name[part].empty(); };
+    for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](const FacetSide* s, std::size_t n) {
+      const std::int32_t a = in_.part[s[0].triangle], b = in_.part[s[n - 1].triangle];
+      if (a != b && !is_named(a) && !is_named(b)) sets.join(a, b);
+    });
+    if (!in_.part_name.empty())
+      for (std::int32_t& part : in_.part) part = sets.find(part);
   }
 
   /// Where facets end on a side of another one.

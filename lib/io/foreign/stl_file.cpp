@@ -83,18 +83,27 @@ StlContent text_content(const std::string& path, const std::string& bytes) {
   };
   if (!is_word(word(), "solid")) fail(path, "neither binary nor ASCII");
   content.solid_name.push_back(name());
+  bool is_ended = false;
   for (std::string_view w = word(); !w.empty(); w = word()) {
     if (is_word(w, "vertex")) {
+      is_ended = false;
       const double x = number(), y = number(), z = number();
       content.corners.push_back({x, y, z});
     } else if (is_word(w, "endsolid")) {
+      is_ended = true;
       name();
     } else if (is_word(w, "solid")) {
+      is_ended = false;
       content.solid_end.push_back(content.corners.size());
       content.solid_name.push_back(name());
     }
   }
   content.solid_end.push_back(content.corners.size());
+  if (!is_ended) {
+    const std::string& last = content.solid_name.back();
+    throw Error(ExitCode::kInput, path + ": cut off: the last solid" + (last.empty() ? "" : " '" + last + "'") +
+                                      " of the ASCII STL file has no endsolid; write it again");
+  }
   return content;
 }
 

@@ -103,12 +103,6 @@ void fail_if_cut_stl(const std::string& path, std::string_view head, std::uint64
                    std::to_string(file_size) + "; write it again");
 }
 
-void require_whole_text_stl(const std::string& path) {
-  const std::string bytes = read_bytes(path);
-  if (bytes.rfind("endsolid") == std::string::npos && bytes.rfind("ENDSOLID") == std::string::npos)
-    fail(path, "cut off: the ASCII STL file has no endsolid; write it again");
-}
-
 /// Faces: the file's surfaces in the order of their numbers, or connected parts.
 void number_faces(const TriangulationFile& file, const std::vector<std::size_t>& kept, SurfaceMesh& mesh) {
   std::int32_t n_faces = 0;
@@ -224,9 +218,7 @@ SurfaceMesh read_triangulation(const std::string& path) {
         fail_if_cut_stl(path, head, size);
         fail_if_unlike_its_count(path, head, size);
       }
-      SurfaceMesh mesh = read_stl(path);
-      if (size != whole_stl_size(head)) require_whole_text_stl(path);
-      return mesh;
+      return read_stl(path);
     }
     case Format::kNone:
       break;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "unit/geometry/facet_inputs.h"
 #include "unit/io/temporary_directory.h"
@@ -32,6 +33,43 @@ TEST(FacetRepair, leaves_alone_what_is_sound) {
   const auto corners = in.corners;
   EXPECT_TRUE(repair_facets(in).empty());
   EXPECT_EQ(in.corners, corners);
+}
+
+/// The sphere as facets with nodes of their own, each off by some 1e-7 and a part of its own, as readers number them.
+FacetInput loose_facets() {
+  const FacetInput whole = test::sphere_facets(12);
+  FacetInput loose;
+  for (const Corners& c : whole.corners) {
+    const auto first = static_cast<std::int32_t>(loose.x.size());
+    for (std::int32_t k = 0; k < 3; ++k)
+      loose.x.push_back(whole.x[c[k]] + 1e-7 * Vec3{std::sin(first + k), std::cos(first + k), 0});
+    loose.part.push_back(static_cast<std::int32_t>(loose.corners.size()));
+    loose.corners.push_back({first, first + 1, first + 2});
+  }
+  loose.part_name.resize(loose.corners.size());
+  return loose;
+}
+
+TEST(FacetRepair, makes_one_part_of_parts_that_gaps_alone_divided) {
+  FacetInput in = loose_facets();
+  EXPECT_TRUE(has_kind(repair_facets(in), FindingKind::kJoinedNodes));
+  EXPECT_EQ(in.x.size(), test::sphere_facets(12).x.size());
+  EXPECT_EQ(in.part, std::vector<std::int32_t>(in.corners.size(), 0));
+  FacetInput named = loose_facets();
+  named.part_name[5] = "hatch";
+  repair_facets(named);
+  EXPECT_EQ(std::ranges::count(named.part, 5), 1);
+  EXPECT_EQ(std::ranges::count(named.part, 0), static_cast<std::ptrdiff_t>(named.corners.size()) - 1);
+}
+
+TEST(FacetRepair, leaves_solids_that_share_nodes_in_the_file_apart) {
+  FacetInput in = loose_facets();
+  in.corners.push_back(in.corners[0]);
+  in.corners.back()[2] = static_cast<std::int32_t>(in.x.size());
+  in.x.push_back({0, 0, 5});
+  in.part.push_back(1);
+  repair_facets(in);
+  EXPECT_GT(std::ranges::count_if(in.part, [](std::int32_t part) { return part > 1; }), 0);
 }
 
 TEST(FacetRepair, turns_facets_as_most_of_their_neighbours_are) {

@@ -113,5 +113,14 @@ TEST(StlFile, says_what_is_wrong) {
   expect_refused(binary(kTwo).substr(0, 150), "neither binary nor ASCII");
 }
 
+TEST(StlFile, refuses_text_that_is_cut_off_in_any_solid) {
+  const std::string facet =
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n";
+  expect_refused("solid a\n" + facet, "cut off: the last solid 'a' of the ASCII STL file has no endsolid");
+  expect_refused("solid a\n" + facet + "endsolid a\nsolid b\n" + facet, "cut off: the last solid 'b'");
+  expect_refused("solid a\n" + facet + "endsolid a\nsolid\n" + facet + "facet norm", "cut off: the last solid of");
+  EXPECT_EQ(read("solid a\n" + facet + "endsolid a\nsolid vertex\n" + facet + "endsolid vertex\n").n_triangles(), 2);
+}
+
 }  // namespace
 }  // namespace st
