@@ -1,5 +1,6 @@
 #include "meshing/face/triangle_places.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -11,19 +12,23 @@ namespace {
 
 /// Empty where the triangles are no disc.
 std::vector<NodeId> loop_around(std::span<const Triangle> triangles, const std::vector<std::size_t>& place) {
-  std::map<std::pair<NodeId, NodeId>, int> sides;
+  using Side = std::pair<NodeId, NodeId>;
+  std::vector<Side> sides, next;  // ascending; next: of the rim
   for (const std::size_t t : place)
-    for (int k = 0; k < 3; ++k) ++sides[{triangles[t].n[k], triangles[t].n[(k + 1) % 3]}];
-  std::map<NodeId, NodeId> next;
-  for (const auto& [side, count] : sides) {
-    if (sides.contains({side.second, side.first})) continue;
-    if (count > 1 || !next.emplace(side).second) return {};
+    for (int k = 0; k < 3; ++k) sides.push_back({triangles[t].n[k], triangles[t].n[(k + 1) % 3]});
+  std::ranges::sort(sides);
+  for (const Side& side : sides) {
+    if (std::ranges::binary_search(sides, Side{side.second, side.first})) continue;
+    if (!next.empty() && next.back().first == side.first) return {};
+    next.push_back(side);
   }
   std::vector<NodeId> loop;
   if (next.empty()) return loop;
-  for (NodeId n = next.begin()->first; loop.empty() || n != loop.front(); n = next.at(n)) {
-    loop.push_back(n);
-    if (!next.contains(next.at(n)) || loop.size() > next.size()) return {};
+  for (auto at = next.begin(); loop.empty() || at->first != loop.front();) {
+    loop.push_back(at->first);
+    const NodeId to = at->second;
+    at = std::ranges::lower_bound(next, to, {}, &Side::first);
+    if (at == next.end() || at->first != to || loop.size() > next.size()) return {};
   }
   return loop.size() == next.size() ? loop : std::vector<NodeId>();
 }
