@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "base/eigen.h"
@@ -50,7 +52,11 @@ struct Seed {
   std::size_t number;
 };
 
-/// A part of a surface by its places about an axis.
+struct HashOfPlace {
+  std::size_t operator()(Vec2 p) const { return 31 * std::hash<double>()(p.x) + std::hash<double>()(p.y); }
+};
+
+/// A part of a surface by its places about an axis. For one thread.
 class SeenSurface final : public Surface {
  public:
   /// `nodes`: what searches begin at; some.
@@ -72,8 +78,32 @@ class SeenSurface final : public Surface {
     SurfacePoint p;  // there
   };
 
-  /// Of the point at a place; nullopt: not found.
-  std::optional<Foot> foot(Vec2 st) const {
+  /// Of the point at a place; nullopt: not found. Each place is looked for once: meshes with other lengths ask again.
+  const std::optional<Foot>& foot(Vec2 st) const {
+    const auto [it, is_new] = feet_.try_emplace(st);
+    if (is_new) it->second = find_foot(st);
+    return it->second;
+  }
+
+  Vec3 point(Vec2 st) const override { return evaluate(st).x; }
+  /// A cylinder about the axis where there is no point.
+  SurfacePoint evaluate(Vec2 st) const override {
+    if (const auto& found = foot(st)) {
+      const SurfacePoint& p = found->p;
+      const Eigen::Matrix2d m = change_of(p), way = adjugate(m) / m.determinant();
+      return {p.x, way(0, 0) * p.du + way(1, 0) * p.dv, way(0, 1) * p.du + way(1, 1) * p.dv};
+    }
+    const double angle = axis_.sign * st.y / axis_.radius;
+    const Vec3 aside = cross(axis_.up, axis_.along), out = std::cos(angle) * axis_.up + std::sin(angle) * aside;
+    return {axis_.origin + st.x * axis_.along + axis_.radius * out, axis_.along, axis_.sign * cross(out, axis_.along)};
+  }
+  SurfacePoint2 evaluate2(Vec2 st) const override {
+    const SurfacePoint p = evaluate(st);
+    return {p.x, p.du, p.dv, {}, {}, {}};
+  }
+
+ private:
+  std::optional<Foot> find_foot(Vec2 st) const {
     Vec2 uv = nearest_seed(st).uv;
     SurfacePoint p = surface_.evaluate(uv);
     Vec2 miss = st - axis_.place_of(p.x);
@@ -95,25 +125,6 @@ class SeenSurface final : public Surface {
     if (norm(miss) > enough) return std::nullopt;
     return Foot{uv, p};
   }
-
-  Vec3 point(Vec2 st) const override { return evaluate(st).x; }
-  /// A cylinder about the axis where there is no point.
-  SurfacePoint evaluate(Vec2 st) const override {
-    if (const auto found = foot(st)) {
-      const SurfacePoint& p = found->p;
-      const Eigen::Matrix2d m = change_of(p), way = adjugate(m) / m.determinant();
-      return {p.x, way(0, 0) * p.du + way(1, 0) * p.dv, way(0, 1) * p.du + way(1, 1) * p.dv};
-    }
-    const double angle = axis_.sign * st.y / axis_.radius;
-    const Vec3 aside = cross(axis_.up, axis_.along), out = std::cos(angle) * axis_.up + std::sin(angle) * aside;
-    return {axis_.origin + st.x * axis_.along + axis_.radius * out, axis_.along, axis_.sign * cross(out, axis_.along)};
-  }
-  SurfacePoint2 evaluate2(Vec2 st) const override {
-    const SurfacePoint p = evaluate(st);
-    return {p.x, p.du, p.dv, {}, {}, {}};
-  }
-
- private:
   /// The first of the nearest ones: distances count, not their squares. Looks at seeds outward along s, while these may
   /// be as near by that alone.
   const Seed& nearest_seed(Vec2 st) const {
@@ -153,7 +164,8 @@ class SeenSurface final : public Surface {
 
   const Surface& surface_;
   const Axis axis_;
-  std::vector<Seed> seeds_;  // ascending in s
+  std::vector<Seed> seeds_;                                                  // ascending in s
+  mutable std::unordered_map<Vec2, std::optional<Foot>, HashOfPlace> feet_;  // by place
 };
 
 /// The axis that points with these normals are seen from best; nullopt: none sees them all.
@@ -315,7 +327,7 @@ class FoldRepair {
 
   static bool find_feet(const SeenSurface& seen, FaceMesh& mesh) {
     for (FaceNode& n : mesh.inner) {
-      const auto foot = seen.foot(n.uv);
+      const auto& foot = seen.foot(n.uv);
       if (!foot) return false;
       n.uv = foot->uv;
     }
