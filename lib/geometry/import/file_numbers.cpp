@@ -35,6 +35,15 @@ bool is_sound(std::string_view word) {
   return error == std::errc() ? exponent < kLargestExponent : end == word.data() + at || word[at] == '-';
 }
 
+/// "1.5e-05" or "2E3": OpenCASCADE takes it for 1.5, and loses the entity, or the digits behind the E. STEP has a point
+/// and a capital E.
+bool has_foreign_exponent(std::string_view word) {
+  const std::size_t at = word.find_first_not_of("+-.0123456789");
+  if (at == std::string_view::npos || at == 0 || at + 1 == word.size()) return false;
+  if (word.find_first_not_of("+-0123456789", at + 1) != std::string_view::npos) return false;
+  return word[at] == 'e' || (word[at] == 'E' && word.find('.') == std::string_view::npos);
+}
+
 class NumberScan {
  public:
   NumberScan(std::string_view text, const std::string& format, const std::string& path)
@@ -70,15 +79,19 @@ class NumberScan {
         if (is_step_ && text_[at] == '\'') at = std::min(text_.find('\'', at + 1), end - 1);  // a name
         ++at;
       }
-      if (!is_sound(text_.substr(begin, at - begin)) && !is_typed(begin)) fail(begin, at);
+      const std::string_view word = text_.substr(begin, at - begin);
+      if (!is_sound(word) && !is_typed(begin))
+        fail(begin, word, "; the file is damaged: export it again from the CAD system");
+      if (is_step_ && !is_typed(begin) && has_foreign_exponent(word))
+        fail(begin, word,
+             ", which OpenCASCADE reads wrong: STEP has a point and a capital E, as in 1.5E-05; export it again");
     }
   }
 
-  [[noreturn]] void fail(std::size_t begin, std::size_t end) const {
-    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-    throw Error(ExitCode::kGeometry, path_ + ": line " + std::to_string(line) + " has the number " +
-                                         std::string(text_.substr(begin, end - begin)) +
-                                         "; the file is damaged: export it again from the CAD system");
+  [[noreturn]] void fail(std::size_t at, std::string_view word, const char* why) const {
+    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    throw Error(ExitCode::kGeometry,
+                path_ + ": line " + std::to_string(line) + " has the number " + std::string(word) + why);
   }
 
   std::string_view text_;

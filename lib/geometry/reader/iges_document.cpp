@@ -1,5 +1,6 @@
 // Module: IGES files.
 #include <IGESBasic_Name.hxx>
+#include <IGESBasic_SingularSubfigure.hxx>
 #include <IGESCAFControl_Reader.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESData_GlobalSection.hxx>
@@ -11,6 +12,7 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -51,6 +53,16 @@ void name_by_iges_property(const Handle(XSControl_WorkSession) & session, TextEn
   for (std::size_t p = 0; p < paths.size(); ++p) file.parts[p].path = file.parts[p].name.empty() ? "" : paths[p];
 }
 
+/// OpenCASCADE leaves out what is placed with a scale. Throws Error(kGeometry) where a file does so.
+void refuse_scaled_instances(const Handle(Interface_InterfaceModel) & model, const std::string& path) {
+  constexpr double kSame = 1e-9;
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const auto instance = Handle(IGESBasic_SingularSubfigure)::DownCast(model->Value(i));
+    if (!instance.IsNull() && instance->HasScaleFactor() && std::abs(instance->ScaleFactor() - 1) > kSame)
+      fail_at_scale(path, instance->ScaleFactor());
+  }
+}
+
 }  // namespace
 
 extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
@@ -68,6 +80,7 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   file.unit_in_mm = model->GlobalSection().UnitValue();
   file.resolution_mm = model->GlobalSection().Resolution() * model->GlobalSection().UnitValue();
   if (!(*file.unit_in_mm > 0)) file.unit_in_mm = 1.0;
+  refuse_scaled_instances(model, path);
   if (!reader.Transfer(document))
     throw Error(ExitCode::kInput, path + ": no shape could be made of the IGES file; export the model again");
   file.parts = document_parts(document);

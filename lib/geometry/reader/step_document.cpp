@@ -65,7 +65,9 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   read_step_units(reader.Reader().WS()->Model(), file);
   keep_names_beyond_ascii(reader.Reader().WS()->Model());
   if (!reader.Transfer(document))
-    throw Error(ExitCode::kInput, path + ": no shape could be made of the STEP file; export the model again");
+    throw Error(
+        ExitCode::kInput,
+        path + ": no shape could be made of the STEP file; export surfaces or solids, not tessellated faces alone");
   refuse_scaled_parts(reader.Reader().WS(), path);
   file.missing_files = missing_files(reader);
   file.parts = document_parts(document);

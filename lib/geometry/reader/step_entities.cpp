@@ -126,6 +126,13 @@ void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel) & model) {
       product->SetId(product->Name());
 }
 
+void fail_at_scale(const std::string& path, double scale) {
+  std::ostringstream what;
+  what << path << ": a part is placed with the scale " << scale
+       << ", which OpenCASCADE leaves out; export it in its true size";
+  throw Error(ExitCode::kGeometry, what.str());
+}
+
 void refuse_scaled_parts(const Handle(XSControl_WorkSession) & session, const std::string& path) {
   constexpr double kSame = 1e-9;
   for (int i = 1; i <= session->Model()->NbEntities(); ++i) {
@@ -135,10 +142,7 @@ void refuse_scaled_parts(const Handle(XSControl_WorkSession) & session, const st
     if (place.IsNull() || !place->HasScale() || std::abs(place->Scale() - 1) <= kSame) continue;
     const TopoDS_Shape shape = TransferBRep::ShapeResult(session->TransferReader()->TransientProcess(), item);
     if (!TopExp_Explorer(shape, TopAbs_FACE).More()) continue;
-    std::ostringstream what;
-    what << path << ": a part is placed with the scale " << place->Scale()
-         << ", which OpenCASCADE leaves out; export it in its true size";
-    throw Error(ExitCode::kGeometry, what.str());
+    fail_at_scale(path, place->Scale());
   }
 }
 

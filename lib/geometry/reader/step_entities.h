@@ -38,6 +38,9 @@ void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& fi
 /// XCAF takes a product's id where the name has no ASCII letter: the id becomes the name.
 void keep_names_beyond_ascii(const Handle(Interface_InterfaceModel) & model);
 
+/// Throws the Error(kGeometry) of a part that is placed with a scale.
+[[noreturn]] void fail_at_scale(const std::string& path, double scale);
+
 /// OpenCASCADE places a part that is mapped with a scale in its own size. Throws Error(kGeometry) where one has faces.
 void refuse_scaled_parts(const Handle(XSControl_WorkSession) & session, const std::string& path);
 

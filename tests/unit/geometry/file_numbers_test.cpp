@@ -47,6 +47,15 @@ TEST(FileNumbers, takes_small_numbers_infinity_of_opencascade_and_names) {
   EXPECT_NO_THROW(require("", "STEP"));
 }
 
+TEST(FileNumbers, refuses_exponents_that_step_does_not_have) {
+  for (const char* number : {"1.5e-05", "-1e5", "2E3", "+.5e+1"})
+    EXPECT_ERROR(require("#2=CARTESIAN_POINT('',(0.," + std::string(number) + ",1.));", "STEP"), kGeometry,
+                 std::string("the number ") + number + ", which OpenCASCADE reads wrong");
+  EXPECT_NO_THROW(require("#2=CARTESIAN_POINT('1e5',(0.,1.5E-05,-.5E+1)); #3=X(.E.,3,'2E3',\"1E3\");", "STEP"));
+  EXPECT_NO_THROW(require("2 0 0 1.5e-05 2E3\n", "BREP"));
+  EXPECT_NO_THROW(require(parameters("116,0.,1e5,2E3;"), "IGES"));
+}
+
 TEST(FileNumbers, stop_the_reading_of_a_file) {
   const TemporaryDirectory dir;
   test::write_step("box", dir / "box.step", "MM");
