@@ -64,11 +64,9 @@ class FacetRepair {
 
   std::vector<ImportFinding> run() {
     drop_duplicates();
-    const bool were_apart = are_parts_apart();
-    if (join_free_nodes()) {
-      drop_duplicates();
-      if (were_apart) unite_parts();
-    }
+    const bool were_apart = are_parts_apart(), has_joined = join_free_nodes();
+    if (has_joined) drop_duplicates();
+    if (has_joined && were_apart) unite_parts();
     if (has_free_sides_) divide_at_nodes();
     join_short_sides();
     drop_unused_nodes();
@@ -163,13 +161,12 @@ class FacetRepair {
   /// Parts without a name that hang together now: gaps alone divided them.
   void unite_parts() {
     DisjointSets sets(static_cast<std::int64_t>(in_.part_name.size()));
-    const auto is_named = [&](std::int32_t part) { return !in_.part_name[part].empty(); };
     for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](const FacetSide* s, std::size_t n) {
       const std::int32_t a = in_.part[s[0].triangle], b = in_.part[s[n - 1].triangle];
-      if (a != b && !is_named(a) && !is_named(b)) sets.join(a, b);
+      if (a != b && in_.part_name[a].empty() && in_.part_name[b].empty()) sets.join(a, b);
     });
-    if (!in_.part_name.empty())
-      for (std::int32_t& part : in_.part) part = sets.find(part);
+    if (in_.part_name.empty()) return;
+    for (std::int32_t& part : in_.part) part = sets.find(part);
   }
 
   /// Where facets end on a side of another one.
