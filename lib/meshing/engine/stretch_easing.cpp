@@ -116,12 +116,17 @@ std::vector<Refinement> StretchEasing::shorten(const Places& places, Shortens sh
   return {all.begin() + static_cast<std::ptrdiff_t>(n_before), all.end()};
 }
 
-/// Of what is stretched. Steps are single triangles, whatever is eased elsewhere.
+/// Of what is stretched.
 std::vector<Refinement> StretchEasing::shorten_along() {
-  std::vector<Refinement> all = shorten(flaws_.stretched, flaws_.is_wide() ? Shortens::kAlong : Shortens::kAlongNearby);
-  const std::vector<Refinement> of_steps =
-      shorten(flaws_.eases_steps() ? flaws_.steps : Places(), Shortens::kAlongNearby);
-  all.insert(all.end(), of_steps.begin(), of_steps.end());
+  Places wide, nearby;
+  (flaws_.is_wide() ? wide : nearby) = flaws_.stretched;
+  if (flaws_.eases_steps()) {
+    for (const RefinementPoint& step : flaws_.steps)
+      flaws_.is_beside_unheld(step) ? wide.push_back(further(step)) : nearby.push_back(step);
+  }
+  std::vector<Refinement> all = shorten(wide, Shortens::kAlong);
+  const std::vector<Refinement> others = shorten(nearby, Shortens::kAlongNearby);
+  all.insert(all.end(), others.begin(), others.end());
   return all;
 }
 

@@ -20,7 +20,7 @@ constexpr double kAlike = 1.05;         // along over across: less is about the 
 constexpr double kAround = 0.25;        // of the longest side, or the length along: so far about an angle, in no more
                                         // columns than must be
 constexpr double kFarGrowth = 2.5;      // larger steps of size are eased
-constexpr double kFurther = 3;          // times as far: what is not held
+constexpr double kFurther = 3;          // times as far: what is not held, and steps beside it
 const double kMostCosine = std::cos(kMostAngle), kFarCosine = std::cos(kFarAngle);
 
 class FlawFinder {
@@ -131,6 +131,18 @@ void StretchFlaws::add_unheld(RefinementPoint place, const LocalSize& present) {
   place.length = std::max(present.length, kShorter * present.along);
   place.radius = std::max(place.radius, (is_wide() ? kFurther : 1) * kAround * present.along);
   stretched.push_back(place);
+}
+
+RefinementPoint further(RefinementPoint step) {
+  step.radius *= kFurther;
+  return step;
+}
+
+bool StretchFlaws::is_beside_unheld(const RefinementPoint& step) const {
+  const double reach = further(step).radius;
+  return is_wide() && std::ranges::any_of(stretched, [&](const RefinementPoint& place) {
+           return distance(place.x, step.x) < reach + place.radius;
+         });
 }
 
 }  // namespace st

@@ -39,7 +39,12 @@ struct StretchFlaws {
   bool eases_steps() const { return n_far == 0 || stretched.empty(); }
   /// Is `stretched` eased further around? Where lengths are not held, and nothing else is the cause.
   bool is_wide() const { return n_far == 0 && n_unheld > 0; }
+  /// Is a step that is eased further around beside such a place, so that both may have one cause?
+  bool is_beside_unheld(const RefinementPoint& step) const;
 };
+
+/// Of a step: eased further around.
+RefinementPoint further(RefinementPoint step);
 
 /// `present`: the lengths that the triangles were made for. `n_tries`: made before. Local, linear.
 StretchFlaws find_stretch_flaws(std::span<const Vec3> points, std::span<const Triangle> triangles,

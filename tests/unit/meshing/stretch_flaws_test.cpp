@@ -97,6 +97,19 @@ TEST(StretchFlaws, take_stretch_from_unheld_places_bit_by_bit) {
   EXPECT_NEAR(beside_others.stretched.at(0).radius, 0.25 * 4, 1e-12) << "while angles are above 150 degrees";
 }
 
+TEST(StretchFlaws, steps_beside_what_is_not_held_are_eased_further_around) {
+  StretchFlaws flaws;
+  const RefinementPoint beside{.x = {3.9, 0, 0}, .length = 1, .radius = 1}, apart{.x = {4.1, 0, 0}, .radius = 1};
+  EXPECT_NEAR(further(beside).radius, 3, 1e-12);
+  flaws.stretched.push_back({.x = {0, 0, 0}, .length = 1, .radius = 1});
+  EXPECT_FALSE(flaws.is_beside_unheld(beside)) << "all is held";
+  flaws.n_unheld = 1;
+  EXPECT_TRUE(flaws.is_beside_unheld(beside));
+  EXPECT_FALSE(flaws.is_beside_unheld(apart));
+  flaws.n_far = 1;
+  EXPECT_FALSE(flaws.is_beside_unheld(beside)) << "while angles are above 150 degrees";
+}
+
 TEST(StretchFlaws, above_150_degrees_are_counted_among_the_obtuse) {
   const test::StretchedField field({0.1, 4, {1, 0, 0}});
   const std::vector<Vec3> points{{0, 0, 0}, {2, 0, 0}, {1, 0.2, 0}, {0, 9, 0}, {2, 9, 0}, {1, 9 + kSlope140, 0}};
