@@ -80,9 +80,9 @@ class NumberScan {
         ++at;
       }
       const std::string_view word = text_.substr(begin, at - begin);
-      if (!is_sound(word) && !is_typed(begin))
-        fail(begin, word, "; the file is damaged: export it again from the CAD system");
-      if (is_step_ && !is_typed(begin) && has_foreign_exponent(word))
+      if (is_typed(begin)) continue;
+      if (!is_sound(word)) fail(begin, word, "; the file is damaged: export it again from the CAD system");
+      if (is_step_ && has_foreign_exponent(word))
         fail(begin, word,
              ", which OpenCASCADE reads wrong: STEP has a point and a capital E, as in 1.5E-05; export it again");
     }
@@ -106,7 +106,7 @@ void require_sound_numbers(const std::string& path, const std::string& format) {
   std::string text(static_cast<std::size_t>(std::max<std::streamoff>(0, in.tellg())), '\0');
   in.seekg(0);
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  const bool is_binary = text.find("Open CASCADE Topology V") < 64;
+  const bool is_binary = text.substr(0, 64).find("Open CASCADE Topology V") != std::string::npos;
   if (!is_binary) NumberScan(text, format, path).run();
 }
 
