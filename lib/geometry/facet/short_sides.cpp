@@ -13,7 +13,9 @@ namespace {
 
 using NodePair = std::pair<std::int32_t, std::int32_t>;
 
-constexpr int kMostPasses = 50;  // a side goes only where none beside it went in the same pass
+constexpr int kMostPasses = 50;     // a side goes only where none beside it went in the same pass
+constexpr double kKnife = -0.5;     // cosine: facets that turn by more than 120 degrees
+constexpr double kOfHeight = 1e-3;  // over the longest side: below, the normal of a facet is rounding
 
 /// One pass over all short sides: those that are not beside one another.
 class ShortSides {
@@ -65,7 +67,35 @@ class ShortSides {
     }
     sort_once(opposite);
     std::ranges::set_intersection(neighbours_of(a), neighbours_of(b), std::back_inserter(common));
-    return common == opposite && !lie_on_each_other(a, b);
+    return common == opposite && !lie_on_each_other(a, b) && !cuts_an_end_open(a, b);
+  }
+
+  /// Whether a facet across the end of a body would go, as at the point of a wing's tip behind which both skins meet:
+  /// these would have a side in common that begins inside of the body. A base between both goes, however narrow.
+  bool cuts_an_end_open(std::int32_t a, std::int32_t b) const {
+    return std::ranges::any_of(facets_[a], [&](std::int32_t t) {
+      const Corners& c = in_.corners[t];
+      if (std::ranges::count(c, b) == 0) return false;
+      const Vec3 normal = area_normal(t);
+      double longest = 0;
+      for (int k = 0; k < 3; ++k) longest = std::max(longest, distance(in_.x[c[k]], in_.x[c[(k + 1) % 3]]));
+      if (norm(normal) < kOfHeight * longest * longest) return false;
+      const std::int32_t end = c[0] + c[1] + c[2] - a - b;
+      const Vec3 first = normal_beside(a, end, t), second = normal_beside(b, end, t);
+      return dot(first, second) < kKnife && dot(normalized(normal), normalized(first + second)) < -kKnife;
+    });
+  }
+
+  Vec3 area_normal(std::int32_t t) const {
+    const auto [a, b, c] = in_.corners[t];
+    return cross(in_.x[b] - in_.x[a], in_.x[c] - in_.x[a]);
+  }
+
+  /// Of the other facet at a side of facet t.
+  Vec3 normal_beside(std::int32_t a, std::int32_t b, std::int32_t t) const {
+    for (const std::int32_t other : facets_[a])
+      if (other != t && std::ranges::count(in_.corners[other], b) > 0) return normalized(area_normal(other));
+    return {};
   }
 
   /// Whether two facets would, as the last two of a tetrahedron.

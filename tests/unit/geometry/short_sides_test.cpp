@@ -70,5 +70,37 @@ TEST(ShortSides, stay_where_the_surface_would_close_on_itself) {
   EXPECT_EQ(join_ends_of_short_sides(tube, 1e-6), 0u);
 }
 
+/// A wing of one chord and span whose section has these places behind its nose, from above the trailing edge to below.
+FacetInput wing_facets(const std::vector<Vec3>& behind) {
+  FacetInput in;
+  const auto n = static_cast<std::int32_t>(behind.size()) + 1;
+  for (const double y : {0.0, 1.0}) {
+    in.x.push_back({0, y, 0});
+    for (const Vec3 p : behind) in.x.push_back({p.x, y, p.z});
+  }
+  for (std::int32_t i = 0; i < n; ++i) {
+    const std::int32_t next = (i + 1) % n;
+    in.corners.push_back({i, i + n, next});
+    in.corners.push_back({next, i + n, next + n});
+  }
+  for (std::int32_t i = 1; i + 1 < n; ++i) {
+    in.corners.push_back({0, i, i + 1});
+    in.corners.push_back({n, n + i + 1, n + i});
+  }
+  in.part.assign(in.corners.size(), 0);
+  return in;
+}
+
+TEST(ShortSides, stay_at_the_point_of_a_tip) {
+  FacetInput sharp = wing_facets({{0.999999, 0, 9e-8}, {1, 0, 0}, {0.999999, 0, -9e-8}});
+  sharp.corners[8] = {1, 2, 3};  // as tips are cut into strips: one facet behind the two places
+  sharp.corners[9] = {0, 1, 3};
+  const auto corners = sharp.corners;
+  EXPECT_EQ(join_ends_of_short_sides(sharp, 1e-6), 0u);
+  EXPECT_EQ(sharp.corners, corners);
+  FacetInput blunt = wing_facets({{1, 0, 9e-8}, {1, 0, -9e-8}});
+  EXPECT_EQ(join_ends_of_short_sides(blunt, 1e-6), 2u);
+}
+
 }  // namespace
 }  // namespace st
