@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "base/eigen.h"
 #include "base/threads.h"
 #include "geometry/facet/facet_cones.h"
+#include "geometry/facet/knife_sides.h"
 #include "geometry/shape/flatten.h"
 #include "geometry/shape/flatten_coarse.h"
 #include "geometry/shape/known_neighbours.h"
@@ -193,8 +195,10 @@ struct CutPlane {
   std::vector<double> heights_of(const FacetPatch& patch) const { return heights(patch, axis, place, least, longest); }
 };
 
-/// Through the node `sharpest` if there is one. nullopt where every plane leaves all on one side.
-std::optional<CutPlane> best_cut(const FacetPatch& patch, const PatchTopology& topology, std::int32_t sharpest) {
+/// Through the node `sharpest` if there is one, or such that it parts `knives` if they are given. nullopt where every
+/// plane leaves all on one side, or no knife side is parted.
+std::optional<CutPlane> best_cut(const FacetPatch& patch, const PatchTopology& topology, std::int32_t sharpest,
+                                 const KnifeSides* knives) {
   const Spread spread = spread_of(patch);
   const CutCost cost_of(patch, topology);
   Box3 box;
@@ -206,11 +210,14 @@ std::optional<CutPlane> best_cut(const FacetPatch& patch, const PatchTopology& t
     double low = kInfinite, high = -kInfinite;
     for (const Vec3 x : patch.x) low = std::min(low, dot(x, axis)), high = std::max(high, dot(x, axis));
     if (high - low < kFlatBox * box.diagonal()) continue;
-    const std::vector<double> places =
-        sharpest != kNone ? std::vector{dot(patch.x[sharpest], axis)} : candidate_places(spread, axis);
+    std::vector<double> places;
+    if (sharpest != kNone) places.push_back(dot(patch.x[sharpest], axis));
+    if (sharpest == kNone || knives) std::ranges::copy(candidate_places(spread, axis), std::back_inserter(places));
     for (const double place : places) {
       const CutPlane plane{axis, place, kRounding * box.diagonal(), longest};
-      if (const double cost = cost_of(plane.heights_of(patch)); cost < least) least = cost, best = plane;
+      const std::vector<double> height = plane.heights_of(patch);
+      const double cost = cost_of(height);
+      if (cost < least && (!knives || knives->are_parted_by(height))) least = cost, best = plane;
     }
   }
   return best;
@@ -235,9 +242,12 @@ struct Piece {
   void work() {
     const PatchTopology topology = find_topology(patch.x, patch.corners, patch.neighbours);
     const std::int32_t sharpest = sharpest_rim_node(patch, topology);
+    const KnifeSides knives(patch);
+    if (knives.any() && n_cuts_left > 0 && !is_folded(patch)) plane = best_cut(patch, topology, sharpest, &knives);
+    if (plane) return;
     uv = lay_flat(patch, topology, sharpest != kNone);
     if (!uv && patch.corners.size() == 1) uv = lay_alone();
-    if (!uv && n_cuts_left > 0 && !is_folded(patch)) plane = best_cut(patch, topology, sharpest);
+    if (!uv && n_cuts_left > 0 && !is_folded(patch)) plane = best_cut(patch, topology, sharpest, nullptr);
   }
 
   std::vector<Vec2> lay_alone() const {

@@ -6,6 +6,7 @@
 
 #include "base/threads.h"
 #include "geometry/facet/facet_faces.h"
+#include "geometry/facet/knife_sides.h"
 #include "geometry/shape/flatten.h"
 #include "unit/geometry/facet_inputs.h"
 
@@ -52,6 +53,20 @@ TEST(FacetCuts, open_a_sphere_a_torus_and_a_tube) {
     EXPECT_LE(n_charts(mesh), most);
     expect_charts(mesh);
     for (const Corners& c : find_neighbours(mesh.corners)) EXPECT_EQ(std::count(c.begin(), c.end(), kNone), 0);
+  }
+}
+
+TEST(FacetCuts, leave_no_face_on_both_sides_of_a_trailing_edge) {
+  for (const int n_along : {1, 6, 40}) {
+    const FacetMesh mesh = charts_of(test::skin_facets(120, n_along));
+    EXPECT_LE(n_charts(mesh), 3);
+    expect_charts(mesh);
+    for (std::int32_t f = 0; f < n_charts(mesh); ++f) {
+      std::vector<std::int32_t> own;
+      for (std::int32_t t = 0; t < mesh.n_triangles(); ++t)
+        if (mesh.face[t] == f) own.push_back(t);
+      EXPECT_FALSE(KnifeSides(PatchFinder(mesh).find(own).front()).any());
+    }
   }
 }
 

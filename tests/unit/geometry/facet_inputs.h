@@ -46,6 +46,16 @@ inline FacetInput torus_facets(int n_u, int n_v, double large = 3, double small 
   });
 }
 
+/// The skin of a wing of chord 1 along x and span 4 along y, open at both ends, from its sharp trailing edge at x = 1
+/// around the nose and back.
+inline FacetInput skin_facets(int n_around, int n_along) {
+  return grid_facets(n_around, n_along, [=](int i, int j) {
+    const double a = 2 * kPi * (i % n_around) / n_around, x = 0.5 + 0.5 * std::cos(a);
+    return Vec3{x, 4.0 * j / n_along,
+                i % n_around == 0 ? 0 : 0.1 * std::sqrt(x) * (1 - x) * (std::sin(a) > 0 ? 1 : -1)};
+  });
+}
+
 inline FacetInput cube_facets() {
   FacetInput in;
   for (int n = 0; n < 8; ++n) in.x.push_back({n & 4 ? 1.0 : 0.0, n & 2 ? 1.0 : 0.0, n & 1 ? 1.0 : 0.0});

@@ -98,7 +98,7 @@ TEST(FacetModel, takes_the_skin_of_a_wing_for_no_plane) {
   const FacetModel m = model_of(test::grid_facets(64, 3, [](int i, int j) {
     const int k = i % 64 <= 32 ? 32 - i % 64 : i % 64 - 32;  // from the trailing edge to the nose and back
     const int height = k * (32 - k);
-    return Vec3{k * k / 1024.0, 1.0 * j, (i % 64 < 32 ? -height : height) / 4096.0};  // sums of these are exact
+    return Vec3{k * k / 1024.0, 1.0 * j, (i % 64 < 32 ? -height : height) / 256.0};  // sums of these are exact
   }));
   ASSERT_EQ(m.tables.n_faces(), 1);
   EXPECT_EQ(m.tables.face_type[0], SurfaceType::kOther);
