@@ -1,9 +1,11 @@
 #include "geometry/import/file_numbers.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <fstream>
+#include <string_view>
 
 #include "base/error.h"
 
@@ -13,6 +15,13 @@ namespace {
 constexpr int kLargestExponent = 200;  // squares of lengths overflow beyond 154; OpenCASCADE writes 2e100
 
 constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// By character: those that unsound numbers have and others rarely, and the quotes of names.
+constexpr auto kIsLooked = [] {
+  std::array<bool, 256> is_looked{};
+  for (const char c : std::string_view("eEdDnNiI#'")) is_looked[static_cast<unsigned char>(c)] = true;
+  return is_looked;
+}();
 
 /// Without its sign: "nan", "inf", "infinity", whatever the case.
 bool is_word_of_no_number(std::string_view word) {
@@ -63,29 +72,41 @@ class NumberScan {
     return c == ',' || c == ';' || (!is_iges_ && (c == ' ' || (c >= '\t' && c <= '\r') || c == '(' || c == ')'));
   }
 
+  /// Whether a number may be unsound from this character on: an exponent behind digits, or nan or inf as a word.
+  bool is_suspect(std::size_t at, std::size_t begin) const {
+    const char before = at > begin ? text_[at - 1] : ',';
+    return is_digit(before) || before == '.' || before == '+' || before == '-' || ends_word(before);
+  }
+
   /// A number in the parentheses behind the name of its type.
   bool is_typed(std::size_t at) const {
     return is_step_ && at > 1 && text_[at - 1] == '(' && (std::isalnum(static_cast<unsigned char>(text_[at - 2])) != 0);
   }
 
-  void scan(std::size_t at, std::size_t end) const {
-    while (at < end) {
-      if (ends_word(text_[at])) {
-        ++at;
-        continue;
+  void scan(const std::size_t begin, const std::size_t end) const {
+    for (std::size_t at = begin; at < end; ++at) {
+      const char c = text_[at];
+      if (!kIsLooked[static_cast<unsigned char>(c)]) continue;
+      if (c == '\'') {
+        if (is_step_) at = std::min(text_.find(c, at + 1), end);  // a name
+      } else if (is_suspect(at, begin)) {
+        at = judge(at, begin, end);
       }
-      const std::size_t begin = at;
-      while (at < end && !ends_word(text_[at])) {
-        if (is_step_ && text_[at] == '\'') at = std::min(text_.find('\'', at + 1), end - 1);  // a name
-        ++at;
-      }
-      const std::string_view word = text_.substr(begin, at - begin);
-      if (is_typed(begin)) continue;
-      if (!is_sound(word)) fail(begin, word, "; the file is damaged: export it again from the CAD system");
-      if (is_step_ && has_foreign_exponent(word))
-        fail(begin, word,
-             ", which OpenCASCADE reads wrong: STEP has a point and a capital E, as in 1.5E-05; export it again");
     }
+  }
+
+  /// The number around a character; returns its end.
+  std::size_t judge(std::size_t at, std::size_t begin, std::size_t end) const {
+    std::size_t first = at;
+    while (first > begin && !ends_word(text_[first - 1])) --first;
+    while (at < end && !ends_word(text_[at])) ++at;
+    const std::string_view word = text_.substr(first, at - first);
+    if (is_typed(first)) return at;
+    if (!is_sound(word)) fail(first, word, "; the file is damaged: export it again from the CAD system");
+    if (is_step_ && has_foreign_exponent(word))
+      fail(first, word,
+           ", which OpenCASCADE reads wrong: STEP has a point and a capital E, as in 1.5E-05; export it again");
+    return at;
   }
 
   [[noreturn]] void fail(std::size_t at, std::string_view word, const char* why) const {
