@@ -118,8 +118,7 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   STEPControl_Controller::Init();
   mend_loops_before_healing();
   STEPControl_Reader reader;
-  if (reader.ReadFile(path.c_str()) != IFSelect_RetDone)
-    throw Error(ExitCode::kInput, path + ": the STEP file cannot be parsed; export the model again");
+  read_step_file(path, reader);
   const Handle(StepBasic_Product) product = only_product(reader.WS()->Model());
   const std::optional<std::string> name = product.IsNull() ? std::nullopt : name_of(*product);
   if (!name) return;

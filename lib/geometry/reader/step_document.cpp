@@ -59,8 +59,7 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   reader.SetColorMode(true);
   reader.SetLayerMode(true);
   // Parts in files of their own are looked for beside it, of a relative path in the wrong folder.
-  if (reader.ReadFile(std::filesystem::absolute(path).c_str()) != IFSelect_RetDone)
-    throw Error(ExitCode::kInput, path + ": the STEP file cannot be parsed; export the model again");
+  read_step_file(std::filesystem::absolute(path), reader.ChangeReader());
   file.format = "STEP";
   read_step_units(reader.Reader().WS()->Model(), file);
   keep_names_beyond_ascii(reader.Reader().WS()->Model());

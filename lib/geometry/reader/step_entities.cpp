@@ -20,9 +20,11 @@
 #include <XSControl_TransferReader.hxx>
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/error.h"
@@ -95,6 +97,13 @@ bool FacesOfEntities::add(const Handle(Standard_Transient) & entity) {
 std::int32_t FacesOfEntities::find(const TopoDS_Shape& face) const {
   const int k = faces_.FindIndex(face.Located({}));
   return k > 0 ? k - 1 : kNone;
+}
+
+void read_step_file(const std::string& path, XSControl_Reader& reader) {
+  std::ifstream file(path, std::ios::binary);
+  if (char mark[3] = {}; !file.read(mark, 3) || std::string_view(mark, 3) != "\xef\xbb\xbf") file.seekg(0);
+  if (reader.ReadStream(path.c_str(), file) != IFSelect_RetDone)
+    throw Error(ExitCode::kInput, path + ": the STEP file cannot be parsed; export the model again");
 }
 
 void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& file) {

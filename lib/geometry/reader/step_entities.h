@@ -4,6 +4,7 @@
 #include <Interface_InterfaceModel.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <Transfer_TransientProcess.hxx>
+#include <XSControl_Reader.hxx>
 #include <XSControl_WorkSession.hxx>
 #include <cstdint>
 #include <string>
@@ -31,6 +32,10 @@ class FacesOfEntities {
 /// trim_meridians(), bound_whole_surfaces(), give_seams_curves(), move_curves_between_poles(), swap_seams(). Those of
 /// IGES files: join_ring_ends(), make_seams(). Precondition: a controller of OpenCASCADE's readers is there.
 void mend_loops_before_healing();
+
+/// Reads the file's entities, after a byte order mark that OpenCASCADE does not know. Throws Error(kInput) where it is no
+/// STEP file.
+void read_step_file(const std::string& path, XSControl_Reader& reader);
 
 /// The file's unit: unit_in_mm and has_mixed_units.
 void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& file);

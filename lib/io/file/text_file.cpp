@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <utility>
 
 #include "base/error.h"
 #include "base/mapped_file.h"
@@ -34,6 +35,11 @@ std::ifstream open_to_read(const std::string& path) {
   return file;
 }
 
+std::string without_byte_order_mark(std::string text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  return text;
+}
+
 std::string read_text_file(const std::string& path) {
   std::ifstream file = open_to_read(path);
   std::error_code none;
@@ -43,7 +49,7 @@ std::string read_text_file(const std::string& path) {
   text.resize(static_cast<std::size_t>(file.gcount()));
   text.append(std::istreambuf_iterator<char>(file), {});  // what the size does not count
   if (file.bad()) throw Error(ExitCode::kInput, path + kUnreadable);
-  return text;
+  return without_byte_order_mark(std::move(text));
 }
 
 MappedBytes::MappedBytes(const std::string& path) {

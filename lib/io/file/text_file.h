@@ -14,7 +14,10 @@ void refuse_pipe(const std::string& path);
 /// Throws Error(kInput) for a folder, as refuse_pipe(), and for what cannot be read.
 std::ifstream open_to_read(const std::string& path);
 
-/// The bytes of the file. Throws as open_to_read().
+/// UTF-8 of Windows may begin with a byte order mark, which is none of the text.
+std::string without_byte_order_mark(std::string text);
+
+/// The bytes of the file, without_byte_order_mark(). Throws as open_to_read().
 std::string read_text_file(const std::string& path);
 
 /// Bytes of a file without a copy of them, while an object of it lives. Precondition: the file stays as it is

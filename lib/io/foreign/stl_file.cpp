@@ -23,13 +23,6 @@ constexpr std::size_t kHeader = 84, kRecord = 50;  // bytes of a binary file bef
   throw Error(ExitCode::kInput, path + ": " + what + "; an STL file (binary or ASCII) is expected");
 }
 
-bool is_binary(const std::string& bytes) {
-  if (bytes.size() < kHeader) return false;
-  std::uint32_t n = 0;
-  std::memcpy(&n, bytes.data() + 80, sizeof n);
-  return bytes.size() == kHeader + kRecord * static_cast<std::size_t>(n);
-}
-
 /// Corners of triangles; of text also its solids.
 struct StlContent {
   std::vector<Vec3> corners;
@@ -40,8 +33,9 @@ struct StlContent {
 StlContent binary_content(const std::string& bytes) {
   StlContent content;
   std::vector<Vec3>& corners = content.corners;
-  corners.reserve((bytes.size() - kHeader) / kRecord * 3);
-  for (std::size_t at = kHeader; at < bytes.size(); at += kRecord) {
+  const std::size_t end = whole_stl_size(bytes);
+  corners.reserve((end - kHeader) / kRecord * 3);
+  for (std::size_t at = kHeader; at < end; at += kRecord) {
     float xyz[9];
     std::memcpy(xyz, bytes.data() + at + 12, sizeof xyz);
     for (int k = 0; k < 9; k += 3) corners.push_back({xyz[k], xyz[k + 1], xyz[k + 2]});
@@ -137,10 +131,23 @@ std::vector<NodeId> weld(const std::vector<Vec3>& corners, std::vector<Vec3>& no
 
 StlContent read_content(const std::string& path) {
   const std::string bytes = read_text_file(path);
-  return is_binary(bytes) ? binary_content(bytes) : text_content(path, bytes);
+  return is_binary_stl(bytes, bytes.size()) ? binary_content(bytes) : text_content(path, bytes);
 }
 
 }  // namespace
+
+std::uint64_t whole_stl_size(std::string_view head) {
+  std::uint32_t n = 0;
+  if (head.size() < kHeader) return 0;
+  std::memcpy(&n, head.data() + 80, sizeof n);
+  return kHeader + kRecord * static_cast<std::uint64_t>(n);
+}
+
+bool is_binary_stl(std::string_view head, std::uint64_t file_size) {
+  const std::uint64_t whole = whole_stl_size(head);
+  if (whole == 0 || whole > file_size) return false;
+  return whole == file_size || (whole > kHeader && (file_size - whole) % kRecord != 0);
+}
 
 SurfaceMesh read_stl(const std::string& path) {
   const StlContent content = read_content(path);

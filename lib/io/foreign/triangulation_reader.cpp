@@ -11,6 +11,7 @@
 #include "base/finite.h"
 #include "base/limits.h"
 #include "io/file/byte_cursor.h"
+#include "io/file/text_file.h"
 #include "io/foreign/stl_file.h"
 #include "io/foreign/triangulation_file.h"
 #include "io/hdf5/artifact.h"
@@ -37,14 +38,6 @@ bool is_fro_header(std::string_view line) {
   for (std::string_view word = words.word(); !word.empty(); word = words.word(), ++n)
     if (word.find_first_not_of("0123456789") != std::string_view::npos) return false;
   return n >= 6 && n <= 12;
-}
-
-/// Of a binary STL file by the number of triangles it announces.
-std::uint64_t whole_stl_size(std::string_view head) {
-  std::uint32_t n = 0;
-  if (head.size() < kStlHeader) return 0;
-  std::memcpy(&n, head.data() + 80, sizeof n);
-  return kStlHeader + kStlRecord * static_cast<std::uint64_t>(n);
 }
 
 bool is_named_stl(const std::string& path) {
@@ -75,32 +68,18 @@ std::string head_of(const std::string& path) {
   std::string head(kHead, '\0');
   file.read(head.data(), kHead);
   head.resize(static_cast<std::size_t>(file.gcount()));
-  return head;
+  return without_byte_order_mark(std::move(head));
 }
 
-std::string read_bytes(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::filesystem::file_size(path), '\0');
-  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(file.gcount()));
-  return bytes;
-}
-
-/// A binary STL file that does not fit its number of triangles is not read: none tells which of both is right.
+/// A binary STL file whose size does not fit its number of triangles is not read: none tells which of both is right.
 void fail_if_unlike_its_count(const std::string& path, std::string_view head, std::uint64_t file_size) {
   const std::uint64_t whole = whole_stl_size(head);
-  if (is_named_stl(path) && whole < file_size && head.find('\0') != std::string_view::npos)
-    fail(path, "damaged: a binary STL file of this many triangles has " + std::to_string(whole) + " bytes, this one " +
-                   std::to_string(file_size) + "; write it again");
-}
-
-/// A binary STL file that is too short for its triangles has no form at all.
-void fail_if_cut_stl(const std::string& path, std::string_view head, std::uint64_t file_size) {
-  const std::uint64_t whole = whole_stl_size(head);
-  if (whole > file_size && whole < file_size + kStlRecord * kMaxTriangles &&
-      head.substr(0, kStlHeader).find('\0') != std::string_view::npos)
-    fail(path, "cut off: a binary STL file of this many triangles has " + std::to_string(whole) + " bytes, this one " +
-                   std::to_string(file_size) + "; write it again");
+  const bool is_cut = whole > file_size;
+  if (is_binary_stl(head, file_size) || head.substr(0, kStlHeader).find('\0') == std::string_view::npos ||
+      (is_cut ? whole >= file_size + kStlRecord * kMaxTriangles : !is_named_stl(path)))
+    return;
+  fail(path, (is_cut ? "cut off" : "damaged") + std::string(": a binary STL file of this many triangles has ") +
+                 std::to_string(whole) + " bytes, this one " + std::to_string(file_size) + "; write it again");
 }
 
 /// Faces: the file's surfaces in the order of their numbers, or connected parts.
@@ -204,26 +183,22 @@ SurfaceMesh read_triangulation(const std::string& path) {
     case Format::kHdf5:
       return is_foreign_vtkhdf(path) ? make_mesh(path, read_vtkhdf(path)) : read_mesh(path).mesh;
     case Format::kMsh:
-      return make_mesh(path, parse_msh(path, read_bytes(path)));
+      return make_mesh(path, parse_msh(path, read_text_file(path)));
     case Format::kVtu:
-      return make_mesh(path, parse_vtu(path, read_bytes(path)));
+      return make_mesh(path, parse_vtu(path, read_text_file(path)));
     case Format::kFro:
-      return make_mesh(path, parse_fro(path, read_bytes(path)));
+      return make_mesh(path, parse_fro(path, read_text_file(path)));
     case Format::kObj:
-      return make_mesh(path, parse_obj(path, read_bytes(path)));
+      return make_mesh(path, parse_obj(path, read_text_file(path)));
     case Format::kPly:
-      return make_mesh(path, parse_ply(path, read_bytes(path)));
-    case Format::kStl: {
-      if (size != whole_stl_size(head)) {
-        fail_if_cut_stl(path, head, size);
-        fail_if_unlike_its_count(path, head, size);
-      }
+      return make_mesh(path, parse_ply(path, read_text_file(path)));
+    case Format::kStl:
+      fail_if_unlike_its_count(path, head, size);
       return read_stl(path);
-    }
     case Format::kNone:
       break;
   }
-  fail_if_cut_stl(path, head, size);
+  fail_if_unlike_its_count(path, head, size);
   fail(path, "not a mesh of a known format; give STL, Gmsh MSH 2.2 or 4.1, VTU, .fro, OBJ, PLY or a mesh artifact");
 }
 

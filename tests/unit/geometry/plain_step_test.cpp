@@ -127,6 +127,18 @@ TEST(PlainStep, leaves_files_with_names_colours_and_assemblies_alone) {
   EXPECT_FALSE(read_changed_box("ENDSEC;\nEND-ISO", "/* DOCUMENT_FILE */ ENDSEC;\nEND-ISO"));
 }
 
+TEST(PlainStep, begins_after_a_byte_order_mark_as_the_reader_of_documents_does) {
+  const TemporaryDirectory dir;
+  test::write_step("box", dir / "a.step", "MM");
+  const std::optional<CadFile> plain = read_plain_step(dir / "a.step");
+  const std::string bytes = bytes_of(dir / "a.step");
+  std::ofstream(dir / "a.step", std::ios::binary) << "\xef\xbb\xbf" + bytes;
+  const std::optional<CadFile> marked = read_plain_step(dir / "a.step");
+  ASSERT_TRUE(plain && marked);
+  expect_same(*plain, *marked);
+  expect_same(*plain, occt::read_by_module("step_document", dir / "a.step"));
+}
+
 /// A box that stands in the file as a mapped item of this scale.
 void write_mapped_box(const std::string& path, const std::string& scale) {
   test::write_step("box", path, "MM");

@@ -103,6 +103,18 @@ TEST(StlFile, reads_text_in_capital_letters_and_with_carriage_returns_alone) {
   EXPECT_EQ(read(text).n_triangles(), 1);
 }
 
+TEST(StlFile, knows_binary_bytes_by_their_size) {
+  const std::string two = binary(kTwo);
+  EXPECT_EQ(whole_stl_size(two), 184u);
+  EXPECT_EQ(whole_stl_size(two.substr(0, 83)), 0u);
+  EXPECT_TRUE(is_binary_stl(two, 184));
+  EXPECT_TRUE(is_binary_stl(two, 185)) << "a line end, added";
+  EXPECT_FALSE(is_binary_stl(two, 234)) << "maybe a third triangle";
+  EXPECT_FALSE(is_binary_stl(two, 183));
+  EXPECT_FALSE(is_binary_stl(binary({}), 185)) << "triangles that were not counted";
+  EXPECT_EQ(read(two + "\n").n_triangles(), 2);
+}
+
 TEST(StlFile, says_what_is_wrong) {
   expect_refused("", "neither binary nor ASCII");
   expect_refused("solid a\nendsolid a\n", "no whole triangles");

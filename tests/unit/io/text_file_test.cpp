@@ -18,6 +18,13 @@ TEST(TextFile, has_the_bytes_that_were_written) {
   EXPECT_EQ(dir.files(), std::vector<std::string>{"t"}) << "no temporary is left";
 }
 
+TEST(TextFile, begins_after_a_byte_order_mark) {
+  const TemporaryDirectory dir;
+  write_text_file(dir / "t", "\xef\xbb\xbfsolid");
+  EXPECT_EQ(read_text_file(dir / "t"), "solid");
+  EXPECT_EQ(without_byte_order_mark("\xef\xbb"), "\xef\xbb");
+}
+
 TEST(TextFile, is_mapped_with_all_its_bytes) {
   const TemporaryDirectory dir;
   const std::string bytes = std::string(10000, 'a') + std::string("a\0b", 3);

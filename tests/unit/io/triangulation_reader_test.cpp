@@ -216,9 +216,14 @@ TEST_F(TriangulationReader, says_what_is_wrong_and_where) {
   expect_message(replaced(ascii_vtu(), "0 2 1 ", "0 2 4 "), "triangle 1 names node 5 of 4");
   expect_message(replaced(ascii_vtu(), "UnstructuredGrid", "PolyData"), "PolyData");
   expect_message(binary_stl().substr(0, 100), "cut off: a binary STL file");
-  EXPECT_ERROR(read_triangulation(write("m.stl", binary_stl() + "rest")), kInput,
-               "damaged: a binary STL file of this many triangles has 284 bytes, this one 288; write it again");
+  EXPECT_ERROR(read_triangulation(write("m.stl", binary_stl() + std::string(50, '-'))), kInput,
+               "damaged: a binary STL file of this many triangles has 284 bytes, this one 334; write it again");
   EXPECT_ERROR(parse_fro("a.fro", "4\n"), kInput, "begins with the numbers of triangles and nodes");
+}
+
+TEST_F(TriangulationReader, passes_byte_order_marks_and_what_stands_behind_a_binary_stl_file) {
+  EXPECT_EQ(read_triangulation(write("m.msh", "\xef\xbb\xbf" + text_msh2())).n_triangles(), 4);
+  EXPECT_EQ(read_triangulation(write("m.stl", binary_stl() + "\r\n")).n_triangles(), 4);
 }
 
 TEST_F(TriangulationReader, says_why_a_path_is_no_file_to_read) {
