@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "base/threads.h"
 #include "features/wing_edges.h"
-#include "geometry/facet/facet_repair.h"
+#include "geometry/facet/facet_gaps.h"
 #include "geometry/facet/split_sides.h"
 #include "geometry/import/facet_import.h"
 #include "geometry/import/import.h"

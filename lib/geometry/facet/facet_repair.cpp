@@ -4,8 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <tuple>
+#include <span>
 #include <utility>
 
 #include "base/boxes.h"
@@ -13,6 +12,8 @@
 #include "base/error.h"
 #include "base/lists_by_key.h"
 #include "geometry/facet/facet_flaps.h"
+#include "geometry/facet/facet_gaps.h"
+#include "geometry/facet/facet_sides.h"
 #include "geometry/facet/short_sides.h"
 #include "geometry/facet/split_sides.h"
 
@@ -25,37 +26,6 @@ constexpr double kAtCorner = 0.5;    // cosine between facets that lie on one su
 constexpr double kNoNormal = 1e-3;   // height over longest side: below, the normal is rounding
 constexpr int kCapPasses = 12;       // over all facets: caps may lie on caps
 
-/// A side with its nodes in ascending order.
-struct FacetSide {
-  std::int32_t low, high, triangle;
-  bool is_forward;
-  bool operator<(const FacetSide& o) const { return std::tie(high, triangle) < std::tie(o.high, o.triangle); }
-};
-
-/// Of each lower node, by higher node and triangle.
-ListsByKey<FacetSide> sorted_sides(const std::vector<Corners>& corners, std::size_t n_nodes) {
-  ListsByKey<FacetSide> sides(n_nodes, [&](const auto& visit) {
-    for (std::size_t i = 0; i < 3 * corners.size(); ++i) {
-      const auto [a, b] = std::pair(corners[i / 3][i % 3], corners[i / 3][(i + 1) % 3]);
-      visit(std::min(a, b), FacetSide{std::min(a, b), std::max(a, b), static_cast<std::int32_t>(i / 3), a < b});
-    }
-  });
-  for (std::size_t n = 0; n < n_nodes; ++n) std::sort(sides[n].begin(), sides[n].end());
-  return sides;
-}
-
-/// Calls visit(first, n) for each pair of nodes and the sides that it has.
-template <class Visit>
-void for_each_pair(const ListsByKey<FacetSide>& sides, const Visit& visit) {
-  for (std::size_t node = 0; node < sides.n_keys(); ++node) {
-    const std::span<const FacetSide> own = sides[node];
-    for (std::size_t i = 0, j; i < own.size(); i = j) {
-      for (j = i + 1; j < own.size() && own[j].high == own[i].high;) ++j;
-      visit(&own[i], j - i);
-    }
-  }
-}
-
 class FacetRepair {
  public:
   explicit FacetRepair(FacetInput& input) : in_(input) {
@@ -67,7 +37,8 @@ class FacetRepair {
     const bool were_apart = are_parts_apart(), has_joined = join_free_nodes();
     if (has_joined) drop_duplicates();
     if (has_joined && were_apart) unite_parts();
-    if (has_free_sides_) divide_at_nodes();
+    if (gaps_.had_free_sides) divide_at_nodes();
+    if (gaps_.had_free_sides) drop_lone_lines();
     join_short_sides();
     drop_unused_nodes();
     if (!has_area()) throw Error(ExitCode::kGeometry, "no facet has an area; export the model again");
@@ -118,34 +89,11 @@ class FacetRepair {
     in_.keep([&](std::size_t t) { return is_kept[t] != 0; });
   }
 
-  /// Nodes of sides that one facet has; whether any was joined.
+  /// Whether any node was joined.
   bool join_free_nodes() {
-    std::vector<std::uint8_t> is_free(in_.x.size(), 0);
-    for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](const FacetSide* s, std::size_t n) {
-      if (n == 1) is_free[s->low] = is_free[s->high] = 1, has_free_sides_ = true;
-    });
-    std::vector<std::int32_t> order, one(in_.x.size());
-    std::iota(one.begin(), one.end(), 0);
-    for (std::int32_t n : one)
-      if (is_free[n]) order.push_back(n);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::int32_t a, std::int32_t b) { return in_.x[a].x < in_.x[b].x; });
-    const double gap = kFacetGap * box_.diagonal();
-    std::size_t n_joined = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      if (one[order[i]] != order[i]) continue;
-      const Vec3 x = in_.x[order[i]];
-      for (std::size_t j = i + 1; j < order.size() && in_.x[order[j]].x - x.x <= gap; ++j)
-        if (one[order[j]] == order[j] && distance(in_.x[order[j]], x) <= gap) {
-          one[order[j]] = order[i];
-          if (n_joined++ == 0) place_ = x;
-        }
-    }
-    if (n_joined == 0) return false;
-    add(FindingKind::kJoinedNodes, place_, gap, n_joined);
-    for (Corners& c : in_.corners)
-      for (std::int32_t& n : c) n = one[n];
-    return true;
+    gaps_ = join_gaps(in_, box_.diagonal());
+    if (gaps_.n_nodes > 0) add(FindingKind::kJoinedNodes, gaps_.place, gaps_.gap, gaps_.n_nodes);
+    return gaps_.n_nodes > 0;
   }
 
   /// Connected parts of a file that tells no solids.
@@ -161,8 +109,8 @@ class FacetRepair {
   /// Parts without a name that hang together now: gaps alone divided them.
   void unite_parts() {
     DisjointSets sets(static_cast<std::int64_t>(in_.part_name.size()));
-    for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](const FacetSide* s, std::size_t n) {
-      const std::int32_t a = in_.part[s[0].triangle], b = in_.part[s[n - 1].triangle];
+    for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](std::span<const FacetSide> s) {
+      const std::int32_t a = in_.part[s.front().triangle], b = in_.part[s.back().triangle];
       if (a != b && in_.part_name[a].empty() && in_.part_name[b].empty()) sets.join(a, b);
     });
     if (in_.part_name.empty()) return;
@@ -172,10 +120,28 @@ class FacetRepair {
   /// Where facets end on a side of another one.
   void divide_at_nodes() {
     const std::size_t n_before = in_.corners.size();
-    const std::size_t n = split_sides_at_nodes(in_, kFacetGap * box_.diagonal());
+    const std::size_t n = split_sides_at_nodes(in_, gaps_.gap);
     if (n == 0) return;
     findings_.push_back({FindingKind::kOther, "", in_.x[in_.corners[n_before][1]], 0, true,
                          fmt::format("facets with nodes of others on a side, divided there: {}", n)});
+  }
+
+  /// Facets without neighbours that are lines within the gap.
+  void drop_lone_lines() {
+    std::vector<std::uint8_t> n_free(in_.corners.size(), 0);
+    for_each_pair(sorted_sides(in_.corners, in_.x.size()), [&](std::span<const FacetSide> s) {
+      if (s.size() == 1) ++n_free[s[0].triangle];
+    });
+    std::size_t n_lines = 0;
+    in_.keep([&](std::size_t t) {
+      const Corners& c = in_.corners[t];
+      if (n_free[t] < 3 || flatness(c) * side_length(c, longest_side(c)) > gaps_.gap) return true;
+      if (n_lines++ == 0) place_ = in_.x[c[0]];
+      return false;
+    });
+    if (n_lines > 0)
+      findings_.push_back({FindingKind::kOther, "", place_, 0, true,
+                           fmt::format("facets without area that have no neighbours, removed: {}", n_lines)});
   }
 
   /// As convex hulls have them: nodes that are one but for rounding, with needles between.
@@ -202,18 +168,28 @@ class FacetRepair {
       for (std::int32_t& n : c) n = number[n];
   }
 
-  /// Neighbours across sides that two facets have, whichever way round.
+  /// Neighbours across sides that two facets have, whichever way round; or two of each part.
   void link() {
     const ListsByKey<FacetSide> sides = sorted_sides(in_.corners, in_.x.size());
     links_.assign(in_.corners.size(), {});
     is_open_.assign(in_.corners.size(), 0);
-    for_each_pair(sides, [&](const FacetSide* s, std::size_t n) {
-      for (std::size_t i = 0; i < n; ++i) is_open_[s[i].triangle] |= n != 2;
-      if (n != 2) return;
-      const bool agree = s[0].is_forward != s[1].is_forward;
-      for (const int own : {0, 1})
-        std::ranges::find(links_[s[own].triangle], kNone, &Link::other)[0] = {s[1 - own].triangle, agree};
+    std::vector<FacetSide> own;
+    for_each_pair(sides, [&](std::span<const FacetSide> s) {
+      own.assign(s.begin(), s.end());
+      const auto part = [&](const FacetSide& side) { return in_.part[side.triangle]; };
+      if (s.size() > 2) std::ranges::stable_sort(own, {}, part);
+      bool is_closed = s.size() % 2 == 0;
+      for (std::size_t i = 0; i + 1 < s.size() && s.size() > 2; i += 2)
+        is_closed &= part(own[i]) == part(own[i + 1]) && (i == 0 || part(own[i - 1]) != part(own[i]));
+      for (const FacetSide& side : s) is_open_[side.triangle] |= !is_closed;
+      for (std::size_t i = 0; is_closed && i < own.size(); i += 2) link(&own[i]);
     });
+  }
+
+  void link(const FacetSide* s) {
+    const bool agree = s[0].is_forward != s[1].is_forward;
+    for (const int own : {0, 1})
+      std::ranges::find(links_[s[own].triangle], kNone, &Link::other)[0] = {s[1 - own].triangle, agree};
   }
 
   struct Link {
@@ -248,6 +224,28 @@ class FacetRepair {
       std::swap(in_.corners[t][1], in_.corners[t][2]);
     }
     if (n_turned > 0) add(FindingKind::kTurnedFacets, place_, 0, n_turned);
+    give_own_nodes(parts);
+  }
+
+  /// Closed parts that touch are bodies of their own, as solids of CAD are.
+  void give_own_nodes(const std::vector<Part>& parts) {
+    std::vector<std::int32_t> owner(in_.x.size(), kNone), copy(in_.x.size(), kNone);
+    for (std::int32_t p = 0; p < static_cast<std::int32_t>(parts.size()); ++p) {
+      if (!parts[p].is_closed) continue;
+      std::vector<std::int32_t> copied;
+      for (const std::int32_t t : parts[p].triangles)
+        for (std::int32_t& n : in_.corners[t]) {
+          if (owner[n] == kNone) owner[n] = p;
+          if (owner[n] == p) continue;
+          if (copy[n] == kNone) {
+            copy[n] = static_cast<std::int32_t>(in_.x.size());
+            in_.x.push_back(in_.x[n]);
+            copied.push_back(n);
+          }
+          n = copy[n];
+        }
+      for (const std::int32_t n : copied) copy[n] = kNone;
+    }
   }
 
   Part flood(std::int32_t first, std::vector<std::uint8_t>& is_turned, std::vector<std::uint8_t>& is_seen) const {
@@ -389,7 +387,7 @@ class FacetRepair {
   std::vector<std::array<Link, 3>> links_;  // of each facet, those without another one last
   std::vector<std::uint8_t> is_open_;       // has a side that not exactly two facets have
   ListsByKey<> facets_;                     // of nodes, when a pass began
-  bool has_free_sides_ = false;             // before any nodes were joined
+  JoinedGaps gaps_;
   Vec3 place_;
 };
 

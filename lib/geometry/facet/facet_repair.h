@@ -8,10 +8,7 @@
 
 namespace st {
 
-/// Of the diagonal: single precision, and the rounding of decimals in text.
-inline constexpr double kFacetGap = 1e-6;
-
-/// Joins nodes at free sides that are within 1e-6 of the diagonal; divides facets at nodes that lie as close to such a
+/// Joins nodes at free sides (join_gaps()); divides facets at nodes that lie as close to such a
 /// side (split_sides_at_nodes()); drops facets that then have no three nodes, and
 /// those whose nodes another one has; drops unused nodes. Parts without a name that joined nodes connect are one part,
 /// if no node was of two parts before. Turns facets so that neighbours agree, each connected part as most of its area

@@ -33,8 +33,8 @@ class FacesOfEntities {
 /// IGES files: join_ring_ends(), make_seams(). Precondition: a controller of OpenCASCADE's readers is there.
 void mend_loops_before_healing();
 
-/// Reads the file's entities, after a byte order mark that OpenCASCADE does not know. Throws Error(kInput) where it is no
-/// STEP file.
+/// Reads the file's entities, after a byte order mark that OpenCASCADE does not know. Throws Error(kInput) where it is
+/// no STEP file.
 void read_step_file(const std::string& path, XSControl_Reader& reader);
 
 /// The file's unit: unit_in_mm and has_mixed_units.

@@ -112,6 +112,46 @@ FacetInput slit_square(const std::vector<Corners>& corners, const std::vector<do
   return in;
 }
 
+TEST(FacetRepair, drops_lines_without_neighbours_and_leaves_other_lone_facets) {
+  FacetInput in = test::cube_facets();
+  for (const double height : {1e-8, 0.1}) {
+    const auto first = static_cast<std::int32_t>(in.x.size());
+    for (const Vec3 x : {Vec3{2, 0, height}, Vec3{3, 0, height}, Vec3{2.5, height, height}}) in.x.push_back(x);
+    in.corners.push_back({first, first + 1, first + 2});
+  }
+  in.part.assign(in.corners.size(), 0);
+  EXPECT_EQ(repair_facets(in).size(), 1u);
+  EXPECT_EQ(in.corners.size(), 13u);
+  EXPECT_EQ(in.x.size(), 11u);
+}
+
+/// Two cubes of the parts 0 and 1 with a wall in common, cut by one diagonal or by both.
+FacetInput two_cubes(bool has_both_diagonals) {
+  FacetInput in = test::cube_facets();
+  const std::int32_t beyond[8] = {4, 5, 6, 7, 8, 9, 10, 11};  // the nodes at x = 1 are those of the wall
+  for (int n = 4; n < 8; ++n) in.x.push_back(in.x[n] + Vec3{1, 0, 0});
+  for (std::size_t t = 0; t < 12; ++t) {
+    const Corners c = in.corners[t];
+    in.corners.push_back({beyond[c[0]], beyond[c[1]], beyond[c[2]]});
+  }
+  if (has_both_diagonals) in.corners[12] = {4, 5, 6}, in.corners[13] = {5, 7, 6};
+  in.part.assign(24, 0);
+  for (std::size_t t = 12; t < 24; ++t) in.part[t] = 1;
+  in.part_name = {"a", "b"};
+  return in;
+}
+
+TEST(FacetRepair, parts_closed_bodies_whose_common_wall_is_cut_in_two_ways) {
+  FacetInput in = two_cubes(true);
+  repair_facets(in);
+  EXPECT_EQ(in.x.size(), 16u);
+  EXPECT_NEAR(volume_of(in), 2, 1e-12);
+  FacetInput common = two_cubes(false);
+  repair_facets(common);
+  EXPECT_EQ(common.x.size(), 12u) << "its facets are those of both, once";
+  EXPECT_EQ(common.corners.size(), 22u);
+}
+
 TEST(FacetRepair, drops_both_of_two_facets_without_area) {
   FacetInput in = slit_square({{0, 1, 4}, {4, 1, 0}, {0, 2, 4}, {4, 2, 1}, {0, 4, 3}, {4, 1, 3}}, {0.5});
   EXPECT_TRUE(has_kind(repair_facets(in), FindingKind::kDuplicateFacets));
