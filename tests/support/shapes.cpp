@@ -620,6 +620,14 @@ TopoDS_Shape bent_pipe() {
   return pipe.Shape();
 }
 
+/// A plano-convex lens 24 wide, beside the seam of its sphere.
+TopoDS_Shape flat_lens(double radius) {
+  const double depth = std::sqrt(radius * radius - 144);
+  return BRepAlgoAPI_Common(BRepPrimAPI_MakeSphere(radius).Shape(),
+                            moved(box(radius, 50, 50), -radius - depth, -25, -25))
+      .Shape();
+}
+
 /// A long prism of a circle's segment: a flat side and an arched one, 0.1 apart at most, on two common edges of
 /// length 40.
 TopoDS_Shape shallow_prism() {
@@ -829,6 +837,13 @@ const std::map<std::string, Factory>& factories() {
       {"lemon", lemon},
       {"lemon_with_fin", [] { return with_fin(lemon(), -0.4); }},
       {"lemon_with_fin_beside", [] { return with_fin(lemon(), 0.4); }},
+      {"flat_lens", [] { return flat_lens(100); }},
+      {"long_lens", [] { return flat_lens(5000); }},
+      {"dimpled_cylinder",  // whose rim is sharp
+       [] {
+         return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(2, 8).Shape(), BRepPrimAPI_MakeSphere(gp_Pnt(2.5, 0, 9.8), 4))
+             .Shape();
+       }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"ball_with_socket_at_seam",
        [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeSphere(gp_Pnt(4.5, 0, 0), 2)).Shape(); }},

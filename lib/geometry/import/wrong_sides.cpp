@@ -41,7 +41,8 @@ enum class GoesOn { kSmoothly, kFolded, kNeither };
 
 /// By the faces that can be on one side only, if there are any at its edges.
 GoesOn how_it_goes_on(const TopoDS_Face& face, const TopTools_IndexedDataMapOfShapeListOfShape& faces_of) {
-  constexpr double kSmooth = 0.5;  // radians: far below the angle of a stem and far above that of a fillet
+  constexpr double kSmooth = 0.5;   // radians: far below the angle of a stem and far above that of a fillet
+  constexpr double kFolded = 1e-3;  // radians: tangent; thin lenses and sharp rims of dimples are wedges of more
   int n_edges = 0, n_smooth = 0, n_folded = 0;
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next()) {
     const TopoDS_Edge edge = TopoDS::Edge(e.Current());
@@ -53,7 +54,7 @@ GoesOn how_it_goes_on(const TopoDS_Face& face, const TopTools_IndexedDataMapOfSh
       const gp_Vec a = normal_at(edge, face), b = normal_at(edge, TopoDS::Face(other));
       if (a.Magnitude() == 0 || b.Magnitude() == 0) continue;
       n_smooth += a.Angle(b) < kSmooth;
-      n_folded += a.Angle(b) > M_PI - kSmooth && !may_be_on_either_side(TopoDS::Face(other));
+      n_folded += a.Angle(b) > M_PI - kFolded && !may_be_on_either_side(TopoDS::Face(other));
     }
   }
   if (2 * n_smooth > n_edges) return GoesOn::kSmoothly;

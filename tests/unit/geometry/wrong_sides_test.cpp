@@ -37,6 +37,10 @@ TEST(WrongSides, balls_with_a_hole_at_their_seam_stay_balls) {  // their seams a
 
 TEST(WrongSides, round_corners_are_not_folded_back_into_their_pipe) { expect_the_same("bent_pipe", 1); }
 
+TEST(WrongSides, thin_lenses_are_no_balls) {
+  for (const char* shape : {"flat_lens", "long_lens", "dimpled_cylinder"}) expect_the_same(shape, 0);
+}
+
 /// The text of a STEP file, its first loops without edges that they pass twice.
 std::string without_seams(const std::string& text, int n_loops) {
   std::string changed;
