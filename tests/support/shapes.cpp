@@ -844,6 +844,12 @@ const std::map<std::string, Factory>& factories() {
          return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(2, 8).Shape(), BRepPrimAPI_MakeSphere(gp_Pnt(2.5, 0, 9.8), 4))
              .Shape();
        }},
+      {"ball_without_octant", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), box(10, 10, 10)).Shape(); }},
+      {"ring_with_dimple_at_seam",
+       [] {
+         return BRepAlgoAPI_Cut(BRepPrimAPI_MakeTorus(10, 3).Shape(), BRepPrimAPI_MakeSphere(gp_Pnt(13, 0, 0), 2))
+             .Shape();
+       }},
       {"ball_with_socket", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), ball_at(6, 4)).Shape(); }},
       {"ball_with_socket_at_seam",
        [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), BRepPrimAPI_MakeSphere(gp_Pnt(4.5, 0, 0), 2)).Shape(); }},

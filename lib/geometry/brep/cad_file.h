@@ -18,9 +18,9 @@ struct CadPart {
     TopoDS_Shape face;
     std::string name, layer;
     std::int32_t color = -1;
-    std::string body = {};                ///< the face's solid in a part of several; else empty
-    std::optional<bool> same_sense = {};  ///< whether it faces as its surface does; nullopt: the file does not say
-    bool has_seam = false;                ///< in the file an edge is in one of its loops in both directions
+    std::string body = {};                  ///< the face's solid in a part of several; else empty
+    std::optional<bool> lies_as_said = {};  ///< on that side of its loops as in the file; nullopt: unknown
+    bool has_seam = false;                  ///< in the file an edge is in one of its loops in both directions
   };
   std::vector<FaceAttributes> faces;  ///< in TopExp order
   struct EdgeName {

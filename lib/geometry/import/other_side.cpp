@@ -5,8 +5,11 @@
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom2d_Line.hxx>
+#include <Geom_Curve.hxx>
+#include <Geom_SphericalSurface.hxx>
 #include <Geom_Surface.hxx>
 #include <Precision.hxx>
+#include <ShapeFix_Edge.hxx>
 #include <ShapeFix_Face.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
@@ -17,6 +20,7 @@
 #include <TopoDS_Wire.hxx>
 #include <algorithm>
 #include <cmath>
+#include <gp_Ax3.hxx>
 #include <optional>
 #include <vector>
 
@@ -51,6 +55,7 @@ int poles_on(const TopoDS_Wire& loop) {
 }
 
 /// The one loop of a face without a seam. It meets no pole, or both: then it is a meridian there and another one back.
+/// Of a ball it may meet one.
 std::optional<TopoDS_Wire> plain_loop(const TopoDS_Face& face) {
   std::optional<TopoDS_Wire> loop;
   for (TopoDS_Iterator w(face); w.More(); w.Next()) {
@@ -61,7 +66,8 @@ std::optional<TopoDS_Wire> plain_loop(const TopoDS_Face& face) {
   for (TopExp_Explorer e(*loop, TopAbs_EDGE); e.More(); e.Next())
     if (BRep_Tool::IsClosed(TopoDS::Edge(e.Current()), face)) return std::nullopt;
   const int n = poles_on(*loop);
-  return n == 0 || n == 2 ? loop : std::nullopt;
+  const bool is_ball = BRep_Tool::Surface(face)->IsKind(STANDARD_TYPE(Geom_SphericalSurface));
+  return n == 0 || n == 2 || (n == 1 && is_ball) ? loop : std::nullopt;
 }
 
 /// The rest around a loop that meets no pole; its seam is far from that.
@@ -71,6 +77,47 @@ TopoDS_Face around_hole(const TopoDS_Face& face, const TopoDS_Wire& loop) {
   ShapeFix_Face fix(TopoDS::Face(rest));
   if (fix.FixAddNaturalBound()) return fix.Face();
   return bound_around_holes(TopoDS::Face(rest)) ? TopoDS::Face(rest) : TopoDS_Face();
+}
+
+/// From the middle of a ball to the middle of a loop on it; nullopt where the loop goes around more than a cap.
+std::optional<gp_Dir> middle_of(const TopoDS_Wire& loop, const gp_Pnt& middle) {
+  constexpr int kStations = 8;
+  constexpr double kWidest = 1.3;  // radians: the turned ball's poles and seam are beyond a right angle from the middle
+  std::vector<gp_Dir> places;
+  gp_XYZ sum(0, 0, 0);
+  for (TopoDS_Iterator e(loop); e.More(); e.Next()) {
+    double t0, t1;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(TopoDS::Edge(e.Value()), t0, t1);
+    for (int k = 0; k < kStations && !curve.IsNull(); ++k)
+      sum += places.emplace_back(gp_Vec(middle, curve->Value(t0 + (k + 0.5) * (t1 - t0) / kStations))).XYZ();
+  }
+  if (sum.Modulus() < Precision::Confusion()) return std::nullopt;
+  const gp_Dir direction(sum);
+  const bool is_cap = std::ranges::all_of(places, [&](const gp_Dir& d) { return d.Angle(direction) < kWidest; });
+  return is_cap ? std::optional(direction) : std::nullopt;
+}
+
+/// The rest of a ball around a loop that meets a pole, as the same ball with poles and seam far from the loop.
+TopoDS_Face around_hole_of_turned_ball(const TopoDS_Face& face, const TopoDS_Wire& loop) {
+  const auto ball = Handle(Geom_SphericalSurface)::DownCast(BRep_Tool::Surface(face));
+  if (ball.IsNull()) return {};
+  const std::optional<gp_Dir> direction = middle_of(loop, ball->Location());
+  if (!direction) return {};
+  gp_Ax3 axes(ball->Location(), gp_Ax2(ball->Location(), *direction).XDirection(), direction->Reversed());
+  if (!ball->Position().Direct()) axes.YReverse();
+  TopoDS_Face rest;
+  BRep_Builder builder;
+  builder.MakeFace(rest, new Geom_SphericalSurface(axes, ball->Radius()), BRep_Tool::Tolerance(face));
+  TopoDS_Wire wire;
+  builder.MakeWire(wire);
+  for (TopoDS_Iterator e(loop); e.More(); e.Next()) {
+    const TopoDS_Edge edge = TopoDS::Edge(e.Value());
+    if (BRep_Tool::Degenerated(edge)) continue;
+    if (!ShapeFix_Edge().FixAddPCurve(edge, rest, false)) return {};
+    builder.Add(wire, edge);
+  }
+  wire.Closed(true);
+  return around_hole(rest, wire);
 }
 
 /// An edge of a loop, in its direction.
@@ -157,6 +204,8 @@ TopoDS_Face other_side(const TopoDS_Face& face) {
   TopoDS_Face rest;
   if (poles_on(*loop) == 0)
     rest = around_hole(forward, *loop);
+  else if (poles_on(*loop) == 1)
+    rest = around_hole_of_turned_ball(forward, *loop);
   else if (const std::vector<Chain> chains = chains_of(forward, *loop); !chains.empty())
     rest = beside_chains(forward, chains);
   return rest.IsNull() ? rest : TopoDS::Face(rest.Oriented(TopAbs::Reverse(face.Orientation())));

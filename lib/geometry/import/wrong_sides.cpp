@@ -76,32 +76,19 @@ struct PartFaces {
 };
 
 /// Faces of a shell that may be on either side of their loop, and are on the wrong one: those that had a seam in the
-/// file, those that are folded back onto others, and those that do not face as the file says, by what holds for the
-/// shell's other faces.
+/// file, those that are folded back onto others, and those that lie on another side than the file says.
 std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFaces& faces) {
-  std::vector<TopoDS_Face> wrong, agreeing, other;
-  int n_agree = 0, n_other = 0;  // of those that can be on one side only
+  std::vector<TopoDS_Face> wrong;
   TopTools_IndexedDataMapOfShapeListOfShape faces_of;
   for (TopExp_Explorer f(shell, TopAbs_FACE); f.More(); f.Next()) {
     const TopoDS_Face face = TopoDS::Face(f.Current());
     const CadPart::FaceAttributes* in_file = faces.find(face);
-    if (!in_file || !in_file->same_sense) continue;
-    const bool agrees = (face.Orientation() == TopAbs_FORWARD) == *in_file->same_sense;
-    if (!may_be_on_either_side(face)) {
-      ++(agrees ? n_agree : n_other);
-      continue;
-    }
+    if (!in_file || !in_file->lies_as_said || !may_be_on_either_side(face)) continue;
     if (faces_of.IsEmpty()) TopExp::MapShapesAndAncestors(shell, TopAbs_EDGE, TopAbs_FACE, faces_of);
     const GoesOn goes_on = how_it_goes_on(face, faces_of);
-    if (in_file->has_seam || goes_on == GoesOn::kFolded)
-      wrong.push_back(face);
-    else if (goes_on == GoesOn::kNeither)  // files may err in what they say of a fillet's corner
-      (agrees ? agreeing : other).push_back(face);
+    const bool is_elsewhere = !*in_file->lies_as_said && goes_on == GoesOn::kNeither;  // files may err at fillets
+    if (in_file->has_seam || goes_on == GoesOn::kFolded || is_elsewhere) wrong.push_back(face);
   }
-  const bool is_all_turned = n_agree + n_other == 0 && wrong.empty() && agreeing.empty();
-  if (n_agree == n_other && !is_all_turned) return wrong;  // the reader may have turned the whole shell
-  const std::vector<TopoDS_Face>& turned = n_agree >= n_other ? other : agreeing;
-  wrong.insert(wrong.end(), turned.begin(), turned.end());
   return wrong;
 }
 

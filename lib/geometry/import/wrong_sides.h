@@ -12,9 +12,8 @@ namespace st::occt {
 /// takes the small cap inside the loop, and turns it: the solid is the stem alone. Of the round corner of a bent pipe,
 /// a loop from pole to pole and back, it may take the rest of the ball. A face that may be on either side of its loop
 /// gets the rest of its surface where the file has a seam in its loop, where it is folded back onto a neighbour that is
-/// tangent to it, or where it does not face as the file says while the other faces of its shell do and it meets none of
-/// them smoothly, as a fillet's corner would. In a shell of such faces alone those without a seam stay, but where none
-/// faces as the file says. Loops along a seam are mended by with_chains_turned(). Each is said in `findings`.
+/// tangent to it, or where it lies on another side of its edges than the file says and meets none smoothly, as a
+/// fillet's corner would. Loops along a seam are mended by with_chains_turned(). Each is said in `findings`.
 void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings);
 
 }  // namespace st::occt

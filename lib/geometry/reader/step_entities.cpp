@@ -1,5 +1,7 @@
 #include "geometry/reader/step_entities.h"
 
+#include <BRep_Tool.hxx>
+#include <Geom_Curve.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_Product.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
@@ -8,12 +10,16 @@
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepRepr_MappedItem.hxx>
 #include <StepShape_Edge.hxx>
+#include <StepShape_EdgeCurve.hxx>
 #include <StepShape_EdgeLoop.hxx>
 #include <StepShape_FaceBound.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <StepShape_OrientedEdge.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Face.hxx>
 #include <TransferBRep.hxx>
 #include <XSAlgo.hxx>
 #include <XSAlgo_AlgoContainer.hxx>
@@ -21,6 +27,8 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -54,6 +62,51 @@ bool has_seam(const StepShape_FaceSurface& face) {
       if (!seen.insert(loop->EdgeListValue(e)->EdgeElement().get()).second) return true;
   }
   return false;
+}
+
+/// The curve in space of an edge, as it is stored: the same one in all copies of an edge.
+Handle(Geom_Curve) stored_curve(const TopoDS_Shape& edge) {
+  TopLoc_Location location;
+  double t0, t1;
+  return BRep_Tool::Curve(TopoDS::Edge(edge), location, t0, t1);
+}
+
+/// Whether a face runs along each curve of its edges forward, the face seen forward; no curve of a seam.
+std::map<const Geom_Curve*, bool> directions_in(const TopoDS_Face& face) {
+  std::map<const Geom_Curve*, bool> forward;
+  std::set<const Geom_Curve*> twice;
+  for (TopExp_Explorer e(face.Oriented(TopAbs_FORWARD), TopAbs_EDGE); e.More(); e.Next()) {
+    const Handle(Geom_Curve) curve = stored_curve(e.Current());
+    if (!forward.emplace(curve.get(), e.Current().Orientation() == TopAbs_FORWARD).second) twice.insert(curve.get());
+  }
+  twice.insert(nullptr);
+  for (const Geom_Curve* curve : twice) forward.erase(curve);
+  return forward;
+}
+
+/// Whether the face lies on the side of its loops that the file says: edges run around it as there, and it faces so, or
+/// neither. nullopt where that is not known.
+std::optional<bool> lies_as_said(const StepShape_FaceSurface& entity, const TopoDS_Face& face,
+                                 const Handle(Transfer_TransientProcess) & process) {
+  const std::map<const Geom_Curve*, bool> forward = directions_in(face);
+  int n_same = 0, n_other = 0;
+  for (int b = 1; b <= entity.NbBounds(); ++b) {
+    const Handle(StepShape_FaceBound) bound = entity.BoundsValue(b);
+    const auto loop = Handle(StepShape_EdgeLoop)::DownCast(bound->Bound());
+    for (int e = 1; !loop.IsNull() && e <= loop->NbEdgeList(); ++e) {
+      const Handle(StepShape_OrientedEdge) use = loop->EdgeListValue(e);
+      const auto curve = Handle(StepShape_EdgeCurve)::DownCast(use->EdgeElement());
+      if (curve.IsNull()) continue;
+      const TopoDS_Shape edge = TransferBRep::ShapeResult(process, curve);
+      if (edge.IsNull() || edge.ShapeType() != TopAbs_EDGE) continue;
+      const auto found = forward.find(stored_curve(edge).get());
+      if (found == forward.end()) continue;
+      const bool is_said_forward = (use->Orientation() == bound->Orientation()) == curve->SameSense();
+      ++(found->second == is_said_forward ? n_same : n_other);
+    }
+  }
+  if (n_same == n_other) return std::nullopt;
+  return (n_same > n_other) == entity.SameSense();
 }
 
 /// OpenCASCADE's healing of what its readers make, once outer loops and seams are right.
@@ -165,7 +218,8 @@ void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file) {
   for (CadPart& part : file.parts)
     for (auto& face : part.faces)
       if (const std::int32_t k = faces.find(face.face); k != kNone) {
-        face.same_sense = entities[k]->SameSense();
+        face.lies_as_said =
+            lies_as_said(*entities[k], TopoDS::Face(face.face), session->TransferReader()->TransientProcess());
         face.has_seam = has_seam(*entities[k]);
       }
 }

@@ -38,7 +38,7 @@ void expect_same_faces(const CadPart& a, const CadPart& b) {
     EXPECT_EQ(a.faces[f].layer, b.faces[f].layer) << f;
     EXPECT_EQ(a.faces[f].color, b.faces[f].color) << f;
     EXPECT_EQ(a.faces[f].body, b.faces[f].body) << f;
-    EXPECT_EQ(a.faces[f].same_sense, b.faces[f].same_sense) << f;
+    EXPECT_EQ(a.faces[f].lies_as_said, b.faces[f].lies_as_said) << f;
     EXPECT_EQ(a.faces[f].has_seam, b.faces[f].has_seam) << f;
   }
 }

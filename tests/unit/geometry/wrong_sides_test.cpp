@@ -44,7 +44,7 @@ TEST(WrongSides, thin_lenses_are_no_balls) {
 /// The text of a STEP file, its first loops without edges that they pass twice.
 std::string without_seams(const std::string& text, int n_loops) {
   std::string changed;
-  const std::regex loop(R"(EDGE_LOOP\('',\(([#0-9,]*)\)\))"), number("#[0-9]+");
+  const std::regex loop(R"(EDGE_LOOP\('',\(([#0-9,\s]*)\)\))"), number("#[0-9]+");
   auto from = text.begin();
   for (std::sregex_iterator i(text.begin(), text.end(), loop), end; i != end && n_loops > 0; ++i, --n_loops) {
     std::map<std::string, std::string> edge_of;  // by the number of its use
@@ -72,7 +72,7 @@ void expect_the_same_without_seams(const std::string& shape, int n_loops, std::s
   test::write_step(shape, dir / "a.step", "MM");
   std::ifstream file(dir / "a.step");
   const std::string text{std::istreambuf_iterator<char>(file), {}}, changed = without_seams(text, n_loops);
-  ASSERT_LT(changed.size() + 10, text.size());
+  ASSERT_LT(changed.size(), text.size());
   std::ofstream(dir / "b.step") << changed;
   const ImportResult sound = import_model(dir / "a.brep", {}), r = import_model(dir / "b.step", {});
   EXPECT_EQ(test::findings_of(r, kOtherSide).size(), n_mended) << shape;
@@ -84,8 +84,13 @@ TEST(WrongSides, of_files_without_seams_are_told_by_the_other_faces) {
   expect_the_same_without_seams("ball_with_stem", 1, 1);
 }
 
-TEST(WrongSides, of_files_without_seams_are_all_faces_where_none_faces_as_the_file_says) {
+TEST(WrongSides, of_files_without_seams_are_all_faces_where_none_lies_as_the_file_says) {
   expect_the_same_without_seams("ball_with_socket_at_seam", 2, 2);
+  expect_the_same_without_seams("ring_with_dimple_at_seam", 2, 1);
+}
+
+TEST(WrongSides, of_files_without_seams_may_have_a_loop_through_one_pole) {
+  expect_the_same_without_seams("ball_without_octant", 1, 1);
 }
 
 }  // namespace
