@@ -100,6 +100,8 @@ std::vector<FaceContact> find_contacts(const TopoDS_Face& a, const TopoDS_Face& 
   try {
     BRepAlgoAPI_Section section(a, b, false);
     section.Approximation(false);
+    section.ComputePCurveOn1(true);
+    section.ComputePCurveOn2(true);
     section.Build();
     if (!section.IsDone()) return {};
     const TopoDS_Shape shared = shared_by(a, b);
