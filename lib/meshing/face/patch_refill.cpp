@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -25,6 +26,7 @@ constexpr double kNoArea = 1e-9;  // over the squared perimeter: twice the area 
 constexpr double kShape = 1e-2;   // share of the squared perimeter in a triangle's area: few slivers
 
 using Side = std::pair<NodeId, NodeId>;
+using BadTriangles = std::set<std::array<NodeId, 3>>;  // by their nodes
 
 bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
   const double perimeter = distance(a, b) + distance(b, c) + distance(c, a);
@@ -35,7 +37,7 @@ bool has_no_area(Vec3 a, Vec3 b, Vec3 c) {
 class LoopFill {
  public:
   /// `beyond`: normals of the triangles outside by side, as they run along the loop; none at the rim of the patch.
-  /// `taken`: pairs of nodes with a side outside, the lower first.
+  /// `taken`: pairs of nodes without a side inside, the lower first.
   LoopFill(std::span<const Vec3> xyz, const std::vector<NodeId>& loop, const std::map<Side, Vec3>& beyond,
            const std::set<Side>& taken)
       : xyz_(xyz), loop_(loop), n_(loop.size()), beyond_(beyond), taken_(taken), best_(n_ * n_) {}
@@ -105,36 +107,58 @@ Vec3 normal_of(std::span<const Vec3> xyz, const Triangle& t) {
   return normalized(cross(xyz[t.n[1]] - xyz[t.n[0]], xyz[t.n[2]] - xyz[t.n[0]]));
 }
 
-/// The triangles that fill a place; empty: none are better.
-std::vector<Triangle> fill(std::span<const Vec3> xyz, const std::vector<Triangle>& triangles,
-                           const TrianglePlace& place) {
-  if (place.loop.size() < 3 || place.loop.size() > kMostNodes) return {};
-  std::map<Side, Vec3> beyond;
-  std::set<Side> taken;
-  const std::set<NodeId> on_loop(place.loop.begin(), place.loop.end());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    if (std::binary_search(place.triangles.begin(), place.triangles.end(), t)) continue;
-    for (int k = 0; k < 3; ++k) {
-      const NodeId a = triangles[t].n[k], b = triangles[t].n[(k + 1) % 3];
-      if (!on_loop.contains(a) || !on_loop.contains(b)) continue;
-      beyond[{b, a}] = normal_of(xyz, triangles[t]);
-      taken.insert(std::minmax(a, b));
-    }
-  }
-  return LoopFill(xyz, place.loop, beyond, taken).run();
+/// Sides of bad triangles across the patch, from rim to rim: another face may have one between the same nodes.
+std::set<Side> chords_of(const FacePatch& patch, const TrianglePlace& place, const BadTriangles& bad) {
+  std::set<Side> sides, chords;
+  const auto visit = [&](const Triangle& t, const auto& add) {
+    for (int k = 0; k < 3; ++k) add(t.n[k], t.n[(k + 1) % 3]);
+  };
+  for (const std::size_t t : place.triangles)
+    visit(patch.triangles[t], [&](NodeId a, NodeId b) { sides.insert({a, b}); });
+  for (const std::size_t t : place.triangles)
+    if (bad.contains(std::to_array(patch.triangles[t].n)))
+      visit(patch.triangles[t], [&](NodeId a, NodeId b) {
+        if (std::max(a, b) < patch.n_boundary && sides.contains({b, a})) chords.insert(std::minmax(a, b));
+      });
+  return chords;
 }
 
-/// The patch without the triangles of a place, with others at its end.
-void exchange(const TrianglePlace& place, const std::vector<Triangle>& added, FacePatch& patch) {
+/// What is outside a place between nodes of its loop.
+struct Outside {
+  std::map<Side, Vec3> beyond;
+  std::set<Side> taken;
+};
+
+/// By place: these have no node in common.
+std::vector<Outside> look_outside(std::span<const Vec3> xyz, const std::vector<Triangle>& triangles,
+                                  const std::vector<TrianglePlace>& places) {
+  std::vector<std::int32_t> loop_of(xyz.size(), kNone);
+  std::vector<std::uint8_t> is_in(triangles.size(), 0);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const NodeId n : places[i].loop) loop_of[n] = static_cast<std::int32_t>(i);
+    for (const std::size_t t : places[i].triangles) is_in[t] = 1;
+  }
+  std::vector<Outside> all(places.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (int k = 0; !is_in[t] && k < 3; ++k) {
+      const NodeId a = triangles[t].n[k], b = triangles[t].n[(k + 1) % 3];
+      if (loop_of[a] == kNone || loop_of[a] != loop_of[b]) continue;
+      all[loop_of[a]].beyond[{b, a}] = normal_of(xyz, triangles[t]);
+      all[loop_of[a]].taken.insert(std::minmax(a, b));
+    }
+  return all;
+}
+
+/// The patch without triangles of places, with others at its end.
+void exchange(const std::vector<std::uint8_t>& is_gone, const std::vector<Triangle>& added, FacePatch& patch) {
   const std::vector<Vec2> before = corner_uvs(patch);
   std::map<NodeId, Vec2> uv;
-  for (const std::size_t t : place.triangles)
-    for (std::size_t k = 0; k < 3; ++k) uv.emplace(patch.triangles[t].n[k], before[3 * t + k]);
   std::vector<Triangle> triangles;
   std::vector<Vec2> after;
   std::vector<TriangleId> previous;
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
-    if (std::binary_search(place.triangles.begin(), place.triangles.end(), t)) continue;
+    for (std::size_t k = 0; is_gone[t] && k < 3; ++k) uv.emplace(patch.triangles[t].n[k], before[3 * t + k]);
+    if (is_gone[t]) continue;
     triangles.push_back(patch.triangles[t]);
     for (std::size_t k = 0; k < 3; ++k) after.push_back(before[3 * t + k]);
     if (!patch.triangle_previous.empty()) previous.push_back(patch.triangle_previous[t]);
@@ -168,27 +192,33 @@ std::vector<std::size_t> find_flawed(std::span<const Vec3> xyz, const FacePatch&
 }
 
 int refill(std::span<const Vec3> xyz, std::span<const std::size_t> bad, FacePatch& patch) {
-  std::set<std::array<NodeId, 3>> left;  // bad triangles, by their nodes
+  BadTriangles left;
   for (const std::size_t t : bad) left.insert(std::to_array(patch.triangles[t].n));
   int n_filled = 0, n_tried = 0;
   for (const int rings : kRings) {
-    for (bool has_filled = true; has_filled && !left.empty() && n_tried < kMostTried;) {
-      has_filled = false;
-      std::vector<std::size_t> seeds;
-      for (std::size_t t = 0; t < patch.triangles.size(); ++t)
-        if (left.contains(std::to_array(patch.triangles[t].n))) seeds.push_back(t);
-      for (const TrianglePlace& place :
-           places_about(patch.triangles, static_cast<std::int64_t>(xyz.size()), seeds, rings)) {
-        if (n_tried++ == kMostTried) break;
-        const std::vector<Triangle> added = fill(xyz, patch.triangles, place);
-        if (added.empty()) continue;
-        for (const std::size_t t : place.triangles) left.erase(std::to_array(patch.triangles[t].n));
-        exchange(place, added, patch);
-        ++n_filled;
-        has_filled = true;
-        break;  // the triangles have other numbers now
+    if (left.empty() || n_tried == kMostTried) break;
+    std::vector<std::size_t> seeds;
+    for (std::size_t t = 0; t < patch.triangles.size(); ++t)
+      if (left.contains(std::to_array(patch.triangles[t].n))) seeds.push_back(t);
+    const std::vector<TrianglePlace> places =
+        places_about(patch.triangles, static_cast<std::int64_t>(xyz.size()), seeds, rings);
+    std::vector<Outside> outside = look_outside(xyz, patch.triangles, places);
+    std::vector<std::uint8_t> is_gone(patch.triangles.size(), 0);
+    std::vector<Triangle> added;
+    for (std::size_t i = 0; i < places.size() && n_tried < kMostTried; ++i, ++n_tried) {
+      const auto& [triangles, n_seeds, loop] = places[i];
+      if (loop.size() < 3 || loop.size() > kMostNodes) continue;
+      outside[i].taken.merge(chords_of(patch, places[i], left));
+      const std::vector<Triangle> fill = LoopFill(xyz, loop, outside[i].beyond, outside[i].taken).run();
+      if (fill.empty()) continue;
+      added.insert(added.end(), fill.begin(), fill.end());
+      for (const std::size_t t : triangles) {
+        left.erase(std::to_array(patch.triangles[t].n));
+        is_gone[t] = 1;
       }
+      ++n_filled;
     }
+    if (!added.empty()) exchange(is_gone, added, patch);
   }
   if (n_filled > 0) drop_unused_nodes(patch);
   return n_filled;

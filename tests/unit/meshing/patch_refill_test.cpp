@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "mesh/corner_uv.h"
 #include "unit/meshing/grid_patch.h"
@@ -95,6 +98,23 @@ TEST(Refill, tries_no_more_than_some_hundred_places) {
     bad.push_back(patch.triangles.size() - 5);
     EXPECT_EQ(refill(patch.inner_xyz, bad, patch), n_hopeless == 299 ? 1 : 0) << n_hopeless;
   }
+}
+
+/// Both ends may be nodes of another face, which has a side between them, too.
+TEST(Refill, makes_no_side_again_between_two_nodes_of_the_rim) {
+  FacePatch patch = test::grid_patch(1);
+  std::vector<Vec3> xyz = std::exchange(patch.inner_xyz, {});
+  xyz[3] = {0.8, 0.8, 0};  // the side from 0 to 3 is the shorter one
+  const std::vector<Vec2> uv = corner_uvs(patch);
+  patch.n_boundary = 4;
+  patch.inner_uv.clear();
+  patch.inner_size.clear();
+  set_corner_uvs(uv, patch);
+  EXPECT_EQ(refill(xyz, std::vector<std::size_t>{0}, patch), 1);
+  ASSERT_EQ(patch.triangles.size(), 2u);
+  for (const Triangle& t : patch.triangles)
+    EXPECT_EQ(std::ranges::count(t.n, 1) + std::ranges::count(t.n, 2), 2) << "the other diagonal";
+  EXPECT_TRUE(has_all_uv(patch));
 }
 
 TEST(Refill, leaves_alone_what_would_still_be_folded) {
