@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <functional>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -53,7 +54,11 @@ struct Seed {
 };
 
 struct HashOfPlace {
-  std::size_t operator()(Vec2 p) const { return 31 * std::hash<double>()(p.x) + std::hash<double>()(p.y); }
+  std::size_t operator()(Vec2 p) const {
+    constexpr std::uint64_t kMix = 0x9e3779b97f4a7c15;                                 // 2^64 over the golden ratio
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x + 0.0); };  // of -0 as of 0
+    return ((bits(p.x) * kMix ^ bits(p.y)) * kMix) >> 16;
+  }
 };
 
 /// A part of a surface by its places about an axis. For one thread.
@@ -75,7 +80,7 @@ class SeenSurface final : public Surface {
 
   struct Foot {
     Vec2 uv;
-    SurfacePoint p;  // there
+    SurfacePoint p;  // there, with derivatives by (s,t)
   };
 
   /// Of the point at a place; nullopt: not found. Each place is looked for once: meshes with other lengths ask again.
@@ -88,11 +93,7 @@ class SeenSurface final : public Surface {
   Vec3 point(Vec2 st) const override { return evaluate(st).x; }
   /// A cylinder about the axis where there is no point.
   SurfacePoint evaluate(Vec2 st) const override {
-    if (const auto& found = foot(st)) {
-      const SurfacePoint& p = found->p;
-      const Eigen::Matrix2d m = change_of(p), way = adjugate(m) / m.determinant();
-      return {p.x, way(0, 0) * p.du + way(1, 0) * p.dv, way(0, 1) * p.du + way(1, 1) * p.dv};
-    }
+    if (const auto& found = foot(st)) return found->p;
     const double angle = axis_.sign * st.y / axis_.radius;
     const Vec3 aside = cross(axis_.up, axis_.along), out = std::cos(angle) * axis_.up + std::sin(angle) * aside;
     return {axis_.origin + st.x * axis_.along + axis_.radius * out, axis_.along, axis_.sign * cross(out, axis_.along)};
@@ -123,7 +124,8 @@ class SeenSurface final : public Surface {
       if (part <= 1e-3) return std::nullopt;
     }
     if (norm(miss) > enough) return std::nullopt;
-    return Foot{uv, p};
+    const Eigen::Matrix2d m = change_of(p), way = adjugate(m) / m.determinant();
+    return Foot{uv, {p.x, way(0, 0) * p.du + way(1, 0) * p.dv, way(0, 1) * p.du + way(1, 1) * p.dv}};
   }
   /// The first of the nearest ones: distances count, not their squares. Looks at seeds outward along s, while these may
   /// be as near by that alone.
@@ -217,39 +219,29 @@ class FoldRepair {
     add_normals();
   }
 
-  void run() {
+  /// The folds that are left.
+  std::vector<std::size_t> run() {
+    std::vector<std::size_t> folds = find_folds();
     for (const int rings : kRings) {
-      const std::vector<std::size_t> folds = find_folds();
-      if (folds.empty()) return;
-      std::vector<Triangle> kept;
+      if (folds.empty()) break;
       std::vector<std::uint8_t> is_gone(triangles_.size(), 0);
       std::vector<Triangle> added;
+      bool has_changed = false;
       for (const TrianglePlace& place :
-           places_about(triangles_, static_cast<std::int64_t>(nodes_.size()), folds, rings))
-        if (mesh_again(place, added))
-          for (const std::size_t t : place.triangles) is_gone[t] = 1;
+           places_about(triangles_, static_cast<std::int64_t>(nodes_.size()), folds, rings)) {
+        if (!mesh_again(place, added)) continue;
+        has_changed = true;
+        for (const std::size_t t : place.triangles) is_gone[t] = 1;
+      }
+      if (!has_changed) continue;
+      std::vector<Triangle> kept;
       for (std::size_t t = 0; t < triangles_.size(); ++t)
         if (!is_gone[t]) kept.push_back(triangles_[t]);
       kept.insert(kept.end(), added.begin(), added.end());
       triangles_ = std::move(kept);
       add_normals();
+      folds = find_folds();
     }
-  }
-
-  /// A triangle for each that is turned against the surface, and for each pair that is folded onto each other.
-  std::vector<std::size_t> find_folds() const {
-    std::vector<std::size_t> folds;
-    std::vector<Vec3> normal;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
-      const NodeId* n = triangles_[t].n;
-      normal.push_back(normalized(cross(nodes_[n[1]].x - nodes_[n[0]].x, nodes_[n[2]].x - nodes_[n[0]].x)));
-      if (dot(normal[t], normal_[n[0]] + normal_[n[1]] + normal_[n[2]]) < 0) folds.push_back(t);
-    }
-    EdgeTable(triangles_, static_cast<std::int64_t>(nodes_.size()))
-        .for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
-          if (sides.size() != 2 || dot(normal[sides[0] / 3], normal[sides[1] / 3]) > kFoldedCosine) return;
-          folds.push_back(static_cast<std::size_t>(sides[0] / 3));
-        });
     return folds;
   }
 
@@ -277,6 +269,23 @@ class FoldRepair {
   }
 
  private:
+  /// A triangle for each that is turned against the surface, and for each pair that is folded onto each other.
+  std::vector<std::size_t> find_folds() const {
+    std::vector<std::size_t> folds;
+    std::vector<Vec3> normal;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      const NodeId* n = triangles_[t].n;
+      normal.push_back(normalized(cross(nodes_[n[1]].x - nodes_[n[0]].x, nodes_[n[2]].x - nodes_[n[0]].x)));
+      if (dot(normal[t], normal_[n[0]] + normal_[n[1]] + normal_[n[2]]) < 0) folds.push_back(t);
+    }
+    EdgeTable(triangles_, static_cast<std::int64_t>(nodes_.size()))
+        .for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
+          if (sides.size() != 2 || dot(normal[sides[0] / 3], normal[sides[1] / 3]) > kFoldedCosine) return;
+          folds.push_back(static_cast<std::size_t>(sides[0] / 3));
+        });
+    return folds;
+  }
+
   /// Of the surface at the nodes that have none yet.
   void add_normals() {
     for (std::size_t i = normal_.size(); i < nodes_.size(); ++i)
@@ -350,8 +359,7 @@ void repair_folds(const Surface& surface, const FaceBoundary& boundary, const Si
                   const FaceMeshOptions& options, FaceMesh& mesh) {
   if (mesh.n_folds == 0 || mesh.cause != FailureCause::kNone) return;
   FoldRepair repair(surface, boundary, field, options, mesh);
-  repair.run();
-  const std::vector<std::size_t> folds = repair.find_folds();
+  const std::vector<std::size_t> folds = repair.run();
   if (static_cast<int>(folds.size()) < mesh.n_folds) repair.store(folds, mesh);
 }
 
