@@ -40,11 +40,11 @@ std::vector<SectionJob> CrossingSearch::jobs_of(const std::vector<PatchPlace>& s
   std::vector<Box3> boxes;
   for (std::int32_t s = 0; s < static_cast<std::int32_t>(sections.size()); ++s) {
     boxes.push_back(sections[s].box);
-    if (face_is_fresh_[sections[s].face]) jobs.push_back({s, s});
+    if (found_.face_is_fresh[sections[s].face]) jobs.push_back({s, s});
   }
   for (const auto& [s, t] : meeting_pairs(boxes)) {
     const FaceId f = sections[s].face, g = sections[t].face;
-    if ((face_is_fresh_[f] || face_is_fresh_[g]) && (face_body_[f] == face_body_[g] || may_be_apart(f, g)))
+    if ((found_.face_is_fresh[f] || found_.face_is_fresh[g]) && (face_body_[f] == face_body_[g] || may_be_apart(f, g)))
       jobs.push_back({s, t});
   }
   return jobs;
@@ -72,9 +72,10 @@ void CrossingSearch::run(const BoundaryNumbering& numbering, const std::vector<F
       [&](const SectionJob& job) { return search.weight(job); });
   NamedTasks tasks = tasks_of(batches, "crossings");
   tasks.answer = [&](const Bytes& request) { return search.answer(request); };
-  std::erase_if(pairs_, [&](const FacetPair& p) { return face_is_fresh_[p.a.face] || face_is_fresh_[p.b.face]; });
-  for (std::size_t f = 0; f < chords_.size(); ++f)
-    if (face_is_fresh_[f]) chords_[f].clear();
+  std::erase_if(found_.pairs,
+                [&](const FacetPair& p) { return found_.face_is_fresh[p.a.face] || found_.face_is_fresh[p.b.face]; });
+  for (std::size_t f = 0; f < found_.chords.size(); ++f)
+    if (found_.face_is_fresh[f]) found_.chords[f].clear();
   FacetPairs fresh;
   std::set<std::array<FaceId, 2>> ended;
   executor_.run_named_tasks(
@@ -95,23 +96,23 @@ void CrossingSearch::run(const BoundaryNumbering& numbering, const std::vector<F
         FoundCrossings found;
         unpack(bytes, found);
         fresh.insert(fresh.end(), found.pairs.begin(), found.pairs.end());
-        for (const Chord& c : found.chords) chords_[c.facet.face].push_back(c);
-        for (const auto& [a, b] : found.touching) touching_.insert({a, b});
+        for (const Chord& c : found.chords) found_.chords[c.facet.face].push_back(c);
+        for (const auto& [a, b] : found.touching) found_.touching.insert({a, b});
         ended.insert(found.ended.begin(), found.ended.end());
       });
   say_ended(ended);
   if (executor_.is_root()) {
     std::vector<Chord> chords;
-    for (const std::vector<Chord>& some : chords_) chords.insert(chords.end(), some.begin(), some.end());
-    for (const auto& [a, b] : find_repeated_chords(std::move(chords), face_is_fresh_))
+    for (const std::vector<Chord>& some : found_.chords) chords.insert(chords.end(), some.begin(), some.end());
+    for (const auto& [a, b] : find_repeated_chords(std::move(chords), found_.face_is_fresh))
       fresh.push_back({a, b, FacetPair::kHalve});
   }
   const auto in_order = [](const FacetPair& p, const FacetPair& q) { return p.key() < q.key(); };
   std::sort(fresh.begin(), fresh.end(), in_order);
   fresh = measured(fresh, search);
-  pairs_.insert(pairs_.end(), fresh.begin(), fresh.end());
-  std::sort(pairs_.begin(), pairs_.end(), in_order);
-  std::fill(face_is_fresh_.begin(), face_is_fresh_.end(), 0);
+  found_.pairs.insert(found_.pairs.end(), fresh.begin(), fresh.end());
+  std::sort(found_.pairs.begin(), found_.pairs.end(), in_order);
+  std::fill(found_.face_is_fresh.begin(), found_.face_is_fresh.end(), 0);
 }
 
 /// Local, on rank 0.
@@ -160,7 +161,7 @@ std::vector<RefinementPoint> CrossingSearch::places_to_refine(const BoundaryNumb
     }
   };
   FacetPairs apart;
-  for (const FacetPair& p : pairs_) {
+  for (const FacetPair& p : found_.pairs) {
     if (p.a.face == p.b.face && face_is_given_up_[p.a.face]) continue;
     if (p.factor > 0) apart.push_back(p);
     if (p.factor == FacetPair::kHalve && facets.size() < kFacePolicy.max_crossing_places) add(p, 1);
@@ -193,7 +194,7 @@ RefinementPoint CrossingSearch::refinement_of(const FacetCorners& t, double fact
 bool CrossingSearch::may_be_apart(FaceId a, FaceId b) const {
   const ModelTables& t = model_.tables();
   return is_across_ && !(t.face_type[a] == SurfaceType::kPlane && t.face_type[b] == SurfaceType::kPlane) &&
-         !touching_.contains(std::minmax(a, b));
+         !found_.touching.contains(std::minmax(a, b));
 }
 
 /// Local. Walls that are whole are measured where they are compared: bodies in contact cross in many places.
@@ -241,8 +242,9 @@ FacetPairs CrossingSearch::measured(const FacetPairs& pairs, const SectionSearch
       [&](std::int32_t task, Bytes&& bytes) {
         FacetPairs kept;
         unpack(bytes, kept);
-        for (const std::size_t i : batches[task].jobs) touching_.insert({groups[i][0].a.face, groups[i][0].b.face});
-        for (const FacetPair& p : kept) touching_.erase({p.a.face, p.b.face});
+        for (const std::size_t i : batches[task].jobs)
+          found_.touching.insert({groups[i][0].a.face, groups[i][0].b.face});
+        for (const FacetPair& p : kept) found_.touching.erase({p.a.face, p.b.face});
         known.insert(known.end(), kept.begin(), kept.end());
       });
   return known;
@@ -294,27 +296,27 @@ FacetPairs CrossingSearch::measured_pair_of_faces(FacetPairs kept, const Section
 
 std::vector<std::int64_t> CrossingSearch::n_pairs_within() const {
   std::vector<std::int64_t> n(face_body_.size(), 0);
-  for (const FacetPair& p : pairs_)
+  for (const FacetPair& p : found_.pairs)
     if (p.a.face == p.b.face) ++n[p.a.face];
   return n;
 }
 
 std::vector<FaceId> CrossingSearch::crossing_faces(bool others_too) const {
   std::set<FaceId> faces;
-  for (const FacetPair& p : pairs_)
+  for (const FacetPair& p : found_.pairs)
     if (p.a.face == p.b.face || others_too) faces.insert({p.a.face, p.b.face});
   return {faces.begin(), faces.end()};
 }
 
 std::vector<FaceId> CrossingSearch::touching_faces() const {
   std::set<FaceId> faces;
-  for (const auto& [a, b] : touching_) faces.insert({a, b});
+  for (const auto& [a, b] : found_.touching) faces.insert({a, b});
   return {faces.begin(), faces.end()};
 }
 
 std::vector<std::size_t> CrossingSearch::crossing_in(FaceId f, bool others_too) const {
   std::set<std::size_t> triangles;
-  for (const FacetPair& p : pairs_) {
+  for (const FacetPair& p : found_.pairs) {
     if (p.a.face != p.b.face && !others_too) continue;
     if (p.a.face == f) triangles.insert(static_cast<std::size_t>(p.a.index));
     if (p.b.face == f) triangles.insert(static_cast<std::size_t>(p.b.index));
@@ -332,7 +334,7 @@ std::vector<FaceId> CrossingSearch::move_touching_apart(const BoundaryNumbering&
   }
   auto [mesh, numbers] = weld_patches(numbering.edges, numbering.tables.vertex_xyz, welded);
   std::vector<TouchingPair> touching;
-  for (const FacetPair& p : pairs_) {
+  for (const FacetPair& p : found_.pairs) {
     const Triangle &a = mesh.triangles[numbers.triangle_begin[place.at(p.a.face)] + p.a.index],
                    &b = mesh.triangles[numbers.triangle_begin[place.at(p.b.face)] + p.b.index];
     if (std::none_of(std::begin(a.n), std::end(a.n), [&](NodeId n) { return std::ranges::count(b.n, n) > 0; }))

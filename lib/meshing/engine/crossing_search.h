@@ -33,12 +33,25 @@ class CrossingSearch {
         executor_(executor),
         is_across_(across_bodies),
         face_body_(bodies_of(model.tables())),
-        face_is_fresh_(face_body_.size(), 1),
         face_is_given_up_(face_body_.size(), 0),
-        chords_(face_body_.size()) {}
+        found_{.touching = {},
+               .face_is_fresh = std::vector<char>(face_body_.size(), 1),
+               .chords = std::vector<std::vector<Chord>>(face_body_.size()),
+               .pairs = {}} {}
+
+  /// What was found of some patches, to come back to with these.
+  struct State {
+    std::set<std::pair<FaceId, FaceId>> touching;  // of two bodies in contact, as far as known
+    std::vector<char> face_is_fresh;               // patch made since the last run
+    std::vector<std::vector<Chord>> chords;        // by face
+    FacetPairs pairs;                              // found so far and still there, sorted
+  };
 
   /// Local. The face's patch is another one now.
-  void renew(FaceId f) { face_is_fresh_[f] = 1; }
+  void renew(FaceId f) { found_.face_is_fresh[f] = 1; }
+  const State& state() const { return found_; }
+  /// Local. The patches are those of that time.
+  void go_back(State to) { found_ = std::move(to); }
   /// Local, on rank 0. No triangles of the face are refined any more for crossing each other.
   void give_up(FaceId f) { face_is_given_up_[f] = 1; }
   /// Collective. `places` [n_faces], of rank 0.
@@ -48,10 +61,10 @@ class CrossingSearch {
   std::vector<RefinementPoint> places_to_refine(const BoundaryNumbering& numbering,
                                                 const std::vector<FacePlace>& places);
   /// How many the last run found.
-  int n_pairs() const { return static_cast<int>(pairs_.size()); }
+  int n_pairs() const { return static_cast<int>(found_.pairs.size()); }
   /// But those where it is known what parts them.
   int n_unmeasured_pairs() const {
-    return static_cast<int>(std::ranges::count_if(pairs_, [](const FacetPair& p) { return !(p.factor > 0); }));
+    return static_cast<int>(std::ranges::count_if(found_.pairs, [](const FacetPair& p) { return !(p.factor > 0); }));
   }
   /// [n_faces] those of two triangles of the face.
   std::vector<std::int64_t> n_pairs_within() const;
@@ -84,12 +97,9 @@ class CrossingSearch {
   const Executor& executor_;
   bool is_across_;
   std::vector<std::int32_t> face_body_;
-  std::set<std::pair<FaceId, FaceId>> touching_;  // of two bodies in contact, as far as known
-  int n_asked_ = 0;                               // times for places to refine
-  std::vector<char> face_is_fresh_;               // patch made since the last run
-  std::vector<char> face_is_given_up_;            // on rank 0
-  std::vector<std::vector<Chord>> chords_;        // by face
-  FacetPairs pairs_;                              // found so far and still there, sorted
+  int n_asked_ = 0;                     // times for places to refine
+  std::vector<char> face_is_given_up_;  // on rank 0
+  State found_;
 };
 
 }  // namespace st

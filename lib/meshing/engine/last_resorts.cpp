@@ -19,50 +19,39 @@ std::size_t count(const MeshedFaces::BadTriangles& bad) {
   return n;
 }
 
-/// Collective. Whether it stays and may be worth another time. Adds the faces that have changed, on rank 0.
-bool refill_once(MeshedFaces& faces, const Executor& executor, std::vector<FaceId>& all_changed) {
+/// Collective. Whether it stays and may be worth another time.
+bool refill_once(MeshedFaces& faces, const Executor& executor) {
   MeshedFaces::Patches patches = faces.bring(faces.suspects());
   const MeshedFaces::BadTriangles bad = faces.bad_triangles(patches);
   char is_sound = bad.empty();
   share(executor, is_sound);
   if (is_sound) return false;
   const int n_pairs = faces.crossings().n_pairs();
-  const std::vector<FacePlace> before = faces.places();
-  std::vector<FaceId> changed;
-  for (const auto& [f, triangles] : bad) {
-    changed.push_back(f);
+  const MeshedFaces::PatchState before = faces.patch_state();
+  for (const auto& [f, triangles] : bad)
     if (FacePatch& patch = patches[f]; refill(faces.nodes_of(patch), triangles, patch) > 0)
       faces.put(f, std::move(patch));
-  }
   faces.search_crossings();
   const MeshedFaces::BadTriangles left = faces.bad_triangles(faces.bring(faces.suspects()));
   char is_worse = faces.crossings().n_pairs() > n_pairs || !RefinementPolicy::refill_stays(count(left), count(bad));
   share(executor, is_worse);
-  if (is_worse)
-    faces.go_back(before, changed);
-  else
-    all_changed.insert(all_changed.end(), changed.begin(), changed.end());
+  if (is_worse) faces.go_back(before);
   return !is_worse;
-}
-
-/// Collective. The faces that have changed, on rank 0.
-std::vector<FaceId> refill(MeshedFaces& faces, const Executor& executor) {
-  std::vector<FaceId> changed;
-  while (refill_once(faces, executor, changed)) {  // each leaves a tenth less at least
-  }
-  return changed;
 }
 
 }  // namespace
 
-void refill_bad(MeshedFaces& faces, const Executor& executor) { refill(faces, executor); }
+void refill_bad(MeshedFaces& faces, const Executor& executor) {
+  while (refill_once(faces, executor)) {  // each leaves a tenth less at least
+  }
+}
 
 bool refill_all_bad(MeshedFaces& faces, const Executor& executor) {
-  const std::vector<FacePlace> before = faces.places();
-  const std::vector<FaceId> changed = refill(faces, executor);
+  const MeshedFaces::PatchState before = faces.patch_state();
+  refill_bad(faces, executor);
   char is_sound = faces.n_bad() == 0;
   share(executor, is_sound);
-  if (!is_sound) faces.go_back(before, changed);
+  if (!is_sound) faces.go_back(before);
   return is_sound != 0;
 }
 
@@ -70,19 +59,19 @@ void mend_obtuse(MeshedFaces& faces, const std::vector<FaceId>& which, double ab
   int n_pairs = faces.crossings().n_pairs();
   share(executor, n_pairs);
   MeshedFaces::Patches patches = faces.bring(which);
-  const std::vector<FacePlace> before = faces.places();
-  std::vector<FaceId> changed;
+  const MeshedFaces::PatchState before = faces.patch_state();
+  char has_changed = false;
   for (auto& [f, patch] : patches) {
     if (mend_blunt(faces.nodes_of(patch), patch, above) == 0) continue;
-    changed.push_back(f);
+    has_changed = true;
     faces.put(f, std::move(patch));
   }
-  share(executor, changed);
-  if (changed.empty()) return;
+  share(executor, has_changed);
+  if (!has_changed) return;
   faces.search_crossings();
   char is_worse = faces.crossings().n_pairs() > n_pairs;
   share(executor, is_worse);
-  if (is_worse) faces.go_back(before, changed);
+  if (is_worse) faces.go_back(before);
 }
 
 void mend_last_obtuse(MeshedFaces& faces, bool has_metrics, const Executor& executor) {
@@ -98,7 +87,7 @@ void part_touching(MeshedFaces& faces, const Executor& executor) {
   share(executor, n_pairs);
   if (n_pairs == 0) return;
   MeshedFaces::Patches patches = faces.bring(faces.crossings().crossing_faces(true));
-  const std::vector<FacePlace> before = faces.places();
+  const MeshedFaces::PatchState before = faces.patch_state();
   std::vector<FaceId> moved;
   if (executor.is_root()) moved = faces.crossings().move_touching_apart(faces.numbering(), patches);
   share(executor, moved);
@@ -108,7 +97,7 @@ void part_touching(MeshedFaces& faces, const Executor& executor) {
   faces.search_crossings();
   char is_better = faces.crossings().n_pairs() < n_pairs;
   share(executor, is_better);
-  if (!is_better) faces.go_back(before, moved);
+  if (!is_better) faces.go_back(before);
 }
 
 }  // namespace st

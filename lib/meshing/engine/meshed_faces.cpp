@@ -129,18 +129,16 @@ std::vector<Vec3> MeshedFaces::bad_places() const {
   return places;
 }
 
-void MeshedFaces::go_back(const State& before, const std::vector<FaceId>& changed) {
+void MeshedFaces::go_back(const State& before) {
   set_edges(before.edges);
   if (executor_.is_root()) outcomes_ = before.outcomes;
-  go_back(before.places, changed);
+  go_back(before.patches);
 }
 
-void MeshedFaces::go_back(const std::vector<FacePlace>& places, const std::vector<FaceId>& changed) {
-  if (executor_.is_root()) {
-    places_ = places;
-    for (const FaceId f : changed) crossings_.renew(f);
-  }
-  search_crossings();
+void MeshedFaces::go_back(const PatchState& before) {
+  if (executor_.is_root()) places_ = before.places;
+  crossings_.go_back(before.crossings);
+  search_crossings();  // of what had not been compared then
 }
 
 void MeshedFaces::keep_only(std::vector<FacePlace> others) {

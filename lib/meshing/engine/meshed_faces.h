@@ -38,10 +38,14 @@ class MeshedFaces {
  public:
   using Patches = std::map<FaceId, FacePatch>;
   using BadTriangles = std::map<FaceId, std::vector<std::size_t>>;
-  struct State {  ///< what can be gone back to
-    EdgeMesh edges;
+  struct PatchState {  ///< what can be gone back to
     std::vector<FacePlace> places;
+    CrossingSearch::State crossings;
+  };
+  struct State {
+    EdgeMesh edges;
     std::vector<FaceOutcome> outcomes;
+    PatchState patches;
   };
 
   /// All references outlive the object; `edges` are changed by set_edges() alone. `across_bodies`: see CrossingSearch.
@@ -61,7 +65,8 @@ class MeshedFaces {
   CrossingSearch& crossings() { return crossings_; }
 
   // Local; places and outcomes are those of rank 0.
-  State state() const { return {edges_, places_, outcomes_}; }
+  State state() const { return {edges_, outcomes_, patch_state()}; }
+  PatchState patch_state() const { return {places_, crossings_.state()}; }
   const std::vector<FacePlace>& places() const { return places_; }
 
   // Local, on rank 0.
@@ -92,10 +97,9 @@ class MeshedFaces {
   Patches bring(const std::vector<FaceId>& faces) const;
   /// Where faces fail, fold or cross; on rank 0.
   std::vector<Vec3> bad_places() const;
-  /// `changed`: faces whose patches are others since then.
-  void go_back(const State& before, const std::vector<FaceId>& changed);
-  /// Likewise, to the patches alone: edges and outcomes are the same.
-  void go_back(const std::vector<FacePlace>& places, const std::vector<FaceId>& changed);
+  void go_back(const State& before);
+  /// To the patches alone: edges and outcomes are the same.
+  void go_back(const PatchState& before);
   /// Drops patches that are neither part of the mesh nor among these (rank 0's).
   void keep_only(std::vector<FacePlace> others);
   /// Once, at the end: folds, failures, crossings and patches go into the result.

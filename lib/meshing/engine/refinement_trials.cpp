@@ -50,12 +50,12 @@ bool RefinementTrials::take_back_once(TakeBack what) {
   const MeshedFaces::State before = faces_.state();
   const std::vector<Refinement> useless = drop_useless(what);
   if (useless.empty()) return false;
-  const std::vector<FaceId> meshed = mesh_again_(useless, "did not help", n_allowed);
+  mesh_again_(useless, "did not help", n_allowed);
   char is_worse = faces_.n_bad() > n_allowed || !std::ranges::includes(faces_.sound_faces(), sound);
   share(executor_, is_worse);
   if (!is_worse) return true;
   refinements_.assign(refined);
-  faces_.go_back(before, meshed);
+  faces_.go_back(before);
   return false;
 }
 
@@ -103,19 +103,19 @@ bool RefinementTrials::loosen_once() {
   std::vector<Refinement> changed;
   for (std::size_t k = 0; k < is_needed.size(); ++k)
     if (!is_needed[k]) changed.push_back(refined[k]);
-  std::vector<FaceId> meshed;
+  bool has_meshed = false;
   for (int i = 0; i < Policy::kMostTried && !changed.empty() && std::ranges::count(is_needed, 0) > 0; ++i) {
     refinements_.assign(loosened(refined, is_needed));
-    const std::vector<FaceId> again = mesh_again_(changed, i == 0 ? "may be too much" : "is needed", kAnyBad);
-    meshed.insert(meshed.end(), again.begin(), again.end());
+    mesh_again_(changed, i == 0 ? "may be too much" : "is needed", kAnyBad);
+    has_meshed = true;
     char is_sound = faces_.n_bad() == 0;
     share(executor_, is_sound);
     if (is_sound) return true;
     changed = find_needed(refined, is_needed);
   }
-  if (meshed.empty()) return false;
+  if (!has_meshed) return false;
   refinements_.assign(refined);
-  faces_.go_back(before, meshed);
+  faces_.go_back(before);
   return false;
 }
 

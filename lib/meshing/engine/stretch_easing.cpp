@@ -99,7 +99,7 @@ bool StretchEasing::keep_if_better() {
   const bool has_obtuse = is_on_root(!flaws_.obtuse.empty());
   if (is_best_) best_ = {n_flaws, has_obtuse, faces_.state(), refinements_.all()};
   std::vector<FacePlace> others;
-  if (executor_.is_root()) others = best_.state.places;
+  if (executor_.is_root()) others = best_.state.patches.places;
   faces_.keep_only(std::move(others));
   return is_best_;
 }
@@ -173,7 +173,7 @@ void StretchEasing::mix_rounds() {
 
 void StretchEasing::go_back() {
   refinements_.assign(best_.refinements);
-  faces_.go_back(best_.state, all_faces());
+  faces_.go_back(best_.state);
   is_best_ = true;
 }
 

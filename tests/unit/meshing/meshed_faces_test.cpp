@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "meshing/engine/refinement_policy.h"
+#include "support/backward_executor.h"
+#include "support/meshed.h"
 #include "unit/meshing/put_faces.h"
 
 namespace st {
@@ -24,9 +28,34 @@ TEST(MeshedFaces, go_back_to_the_patches_and_outcomes_from_before) {
   EXPECT_EQ(faces.n_bad(), 2 + RefinementPolicy::kPerFailure);
   EXPECT_EQ(faces.sound_faces().size(), 5u);
   EXPECT_TRUE(faces.bring({3}).empty());
-  faces.go_back(before, {3});
+  faces.go_back(before);
   EXPECT_EQ(faces.n_bad(), 0);
   EXPECT_EQ(packed(faces.bring({3}).at(3)), packed(put.meshed.result.patches[3]));
+}
+
+TEST(MeshedFaces, go_back_to_the_crossings_from_before_without_a_search) {
+  const test::Meshed meshed("box", 8);
+  const test::BackwardExecutor counted;
+  EdgeMesh edges;
+  MeshedFaces faces(meshed.model, meshed.topology, counted, true, edges);
+  faces.set_edges(meshed.result.edges);
+  for (const FacePatch& p : meshed.result.patches) faces.put(p.face, FacePatch(p));
+  FacePatch crossing = meshed.result.patches[2];
+  ASSERT_FALSE(crossing.inner_xyz.empty());
+  crossing.inner_xyz[0] = 2 * meshed.model.tables().box().center() - crossing.inner_xyz[0];
+  faces.put(2, std::move(crossing));
+  faces.search_crossings();
+  const int n_pairs = faces.crossings().n_pairs();
+  ASSERT_GT(n_pairs, 0);
+  const MeshedFaces::PatchState before = faces.patch_state();
+  faces.put(2, FacePatch(meshed.result.patches[2]));
+  faces.search_crossings();
+  ASSERT_EQ(faces.crossings().n_pairs(), 0);
+  const std::size_t n_searches = counted.n_of["crossings"];
+  ASSERT_GT(n_searches, 0u);
+  faces.go_back(before);
+  EXPECT_EQ(faces.crossings().n_pairs(), n_pairs);
+  EXPECT_EQ(counted.n_of["crossings"], n_searches);
 }
 
 TEST(MeshedFaces, find_a_triangle_that_is_turned_over_in_a_face_under_suspicion) {
