@@ -89,8 +89,8 @@ BlankSurface make_coarse_surface(const Model& model, const FaceRoles& roles, con
   options.time_limit = seconds;
   options.when_late = WhenLate::kThrow;
   options.parts_bodies = false;
-  options.tells_damage = false;     // nobody sees it: st-mesh tells of the mesh
-  options.stores_requests = false;  // nor meshes it again
+  options.mends_faces = false;      // some triangles turned over hide nothing
+  options.stores_requests = false;  // nobody meshes it again
   const MeshTopology topology = merge_small_features(model, field, options.merge_below, executor, &strips);
   MeshResult result = mesh_regions(model, topology, field, plan_all(topology), options, executor);
   if (!executor.is_root()) return {};

@@ -42,6 +42,7 @@ FaceRounds::FaceRounds(const Model& model, const MeshTopology& topology, const S
   if (static_cast<FaceId>(plan_.face_weight.size()) == tables().n_faces())
     for (const double weight : plan_.face_weight) expected_.push_back(kTrianglesPerWeight * weight);
   if (expected_.empty()) options_.tile_triangles = 0;  // nothing tells what is heavy
+  for (FaceId f = 0; f < tables().n_faces() && !options_.mends_faces; ++f) faces_.crossings().give_up(f);
   result.edges = std::move(plan_.kept_edges);
   for (FacePatch& p : std::exchange(plan_.kept_patches, {}))
     if (executor.is_root() && !p.triangles.empty()) faces_.put(p.face, std::move(p));
@@ -118,7 +119,7 @@ void FaceRounds::mesh_dirty_faces() {
 std::vector<RefinementPoint> FaceRounds::mesh_regions() {
   mesh_dirty_faces();
   give_up(false);
-  const bool folds_stay = gives_up_folds();
+  const bool folds_stay = !options_.mends_faces || gives_up_folds();
   std::vector<RefinementPoint> all;
   for (const FaceId f : paired_.meshed_of(dirty_faces_))
     if (const FaceOutcome& o = faces_.outcome(f);
@@ -138,13 +139,13 @@ bool FaceRounds::gives_up_folds() {
 /// Local, on rank 0. Faces that refining did not help, by their folds or also by their crossings of the last search:
 /// says so, once for each.
 void FaceRounds::give_up(bool by_crossings) {
+  if (!options_.mends_faces) return;
   std::vector<std::int64_t> n_crossing(tables().n_faces(), 0);
   if (by_crossings) n_crossing = faces_.crossings().n_pairs_within();
   for (FaceId f = 0; f < tables().n_faces(); ++f) {
     const std::int64_t n_bad = faces_.outcome(f).n_folds + n_crossing[f];
     if (!(by_crossings ? hopeless_.gives_up_crossing(f, n_bad) : hopeless_.gives_up_folded(f, n_bad))) continue;
     faces_.crossings().give_up(f);
-    if (!options_.tells_damage) continue;
     log_warning(
         fmt::format("{}: its triangles fold or cross each other {} times, and smaller ones no less: refining there was "
                     "ended; its surface is damaged or crosses itself, so repair it in the CAD system",
@@ -286,7 +287,7 @@ FaceRounds::FaceResult FaceRounds::make_face(FaceId f, const MakeMesh& make_mesh
     boundary = make_face_boundary(model_, *surface, f, faces_.numbering());
     const FaceField field(field_, refinements_, tables().face_box[f]);
     mesh = make_mesh(*surface, boundary, field.get());
-    repair_folds(*surface, boundary, field.get(), options_.of_face(), mesh);
+    if (options_.mends_faces) repair_folds(*surface, boundary, field.get(), options_.of_face(), mesh);
     if (mesh.cause == FailureCause::kNone) result.patch = make_patch(tables(), f, boundary, mesh, faces_.numbering());
     if (!has_numbers_only(result.patch)) {
       result.patch = FacePatch();

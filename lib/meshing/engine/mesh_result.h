@@ -34,7 +34,7 @@ struct MeshOptions {
   WhenLate when_late = WhenLate::kSignal;  ///< what happens then; kThrow: the face fails
   PatchesGo patches = PatchesGo::kToRoot;
   bool parts_bodies = true;              ///< bodies that the CAD keeps apart are refined where their triangles cross
-  bool tells_damage = true;              ///< warns of faces that refining does not help
+  bool mends_faces = true;               ///< what folds or crosses itself within a face is meshed again
   bool stores_requests = true;           ///< nodes get the lengths that the field requests: for a later st-remesh
   const PeriodicPairs* pairs = nullptr;  ///< outlive the run; null: there are none
   /// Places, with a radius, where lengths along shall become those across, from places, corners and faces of a mesh;

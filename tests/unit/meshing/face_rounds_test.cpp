@@ -66,5 +66,16 @@ TEST(FaceRounds, close_a_face_whose_loop_crosses_itself) {
   for (const FacePatch& p : r.patches) EXPECT_FALSE(p.triangles.empty());
 }
 
+/// Of a damaged surface: that smaller triangles fold as well takes rounds to see.
+TEST(FaceRounds, leave_a_face_that_folds_as_it_is_where_that_does_not_matter) {
+  MeshOptions options;
+  options.mends_faces = false;
+  const test::Meshed meshed("folded_sheet", 1, options);
+  EXPECT_EQ(meshed.result.n_rounds, 1);
+  EXPECT_EQ(meshed.result.n_refinements, 0);
+  EXPECT_FALSE(meshed.result.folds.empty());
+  EXPECT_TRUE(meshed.result.failures.empty());
+}
+
 }  // namespace
 }  // namespace st
