@@ -261,7 +261,9 @@ class Enhancer {
     find_short_edges();
     const std::int32_t first = m_.n_boundary + 4, n = static_cast<std::int32_t>(m_.nodes.size());
     for (std::int32_t i = first; i < n; ++i)
-      if ((at_short_edge_[i] || degree_[i] <= 4) && m_.triangle_at(i) != kNone && !m_.nodes[i].is_kept) try_collapse(i);
+      if ((at_short_edge_[i] || degree_[i] <= 4) && m_.triangle_at(i) != kNone && !m_.nodes[i].is_kept &&
+          !m_.nodes[i].is_laid)
+        try_collapse(i);
   }
 
   void find_short_edges() {

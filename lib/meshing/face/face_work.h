@@ -23,6 +23,7 @@ struct FaceWork {
   const SizeField* field = nullptr;
   std::vector<std::pair<std::int32_t, std::int32_t>> segments;  ///< of the loops, plane nodes
   PlaneMap plane;                                               ///< of (u,v)
+  std::vector<std::pair<std::int32_t, Vec3>> shortened;  ///< nodes whose rows have less stretch: what is asked for
   double max_turning = 1.0;   ///< radians between the normals of two nodes of a side, where L_min would allow more
   std::size_t max_nodes = 0;  ///< as many are a runaway: the front stops
   std::function<std::size_t()> find_max_nodes;  ///< asked once, where max_nodes are there: how many are one in the end

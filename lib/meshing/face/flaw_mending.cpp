@@ -8,60 +8,44 @@
 #include <vector>
 
 #include "base/predicates.h"
+#include "meshing/face/flaw_costs.h"
 #include "meshing/face/swap_quad.h"
-#include "meshing/face/triangle_shape.h"
 
 namespace st {
 namespace {
 
 // Where each number comes from: docs/design/heuristics.md.
-constexpr int kMostSweeps = 4;         // what mends one may flaw its neighbour
-constexpr double kLeastGain = 0.02;    // of the cost: less is no change
-constexpr double kSteepCosine = 0.5;   // between the normals of a triangle and of the surface: no change makes less
-constexpr double kAlongCosine = 0.95;  // likewise of two nodes, if the third has a wrong one
-// costs: squares of what is above, in these units
-constexpr double kAngleFrom = 0.75;  // of the negative cosine of the largest angle
-constexpr double kAngleUnit = 0.1;
-constexpr double kGrowthFrom = 2.1;  // of steps of size
-constexpr double kGrowthUnit = 0.2;
-constexpr double kLackFrom = 0.134;  // of what a triangle's quality lacks of 1: half a square
-constexpr double kLackUnit = 0.1;
-constexpr double kMostLack = 0.15;                 // triangles outside rows that lack more are flawed
+constexpr int kMostSweeps = 4;                     // what mends one may flaw its neighbour
+constexpr double kLeastGain = 0.02;                // of the cost: less is no change
 constexpr double kNodeCost = 0.3;                  // of a node more
-constexpr double kFlawCost = 1;                    // more where an angle or a step is above what is asked for
-constexpr double kMostCost = 10;                   // of one angle or step
+constexpr double kRowCost = 0.1;                   // of a quadrilateral of a row less
 constexpr std::array<double, 2> kSteps{0.5, 0.2};  // of the way to a node beside, or to the middle of all
 // where a node goes onto one beside it
 constexpr double kLongEdge = 1.45;  // of the lengths asked for: no such edge comes where there is none
 constexpr double kPoor = 0.4;       // quality: what comes is no worse, or no worse than what was there
 
-constexpr double kUnsound = 1e9;  // cost: above all others
-
-double cost_above(double value, double from, double unit) {
-  const double above = std::max(0.0, (value - from) / unit);
-  return std::min(kMostCost, above * above);
-}
-
-class FlawMending {
+class FlawMending : FlawCosts {
  public:
-  explicit FlawMending(FaceWork& work) : w_(work), m_(work.mesh) {}
+  explicit FlawMending(FaceWork& work) : FlawCosts(work.mesh), w_(work), m_(work.mesh) {}
 
   void run() {
-    is_due_.assign(m_.triangles.size(), 1);
+    ask_again();
+    tried_.assign(m_.triangles.size(), 0);
+    touched_.assign(m_.nodes.size(), 0);
     bool changes = true;
     for (int sweep = 0; sweep < kMostSweeps && changes; ++sweep) {
       changes = false;
       for (std::size_t i = 0; i < m_.triangles.size(); ++i) {
         const auto t = static_cast<std::int32_t>(i);
-        if (!std::exchange(is_due_[i], 0) || !is_flawed(t)) continue;
-        is_due_[i] = 1;  // what others change may help
+        if (!is_due(t)) continue;
+        tried_[i] = ++clock_;
+        if (!is_flawed(t)) continue;
         changes |= mend(t) || mend_at_pole(t);
       }
     }
   }
 
  private:
-  using Corners = std::array<std::int32_t, 3>;
   struct Change {
     double gain = kLeastGain;
     int edge = -1;                // that is swapped, or:
@@ -71,66 +55,11 @@ class FlawMending {
     bool is_new = false;          // `moved` is one more, in the triangle
   };
 
-  Vec3 x(std::int32_t node) const { return m_.nodes[node].x; }
-  static Corners corners(const PlaneTriangle& t) { return {t.v[0], t.v[1], t.v[2]}; }
-  double area(const Corners& c) const { return norm(cross(x(c[1]) - x(c[0]), x(c[2]) - x(c[0]))); }
-  /// 0: outside, or none.
-  double area(std::int32_t t) const {
-    if (t == kNone || m_.triangles[t].state == kOutside || m_.triangles[t].state == kDead) return 0;
-    return area(corners(m_.triangles[t]));
-  }
-
-  /// Negative cosine of the largest angle in space.
-  double bluntness(const Corners& c) const {
-    const Vec3 side[3] = {x(c[1]) - x(c[0]), x(c[2]) - x(c[1]), x(c[0]) - x(c[2])};
-    const double n[3] = {norm2(side[0]), norm2(side[1]), norm2(side[2])};
-    const int k = n[0] >= n[1] && n[0] >= n[2] ? 0 : n[1] >= n[2] ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
-    return dot(side[i], side[j]) / std::sqrt(std::max(n[i] * n[j], 1e-300));
-  }
-  /// 1 where one of the areas is none.
-  static double growth(double a, double b) { return a > 0 && b > 0 ? std::sqrt(std::max(a, b) / std::min(a, b)) : 1; }
-  static double angle_cost(double bluntness) {
-    return cost_above(bluntness, kAngleFrom, kAngleUnit) + (is_blunt(bluntness) ? kFlawCost : 0);
-  }
-  static double growth_cost(double a, double b) {
-    const double ratio = growth(a, b);
-    return cost_above(ratio, kGrowthFrom, kGrowthUnit) + (ratio > kMostGrowth ? kFlawCost : 0);
-  }
-  double shape_cost(const Corners& c) const {
-    return angle_cost(bluntness(c)) + cost_above(1 - quality(c), kLackFrom, kLackUnit);
-  }
-  static bool is_blunt(double bluntness) { return bluntness > -std::cos(kMostAngle); }
-
-  bool is_flawed(std::int32_t t) const {
-    const double own = area(t);
-    if (!(own > 0)) return false;
-    const Corners c = corners(m_.triangles[t]);
-    if (is_blunt(bluntness(c)) || (m_.triangles[t].state != kLaid && 1 - quality(c) > kMostLack)) return true;
-    for (const std::int32_t other : m_.triangles[t].n)
-      if (growth(own, area(other)) > kMostGrowth) return true;
-    return false;
-  }
-
-  /// Of these triangles as they are, and of their steps; where it is above `most`, of the first ones alone.
-  double cost(std::span<const std::int32_t> triangles, double most = kUnsound) const {
-    double sum = 0;
-    for (const std::int32_t t : triangles) {
-      if (sum > most) return sum;
-      const double own = area(t);
-      if (!(own > 0)) continue;
-      sum += shape_cost(corners(m_.triangles[t]));
-      for (const std::int32_t other : m_.triangles[t].n) sum += growth_cost(own, area(other));
-    }
-    return sum;
-  }
-
-  /// Against the surface's normals, or nearly. One of these may be wrong, as where the parametrisation is singular.
-  bool is_steep(const Corners& c) const {
-    const Vec3 n = cross(x(c[1]) - x(c[0]), x(c[2]) - x(c[0]));
-    std::array<double, 3> along;
-    std::ranges::transform(c, along.begin(), [&](std::int32_t i) { return dot(n, m_.nodes[i].normal); });
-    std::ranges::sort(along);
-    return !(along[0] > kSteepCosine * norm(n) || along[1] > kAlongCosine * norm(n));
+  /// Rows have given their nodes the lengths that were laid. They are judged by those asked for.
+  void ask_again() {
+    for (MeshNode& n : m_.nodes)
+      if (n.is_laid) n.h = n.request;
+    for (const auto& [node, squeeze] : w_.shortened) m_.nodes[node].squeeze = squeeze;
   }
 
   bool mend(std::int32_t t) {
@@ -144,6 +73,8 @@ class FlawMending {
     if (best.is_new) return insert(best.moved, t), true;
     if (best.edge >= 0) {
       const std::int32_t other = m_.triangles[t].n[best.edge];
+      release(t, best.edge);
+      m_.triangles[t].state = m_.triangles[other].state = kFinished;
       m_.swap(t, best.edge);
       look_again_at(t);
       look_again_at(other);
@@ -163,7 +94,8 @@ class FlawMending {
     m_.nodes.push_back(node);
     m_.added_node();
     m_.fill_cavity(static_cast<std::int32_t>(m_.nodes.size()) - 1);
-    is_due_.resize(m_.triangles.size());
+    tried_.resize(m_.triangles.size());
+    touched_.resize(m_.nodes.size());
     for (const std::int32_t fresh : m_.new_triangles()) {
       m_.triangles[fresh].state = kFinished;
       look_again_at(fresh);
@@ -191,16 +123,49 @@ class FlawMending {
     return are_one(0, 1) || are_one(1, 2) || are_one(2, 0);
   }
 
-  /// A triangle that changed, and those whose steps to it did.
+  /// Not tried yet, or not since something about it changed.
+  bool is_due(std::int32_t t) const {
+    return tried_[t] == 0 ||
+           std::ranges::any_of(m_.triangles[t].v, [&](std::int32_t i) { return touched_[i] >= tried_[t]; });
+  }
+  /// A triangle that changed, and all that have corners with it.
   void look_again_at(std::int32_t t) {
-    is_due_[t] = 1;
-    for (const std::int32_t other : m_.triangles[t].n)
-      if (other != kNone) is_due_[other] = 1;
+    for (const std::int32_t i : m_.triangles[t].v) touched_[i] = clock_;
   }
 
-  void consider_swap(std::int32_t t, int k, Change& best) const {
+  void consider_swap(std::int32_t t, int k, Change& best) {
     SwapQuad q;
-    if (!quad_at(m_, t, k, q)) return;
+    const double broken = release(t, k);
+    if (quad_at(m_, t, k, q)) consider_swap(q, k, broken, best);
+    if (broken > 0) hold(t, k);
+  }
+
+  /// Cost of what else of rows is none any more where this side is no side of a row: 0 where it is none, or stays one.
+  double release(std::int32_t t, int k) {
+    PlaneTriangle& r = m_.triangles[t];
+    const std::int32_t o = r.n[k];
+    if (!(r.constrained >> k & 1) || o == kNone || (r.v[k] < m_.n_boundary && r.v[(k + 1) % 3] < m_.n_boundary))
+      return 0;
+    double broken = kRowCost;
+    for (const std::int32_t i : {t, o}) {
+      const std::int32_t partner = beyond_longest(i);
+      if (partner != t && partner != o && is_in_row(i)) broken += kRowCost + lack_cost(corners(m_.triangles[partner]));
+    }
+    r.constrained &= static_cast<std::uint8_t>(~(1 << k));
+    PlaneTriangle& s = m_.triangles[o];
+    s.constrained &= static_cast<std::uint8_t>(~(1 << neighbour(s, t)));
+    return broken;
+  }
+  void hold(std::int32_t t, int k) {
+    PlaneTriangle& r = m_.triangles[t];
+    r.constrained |= static_cast<std::uint8_t>(1 << k);
+    PlaneTriangle& s = m_.triangles[r.n[k]];
+    s.constrained |= static_cast<std::uint8_t>(1 << neighbour(s, t));
+  }
+  static int neighbour(const PlaneTriangle& s, std::int32_t t) { return s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2; }
+
+  void consider_swap(const SwapQuad& q, int k, double broken, Change& best) const {
+    const std::int32_t t = q.t;
     const PlaneTriangle &r = m_.triangles[t], &s = m_.triangles[q.o];
     const int j = s.n[0] == t ? 0 : s.n[1] == t ? 1 : 2;
     const Corners first{q.c, q.a, q.d}, second{q.c, q.d, q.b};
@@ -208,7 +173,7 @@ class FlawMending {
     const double after = shape_cost(first) + shape_cost(second) + 2 * growth_cost(one, two) +
                          growth_cost(one, area(r.n[(k + 2) % 3])) + growth_cost(two, area(r.n[(k + 1) % 3])) +
                          growth_cost(one, area(s.n[(j + 1) % 3])) + growth_cost(two, area(s.n[(j + 2) % 3]));
-    const double gain = cost(std::array{t, q.o}) - after;
+    const double gain = cost(std::array{t, q.o}) - after - broken;
     if (gain <= best.gain || is_steep(first) || is_steep(second) || !may_swap<true>(w_, q, k)) return;
     best = {.gain = gain, .edge = k};
   }
@@ -255,7 +220,8 @@ class FlawMending {
   }
 
   void consider_moves(std::int32_t node, Change& best) {
-    if (node < m_.n_boundary + 4 || m_.nodes[node].is_laid || !m_.ring_of(node, around_, tris_)) return;
+    const bool is_of_line = m_.nodes[node].is_laid && m_.nodes[node].is_kept;
+    if (node < m_.n_boundary + 4 || is_of_line || !m_.ring_of(node, around_, tris_)) return;
     const double before = cost(tris_);
     if (before <= best.gain) return;
     Vec2 middle{};
@@ -283,7 +249,7 @@ class FlawMending {
 
   void consider_collapses(std::int32_t node, Change& best) {
     const MeshNode& n = m_.nodes[node];
-    if (node < m_.n_boundary + 4 || n.is_laid || n.is_kept || !m_.ring_of(node, around_, tris_)) return;
+    if (node < m_.n_boundary + 4 || n.is_kept || !m_.ring_of(node, around_, tris_)) return;
     if (std::ranges::any_of(around_, [&](std::int32_t i) { return m_.nodes[i].is_pole; })) return;
     const double before = cost(tris_);
     longest_ = before > best.gain ? longest_about(node) : 0;
@@ -333,7 +299,6 @@ class FlawMending {
     }
     return worst >= worst_before;
   }
-  double quality(const Corners& c) const { return metric_quality(m_.nodes[c[0]], m_.nodes[c[1]], m_.nodes[c[2]]); }
   /// Of the lengths asked for.
   double relative_length(std::int32_t i, std::int32_t j) const {
     return std::sqrt(w_.edge_length2<true>(i, j)) / (0.5 * (m_.nodes[i].h + m_.nodes[j].h));
@@ -362,8 +327,10 @@ class FlawMending {
   FaceWork& w_;
   Triangulation& m_;
   std::vector<std::int32_t> around_, tris_;
-  double longest_ = 0;        // sides about the node that may go, of the lengths asked for
-  std::vector<char> is_due_;  // [triangles] may be flawed
+  double longest_ = 0;                  // sides about the node that may go, of the lengths asked for
+  std::uint32_t clock_ = 0;             // counts the triangles that were tried
+  std::vector<std::uint32_t> tried_;    // [triangles] when
+  std::vector<std::uint32_t> touched_;  // [nodes] when something about them changed last
 };
 
 }  // namespace

@@ -14,7 +14,8 @@ inline constexpr double kMostGrowth = 2.2;
 inline constexpr double kFarAngle = radians(150);
 
 /// Where more is found in the face, a side is swapped or an inner node moved, whichever leaves the least: the metric
-/// does not see them. Nodes of rows stay. The mesh stays valid in the plane, and no triangle turns away from the
+/// does not see them. Sides and nodes of rows give way where that leaves less, but not those of the lines at which rows
+/// begin. The mesh stays valid in the plane, and no triangle turns away from the
 /// surface for it. Linear where few are flawed.
 void mend_flaws(FaceWork& work);
 

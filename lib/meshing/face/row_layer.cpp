@@ -54,10 +54,12 @@ bool RowLayer::lay(const std::vector<std::array<std::int32_t, 3>>& corners) {
 
 void RowLayer::settle(std::int32_t n, double height, double width) {
   MeshNode& node = m_.nodes[n];
-  node.is_laid = node.is_kept = true;
+  node.is_laid = true;
   node.h = std::min(node.request, height * 1.25);
   const double most = std::max(1.0, 1.3 * width / node.h), own = aspect_of(node);
-  if (own > most) node.squeeze = std::sqrt((1 - 1 / (most * most)) / (1 - 1 / (own * own))) * node.squeeze;
+  if (!(own > most)) return;
+  w_.shortened.push_back({n, node.squeeze});
+  node.squeeze = std::sqrt((1 - 1 / (most * most)) / (1 - 1 / (own * own))) * node.squeeze;
 }
 
 }  // namespace st

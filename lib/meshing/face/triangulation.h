@@ -15,8 +15,8 @@ namespace st {
 /// A node of a face in the plane. Its `h` is the edge length to aim at: the request, limited by growth and turning.
 /// What is asked of the nodes around another one comes first: it is in two lines of the cache.
 struct alignas(64) MeshNode : FaceNode {
-  bool is_kept = false;  ///< of a ring about a narrow part, or laid in a row: not to be collapsed
-  bool is_laid = false;  ///< in a row: not to be moved
+  bool is_kept = false;  ///< of a ring about a narrow part, or of a line at which rows begin: not to be collapsed
+  bool is_laid = false;  ///< in a row: for mend_flaws() alone to be moved, and not by that where kept
   Vec2 p{};              ///< scaled parameter plane
   Vec3 normal{};         ///< unit normal du x dv; where that is singular, of a place a little inside
   double request = 0;    ///< edge length that the field requests

@@ -44,6 +44,10 @@ struct Plate {
     EXPECT_GT(made->worst_cosine(), 0);
   }
   Triangulation& mesh() { return made->work.mesh; }
+  std::int32_t node_at(Vec2 p) {
+    const auto is_there = [&](const MeshNode& n) { return norm(n.uv - at(p.x, p.y)) < 1e-9; };
+    return static_cast<std::int32_t>(std::ranges::find_if(mesh().nodes, is_there) - mesh().nodes.begin());
+  }
   double largest_angle() { return degrees(std::acos(least_cosine())); }
   double least_quality() {
     double least = 1;
@@ -112,10 +116,6 @@ struct PlateWithNodeBetween : Plate {
     EXPECT_NE(between, kNone);
     EXPECT_GT(largest_angle(), 150);
   }
-  std::int32_t node_at(Vec2 p) {
-    const auto is_there = [&](const MeshNode& n) { return norm(n.uv - at(p.x, p.y)) < 1e-9; };
-    return static_cast<std::int32_t>(std::ranges::find_if(mesh().nodes, is_there) - mesh().nodes.begin());
-  }
 };
 
 TEST(FlawMending, takes_out_a_node_between_two_columns) {
@@ -135,12 +135,67 @@ TEST(FlawMending, takes_out_no_node_that_is_kept) {
   EXPECT_NE(plate.mesh().triangle_at(plate.between), kNone);
 }
 
-TEST(FlawMending, moves_no_node_of_a_row) {
+/// As a nose inside a face: rows begin there.
+TEST(FlawMending, moves_no_node_of_a_line_of_rows) {
   Plate plate({3.45, 2.4});
+  for (MeshNode& n : plate.mesh().nodes) n.is_laid = n.is_kept = true;
+  const auto nodes = plate.mesh().nodes;
+  mend_flaws(plate.made->work);
+  for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_TRUE(plate.mesh().nodes[i].x == nodes[i].x) << i;
+}
+
+TEST(FlawMending, moves_nodes_at_ends_of_rows) {
+  Plate plate({3.2, 2});
+  for (MeshNode& n : plate.mesh().nodes) n.is_laid = true;
+  mend_flaws(plate.made->work);
+  EXPECT_GT(plate.least_quality(), 0.85);
+  expect_valid(plate.boundary, plate.made->mesh());
+}
+
+/// Whole quadrilaterals, though some are high.
+TEST(FlawMending, leaves_quadrilaterals_of_rows_as_they_are) {
+  Plate plate({3, 2.35});
+  ASSERT_LT(plate.least_quality(), 0.84);
+  for (PlaneTriangle& t : plate.mesh().triangles)
+    if (Prepared::is_inside(t)) t.state = kLaid;
   for (MeshNode& n : plate.mesh().nodes) n.is_laid = true;
   const auto nodes = plate.mesh().nodes;
   mend_flaws(plate.made->work);
   for (std::size_t i = 0; i < nodes.size(); ++i) EXPECT_TRUE(plate.mesh().nodes[i].x == nodes[i].x) << i;
+}
+
+/// Rows that are narrow there have given them less stretch.
+TEST(FlawMending, judges_nodes_of_rows_by_what_is_asked_for) {
+  Plate plate({3.2, 2});
+  for (std::size_t i = 0; i < plate.mesh().nodes.size(); ++i) {
+    MeshNode& n = plate.mesh().nodes[i];
+    n.is_laid = true;
+    plate.made->work.shortened.push_back({static_cast<std::int32_t>(i), n.squeeze});
+    n.squeeze = LocalSize{kAcross, 1.5 * kAcross, {0, 1, 0}}.squeeze();
+  }
+  mend_flaws(plate.made->work);
+  EXPECT_GT(plate.least_quality(), 0.85);
+}
+
+TEST(FlawMending, opens_a_side_of_a_row_for_what_is_beside_it) {
+  Plate plate;
+  const std::int32_t t = plate.mesh().left_of(plate.node_at({3, 1}), plate.node_at({3, 2})).first;
+  ASSERT_NE(t, kNone);
+  int k = 0;
+  while (plate.mesh().triangles[t].v[k] != plate.node_at({3, 1})) ++k;
+  const std::int32_t other = plate.mesh().triangles[t].n[k];
+  ASSERT_TRUE(plate.mesh().can_swap(t, k));
+  plate.mesh().swap(t, k);
+  for (const std::int32_t i : {t, other}) {
+    PlaneTriangle& r = plate.mesh().triangles[i];
+    for (int side = 0; side < 3; ++side)
+      if (r.n[side] == (i == t ? other : t)) r.constrained |= static_cast<std::uint8_t>(1 << side);
+  }
+  for (MeshNode& n : plate.mesh().nodes) n.is_laid = n.is_kept = true;
+  ASSERT_LT(plate.least_quality(), 0.7);
+  mend_flaws(plate.made->work);
+  EXPECT_GT(plate.least_quality(), 0.85);
+  expect_valid(plate.boundary, plate.made->mesh());
 }
 
 TEST(FlawMending, makes_large_steps_of_size_smaller) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "unit/meshing/row_case.h"
 
 namespace st::test {
@@ -53,7 +55,10 @@ TEST(RowLayer, settles_lengths_as_they_were_laid) {
   ASSERT_NE(n, kNone);
   layer.settle(n, 0.2, 0.5);
   const MeshNode& node = face.work.mesh.nodes[n];
-  EXPECT_TRUE(node.is_laid && node.is_kept);
+  EXPECT_TRUE(node.is_laid && !node.is_kept);
+  ASSERT_EQ(face.work.shortened.size(), 1U);
+  EXPECT_EQ(face.work.shortened[0].first, n);
+  EXPECT_NEAR(1 / std::sqrt(1 - norm2(face.work.shortened[0].second)), 10, 1e-9);
   EXPECT_NEAR(node.h, 0.25, 1e-12);
   EXPECT_NEAR(aspect_of(node), 1.3 * 0.5 / 0.25, 1e-9);
 }
