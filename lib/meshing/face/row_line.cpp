@@ -33,6 +33,7 @@ constexpr double kFreeAside = 0.7;                // of a quadrilateral's length
 constexpr double kMiss = 0.01;                    // of a height, by which a node may miss its place
 constexpr double kBetween[] = {0.25, 0.5, 0.75};  // of a quadrilateral's length: where room is looked for
 constexpr int kSmoothing = 3;                     // passes over the heights
+constexpr double kMostRaised = 1.1;               // of a height asked for, by these
 constexpr std::size_t kNeighbours = 3;            // of a quadrilateral, on each side
 constexpr std::size_t kLeastRun = 4;              // quadrilaterals beside each other
 
@@ -141,7 +142,9 @@ class LineMaker {
     return turning(cross(node(i).normal, along_[i]), next_.columns[i].node.x - node(i).x, node(i).normal);
   }
 
+  /// What is asked for holds all the same: beside the end of a nose lengths grow within one segment.
   void smooth(std::size_t first, std::size_t last) {
+    const std::vector<double> asked = height_;
     std::vector<double> old;
     for (int pass = 0; pass < kSmoothing; ++pass) {
       old = height_;
@@ -153,6 +156,7 @@ class LineMaker {
         height_[i] = 0.25 * old[from] + 0.5 * old[i] + 0.25 * old[to];
       }
     }
+    for (std::size_t i = first; i <= last; ++i) height_[i] = std::min(height_[i], kMostRaised * asked[i]);
   }
 
   /// From a column's node up to its height, into stepped_; false where the surface turns away.

@@ -32,6 +32,20 @@ TEST(NextLine, does_not_ask_again_for_what_is_known_of_its_nodes) {
   EXPECT_EQ(next.columns[5].asked.length, 0.1) << "what the field tells there";
 }
 
+/// As beyond the end of a nose, within one segment.
+TEST(NextLine, is_hardly_higher_than_asked_for_where_it_is_much_higher_beside) {
+  const WallField field(0.1, 0, 1);
+  RowCase face({band(10, 10, {5}, {5})}, field);
+  RowLine line = line_of(11);
+  line.asked.assign(11, {0.05, 1, {1, 0, 0}});
+  std::fill_n(line.asked.begin() + 5, 6, LocalSize{0.3, 1, {1, 0, 0}});
+  const NextLine next = next_line(face.work, line, {});
+  const double asked = 0.5 * (0.05 + 1.4 * 0.05);
+  EXPECT_NEAR(next.columns[1].node.x.y, asked, 2e-3);
+  EXPECT_GT(next.columns[4].node.x.y, 1.05 * asked);
+  EXPECT_LT(next.columns[4].node.x.y, 1.15 * asked);
+}
+
 TEST(NextLine, takes_the_nodes_of_its_sides_and_turns_towards_them) {
   const WallField field(0.1, 0, 1);
   std::vector<Vec2> loop = band(10, 8, {0.1, 3}, {0.1, 3});
