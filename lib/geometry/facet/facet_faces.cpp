@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kNeedle = 1e-3;     // height over longest side: below, the normal is not reliable
 constexpr double kFolded = 0.05;     // likewise: below, not where it opposes those of all neighbours
+constexpr double kKnife = -0.5;      // cosine between the sides of a trailing edge: they turn by more than 120 degrees
+constexpr double kSameSide = 0.94;   // cosine between facets of one side: 20 degrees
 constexpr double kShortLine = 0.02;  // of the diagonal: a line that ends inside a region and is shorter is noise
 constexpr int kIsland = 3;           // facets: lines around so few within one region are noise
 constexpr int kNeedlesInARow = 3;    // that hand a normal on
@@ -44,8 +46,16 @@ class Splitter {
         const auto longest = std::max_element(length2.begin(), length2.end()) - length2.begin();
         const std::int32_t behind = neighbours_[t][longest];
         const double height = norm(area_normal(mesh_, t)) / length2[longest];
-        if (behind != kNone && (height < kNeedle || (height < kFolded && is_folded(t)))) normal_[t] = normal_[behind];
+        if (behind != kNone && !is_beside_knife(t, behind) && (height < kNeedle || (height < kFolded && is_folded(t))))
+          normal_[t] = normal_[behind];
       }
+  }
+
+  /// At a sharp trailing edge, with one side of the wing and turned against the other one, `behind`.
+  bool is_beside_knife(std::int32_t t, std::int32_t behind) const {
+    return dot(normal_[t], normal_[behind]) < kKnife && std::ranges::any_of(neighbours_[t], [&](std::int32_t other) {
+             return other != kNone && dot(normal_[t], normal_[other]) > kSameSide;
+           });
   }
 
   /// Turned against all its neighbours; at a sharp trailing edge it would not be against those of its own side.

@@ -34,6 +34,18 @@ TEST(FacetFaces, are_not_parted_by_needles) {
   EXPECT_EQ(count_faces(find_smooth_faces(in, radians(20))), 1);
 }
 
+// Of a wing of span 10: a needle along the trailing edge, of which the lower side has a node 0.003 before it.
+TEST(FacetFaces, end_at_the_trailing_edge_that_a_needle_lies_along) {
+  FacetInput in;
+  in.x = {{1, 0, 0}, {1, 10, 0}, {0.997, 6, -0.0003}, {0, 5, 0.1}, {0, 0, -0.1}, {0, 10, -0.1}};
+  in.corners = {{0, 1, 3}, {1, 0, 2}, {2, 0, 4}, {2, 4, 5}, {1, 2, 5}};
+  in.part.assign(in.corners.size(), 0);
+  in.part_name = {""};
+  const FacetMesh mesh = find_smooth_faces(in, radians(40));
+  EXPECT_EQ(count_faces(mesh), 2);
+  for (const std::size_t t : {2, 3, 4}) EXPECT_EQ(mesh.face[t], mesh.face[1]);
+}
+
 // A cone whose tip is one facet: that turns by 37 degrees from those around, and these by 18 from each other.
 TEST(FacetFaces, are_not_parted_around_a_single_facet) {
   FacetInput in;
