@@ -10,7 +10,6 @@ namespace st {
 namespace {
 
 constexpr double kCone = 0.5;        // cosine of 60 degrees: a projection stretches by 2 at most
-constexpr double kFold = -0.5;       // cosine of 120 degrees between neighbours
 constexpr int kScrap = 30;           // facets: so few between two cones go to one of them
 constexpr double kScrapCone = 0.17;  // cosine of 80 degrees: to the middle of that cone
 
@@ -114,7 +113,7 @@ bool is_folded(const FacetPatch& patch) {
   const std::vector<Vec3> normal = normals_of(patch);
   for (std::size_t t = 0; t < normal.size(); ++t)
     for (const std::int32_t other : patch.neighbours[t])
-      if (other != kNone && dot(normal[t], normal[other]) < kFold) return true;
+      if (other != kNone && dot(normal[t], normal[other]) < kKnife) return true;
   return false;
 }
 

@@ -12,7 +12,6 @@ namespace {
 
 constexpr double kNeedle = 1e-3;     // height over longest side: below, the normal is not reliable
 constexpr double kFolded = 0.05;     // likewise: below, not where it opposes those of all neighbours
-constexpr double kKnife = -0.5;      // cosine between the sides of a trailing edge: they turn by more than 120 degrees
 constexpr double kSameSide = 0.94;   // cosine between facets of one side: 20 degrees
 constexpr double kShortLine = 0.02;  // of the diagonal: a line that ends inside a region and is shorter is noise
 constexpr int kIsland = 3;           // facets: lines around so few within one region are noise

@@ -73,22 +73,25 @@ void count(const FacetInput& in, const std::vector<std::int32_t>& one, JoinedGap
 JoinedGaps join_gaps(FacetInput& input, double diagonal) {
   FreeNodes free = find_free(input);
   JoinedGaps joined{0, kFacetGap * diagonal, {}, free.n_sides > 0};
+  if (free.n_sides == 0) return joined;
   const auto one = join_within(input.x, free, joined.gap, [](std::int32_t, std::int32_t, double) { return true; });
   input.corners = renamed(std::move(input.corners), one);
   count(input, one, joined);
+  free = find_free(input);
   for (const double share : kWiderGaps) {
-    free = find_free(input);
     if (free.n_sides == 0) break;
     const auto wider = join_within(input.x, free, share * diagonal, [&](std::int32_t a, std::int32_t b, double d) {
       return d <= std::min(free.reach[a], free.reach[b]);
     });
     std::vector<Corners> was = std::exchange(input.corners, renamed(input.corners, wider));
-    if (find_free(input).n_sides >= free.n_sides) {
+    FreeNodes left = find_free(input);
+    if (left.n_sides >= free.n_sides) {
       input.corners = std::move(was);
       continue;
     }
     count(input, wider, joined);
     joined.gap = share * diagonal;
+    free = std::move(left);
   }
   return joined;
 }

@@ -1,7 +1,7 @@
 // Nodes that are one but for a gap.
 #pragma once
 
-#include <optional>
+#include <cstddef>
 
 #include "geometry/facet/facet_mesh.h"
 

@@ -17,6 +17,14 @@ namespace st {
 /// Of the largest coordinate: what four roundings to 24 bits move a point by.
 inline constexpr double kSinglePrecision = 2.4e-7;
 
+/// Cosine between the normals of facets that turn by more than 120 degrees, as at a sharp trailing edge.
+inline constexpr double kKnife = -0.5;
+
+/// Area of a facet times two, along its normal.
+inline Vec3 area_normal(const std::vector<Vec3>& x, const Corners& c) {
+  return cross(x[c[1]] - x[c[0]], x[c[2]] - x[c[0]]);
+}
+
 /// Facets as a file has them.
 struct FacetInput {
   std::vector<Vec3> x;                 ///< model unit
@@ -117,9 +125,6 @@ class PatchDivider {
 void keep_triangles(FacetMesh& mesh, const std::vector<std::uint8_t>& is_kept);
 
 /// Area of triangle t times two, along its normal.
-inline Vec3 area_normal(const FacetMesh& mesh, std::int32_t t) {
-  const Corners& c = mesh.corners[t];
-  return cross(mesh.x[c[1]] - mesh.x[c[0]], mesh.x[c[2]] - mesh.x[c[0]]);
-}
+inline Vec3 area_normal(const FacetMesh& mesh, std::int32_t t) { return area_normal(mesh.x, mesh.corners[t]); }
 
 }  // namespace st

@@ -331,11 +331,10 @@ class FacetRepair {
     return longest;
   }
   double side_length(const Corners& c, int k) const { return distance(in_.x[c[k]], in_.x[c[(k + 1) % 3]]); }
-  Vec3 area_normal(const Corners& c) const { return cross(in_.x[c[1]] - in_.x[c[0]], in_.x[c[2]] - in_.x[c[0]]); }
   /// Over the longest side, as a share of it.
   double flatness(const Corners& c) const {
     const double longest = side_length(c, longest_side(c));
-    return longest > 0 ? norm(area_normal(c)) / (longest * longest) : 0;
+    return longest > 0 ? norm(area_normal(in_.x, c)) / (longest * longest) : 0;
   }
 
   bool is_cap(const Corners& c, int k) const {
@@ -350,12 +349,12 @@ class FacetRepair {
     const Corners c = in_.corners[t], o = in_.corners[other];
     const std::int32_t a = c[k], b = c[(k + 1) % 3], apex = c[(k + 2) % 3], opposite = o[0] + o[1] + o[2] - a - b;
     const Corners first{apex, a, opposite}, second{apex, opposite, b};
-    const Vec3 normal = area_normal(o);
-    const bool is_flat = dot(normalized(area_normal(c)), normalized(normal)) > kAtCorner;
+    const Vec3 normal = area_normal(in_.x, o);
+    const bool is_flat = dot(normalized(area_normal(in_.x, c)), normalized(normal)) > kAtCorner;
     if (!is_flat && flatness(c) > kNoNormal && !is_folded(t, neighbours)) return false;  // a sharp edge
     if (opposite == apex || has_side(apex, opposite)) return false;
     if (!is_line_on_line(c, o, a + b)) {
-      if (!(dot(area_normal(first), normal) > 0 && dot(area_normal(second), normal) > 0)) return false;
+      if (!(dot(area_normal(in_.x, first), normal) > 0 && dot(area_normal(in_.x, second), normal) > 0)) return false;
       if (std::min(flatness(first), flatness(second)) <= flatness(c)) return false;
     }
     in_.corners[t] = first;
@@ -371,9 +370,9 @@ class FacetRepair {
   }
 
   bool is_folded(std::int32_t t, const std::vector<Corners>& neighbours) const {
-    const Vec3 normal = area_normal(in_.corners[t]);
+    const Vec3 normal = area_normal(in_.x, in_.corners[t]);
     return std::all_of(neighbours[t].begin(), neighbours[t].end(), [&](std::int32_t other) {
-      return other == kNone || dot(normal, area_normal(in_.corners[other])) < 0;
+      return other == kNone || dot(normal, area_normal(in_.x, in_.corners[other])) < 0;
     });
   }
 

@@ -10,8 +10,6 @@
 namespace st {
 namespace {
 
-constexpr double kKnife = -0.5;  // cosine: facets that turn by more than 120 degrees
-
 /// What a plane leaves of a triangle, as numbers of halves: one below and one above for each triangle.
 struct Halves {
   std::array<std::int32_t, 2> number{kNone, kNone};
@@ -47,10 +45,7 @@ KnifeSides::KnifeSides(const FacetPatch& patch) : patch_(patch) {
       rim.push_back({low, high, t, k});
     }
   std::sort(rim.begin(), rim.end());
-  const auto normal = [&](std::int32_t t) {
-    const Corners& c = patch.corners[t];
-    return normalized(cross(patch.x[c[1]] - patch.x[c[0]], patch.x[c[2]] - patch.x[c[0]]));
-  };
+  const auto normal = [&](std::int32_t t) { return normalized(area_normal(patch.x, patch.corners[t])); };
   for (std::size_t i = 0; i + 1 < rim.size(); ++i) {
     const RimSide &s = rim[i], &o = rim[i + 1];
     if (s.low != o.low || s.high != o.high || dot(normal(s.triangle), normal(o.triangle)) > kKnife) continue;

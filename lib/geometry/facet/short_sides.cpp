@@ -14,7 +14,6 @@ namespace {
 using NodePair = std::pair<std::int32_t, std::int32_t>;
 
 constexpr int kMostPasses = 50;     // a side goes only where none beside it went in the same pass
-constexpr double kKnife = -0.5;     // cosine: facets that turn by more than 120 degrees
 constexpr double kOfHeight = 1e-3;  // over the longest side: below, the normal of a facet is rounding
 
 /// One pass over all short sides: those that are not beside one another.
@@ -76,7 +75,7 @@ class ShortSides {
     return std::ranges::any_of(facets_[a], [&](std::int32_t t) {
       const Corners& c = in_.corners[t];
       if (std::ranges::count(c, b) == 0) return false;
-      const Vec3 normal = area_normal(t);
+      const Vec3 normal = area_normal(in_.x, c);
       double longest = 0;
       for (int k = 0; k < 3; ++k) longest = std::max(longest, distance(in_.x[c[k]], in_.x[c[(k + 1) % 3]]));
       if (norm(normal) < kOfHeight * longest * longest) return false;
@@ -86,15 +85,11 @@ class ShortSides {
     });
   }
 
-  Vec3 area_normal(std::int32_t t) const {
-    const auto [a, b, c] = in_.corners[t];
-    return cross(in_.x[b] - in_.x[a], in_.x[c] - in_.x[a]);
-  }
-
   /// Of the other facet at a side of facet t.
   Vec3 normal_beside(std::int32_t a, std::int32_t b, std::int32_t t) const {
     for (const std::int32_t other : facets_[a])
-      if (other != t && std::ranges::count(in_.corners[other], b) > 0) return normalized(area_normal(other));
+      if (other != t && std::ranges::count(in_.corners[other], b) > 0)
+        return normalized(area_normal(in_.x, in_.corners[other]));
     return {};
   }
 
