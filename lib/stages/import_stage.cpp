@@ -428,8 +428,16 @@ ImportResult import_triangles(const std::string& path, const ImportOptions& opti
   ImportResult r;
   std::vector<TrianglePair> pairs;
   bool was_ended = false;
-  run_jobs({[&] { r = import_facets(std::move(facets), options, path); },
-            [&] { pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended); }});
+  const auto find_pairs = [&] { pairs = find_crossing_triangles(mesh.node_xyz, mesh.triangles, was_ended); };
+  if (options.smooth.empty()) {
+    run_jobs({[&] { r = import_facets(facets, options, path); }, find_pairs});
+  } else {  // facets that were smoothed cross elsewhere
+    r = import_facets(facets, options, path);
+    mesh.node_xyz = std::move(facets.x);
+    mesh.triangles.clear();
+    for (const Corners& c : facets.corners) mesh.triangles.push_back({{c[0], c[1], c[2]}});
+    find_pairs();
+  }
   report_crossing(path, mesh, std::move(pairs), was_ended, r);
   return r;
 }
@@ -443,8 +451,11 @@ ImportResult import_file(const ImportStageOptions& o, const GroupsFile& groups) 
     options.feature_deg = o.feature_angle.value_or(options.feature_deg);
     return import_triangles(o.model, options);
   }
-  if (o.feature_angle)
-    throw Error(ExitCode::kUsage, o.model + ": --feature-angle is for facets (STL), and this is no file of them");
+  for (const auto& [option, is_given] :
+       {std::pair{"--feature-angle", o.feature_angle.has_value()}, std::pair{"--smooth", !options.smooth.empty()}})
+    if (is_given)
+      throw Error(ExitCode::kUsage,
+                  fmt::format("{}: {} is for facets (STL), and this is no file of them", o.model, option));
   return import_model(o.model, options);
 }
 
@@ -466,11 +477,9 @@ std::string composite_word(const ImportStageOptions& o) {
 nlohmann::json options_json(const ImportStageOptions& o) {
   const ImportOptions& i = o.import;
   nlohmann::json used{{"unit", i.unit}, {"small", i.small}};
-  const std::pair<const char*, const std::string&> texts[] = {{"sew", i.sew},
-                                                              {"symmetry", i.air.symmetry},
-                                                              {"mirror", i.air.mirror},
-                                                              {"farfield", i.air.farfield},
-                                                              {"replace_farfield", i.air.replace_farfield}};
+  const std::pair<const char*, const std::string&> texts[] = {
+      {"sew", i.sew},       {"symmetry", i.air.symmetry}, {"mirror", i.air.mirror},
+      {"smooth", i.smooth}, {"farfield", i.air.farfield}, {"replace_farfield", i.air.replace_farfield}};
   for (const auto& [name, text] : texts)
     if (!text.empty()) used[name] = text;
   if (i.air.flow_domain != AirOptions().flow_domain) used["flow_domain"] = i.air.flow_domain;

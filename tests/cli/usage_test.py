@@ -21,7 +21,7 @@ HELP_COLUMN = 34  # where the texts of --help start
 # Values that each option with a bounded value refuses.
 REFUSED = {
     "st-import": {"--threads": ["0", "x"], "--unit": ["parsec", ""], "--small": ["0", "-1%", "x"],
-                  "--sew": ["0", "-1%", "x"],
+                  "--sew": ["0", "-1%", "x"], "--smooth": ["0", "-1%", "x"],
                   "--symmetry": ["y", "w=0", "y=x"], "--mirror": ["y", "w=0", "y=x"],
                   "--farfield": ["box", "ball:20", "box:0.5"],
                   "--time-limit": ["0", "-1", "x"], "--feature-angle": ["0", "181", "x"]},

@@ -21,6 +21,7 @@ void declare(OptionSet& set, ImportStageOptions& o) {
   set.optional_input("--groups", o.groups, "file that defines groups of faces, edges and vertices (TOML)");
   set.number(o.kTimeLimit, o.time_limit);
   set.number(o.kFeatureAngle, o.feature_angle);
+  set.length("--smooth", i.smooth, "", "of facets: take noise of a scan away, moving nodes by at most this");
   set.text(
       "--composite", o.composite, "WORD",
       "make one face of CAD faces that meet smoothly: none, harm (where the edge between them spoils triangles) or "

@@ -42,6 +42,7 @@ struct ImportOptions {
   bool require_closed = false;    ///< Error(kGeometry) for a model that is open after repairs
   std::vector<GroupRule> groups;  ///< empty: those of the file
   double feature_deg = 30;        ///< of facets: faces meet where neighbours' normals differ by more
+  std::string smooth;             ///< of facets: length by which noise moves them at most; empty: they stay
 };
 
 /// Faces that bound the air which the file itself has.
