@@ -252,7 +252,7 @@ TopoDS_Shape with_parts(const TopoDS_Shape& shape, const ImportedShape& model, c
 DividedSurfaces divide_bare_surfaces(ImportedShape& model, std::vector<ImportFinding>& findings) {
   Parts parts;
   DividedSurfaces divided;
-  const double diagonal = rough_box(model.shape).diagonal();
+  const double diagonal = model.box().diagonal();
   for (TopExp_Explorer f(model.shape, TopAbs_FACE, TopAbs_SOLID); f.More(); f.Next()) {
     const int i = model.faces.FindIndex(f.Current());
     if (!f.Current().Location().IsIdentity() || parts.count(i) > 0) continue;

@@ -152,7 +152,7 @@ void remove_duplicate_solids(ImportedShape& model, std::vector<ImportFinding>& f
   TopTools_IndexedMapOfShape solids;
   TopExp::MapShapes(model.shape, TopAbs_SOLID, solids);
   if (solids.Extent() < 2) return;
-  const double place = kSamePlace * rough_box(model.shape).diagonal();
+  const double place = kSamePlace * model.box().diagonal();
   std::vector<SolidCandidate> kept;
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
   for (int i = 1; i <= solids.Extent(); ++i) {
@@ -174,7 +174,7 @@ void remove_duplicate_solids(ImportedShape& model, std::vector<ImportFinding>& f
 void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findings) {
   const std::vector<std::vector<int>> alike = faces_of_same_edges(model);
   if (alike.empty()) return;
-  const double place = kSamePlace * rough_box(model.shape).diagonal();
+  const double place = kSamePlace * model.box().diagonal();
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
   bool is_changed = false;
   for (const std::vector<int>& faces : alike) {
@@ -201,7 +201,7 @@ void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findin
 void remove_duplicates(ImportedShape& model, std::vector<ImportFinding>& findings) {
   const std::vector<Candidate> faces = candidates(model);
   if (faces.empty()) return;
-  const double place = kSamePlace * rough_box(model.shape).diagonal();
+  const double place = kSamePlace * model.box().diagonal();
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
   std::vector<char> is_removed(faces.size(), 0);
   for (std::size_t i = 0; i < faces.size(); ++i)

@@ -124,7 +124,7 @@ void remove_empty_faces(ImportedShape& model, std::vector<ImportFinding>& findin
   int n_removed = 0;
   for (int i = 1; i <= model.faces.Extent(); ++i) {
     if (bounding.Contains(model.faces(i))) continue;
-    if (!diagonal) diagonal = rough_box(model.shape).diagonal();
+    if (!diagonal) diagonal = model.box().diagonal();
     const std::optional<Box3> box = empty_box(TopoDS::Face(model.faces(i).Oriented(TopAbs_FORWARD)), *diagonal);
     if (!box) continue;
     ++n_removed;

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/threads.h"
 
 namespace st::occt {
 namespace {
@@ -59,7 +60,8 @@ class NumberScan {
       : text_(text), path_(path), is_step_(format == "STEP"), is_iges_(format == "IGES") {}
 
   void run() const {
-    if (!is_iges_) return scan(0, text_.size());
+    if (is_step_) return scan(0, text_.size());  // a name may be anywhere, and over several lines
+    if (!is_iges_) return scan_lines();
     constexpr std::size_t kSection = 72, kEndOfData = 64;  // columns
     for (std::size_t begin = 0, end = 0; begin < text_.size(); begin = end + 1) {
       end = std::min(text_.find('\n', begin), text_.size());
@@ -68,6 +70,14 @@ class NumberScan {
   }
 
  private:
+  /// All of them, on all threads.
+  void scan_lines() const {
+    constexpr std::size_t kBytes = 1 << 18;
+    const auto line_end = [&](std::size_t at) { return at == 0 ? 0 : std::min(text_.find('\n', at), text_.size()); };
+    parallel_for(text_.size(), kBytes,
+                 [&](std::size_t begin, std::size_t end) { scan(line_end(begin), line_end(end)); });
+  }
+
   bool ends_word(char c) const {
     return c == ',' || c == ';' || (!is_iges_ && (c == ' ' || (c >= '\t' && c <= '\r') || c == '(' || c == ')'));
   }

@@ -183,7 +183,7 @@ occt::SewingLimits sewing_limits(const CadFile& file, const ModelUnit& unit, con
   occt::SewingLimits limits{file.resolution_mm, std::nullopt, group_tolerances(model, unit, options)};
   const std::string& sew = options.sew;
   if (sew.empty()) return limits;
-  const double diagonal = occt::rough_box(model.shape).diagonal() / unit.shape_units;
+  const double diagonal = model.box().diagonal() / unit.shape_units;
   limits.largest = unit.shape_units * resolve_length(parse_length(sew, "--sew"), {diagonal, unit.in_m}, "--sew");
   return limits;
 }

@@ -315,7 +315,7 @@ std::vector<Contact> find_contacts(const ImportedShape& model, const FaceGroups&
 }  // namespace
 
 bool imprint_faces(ImportedShape& model, Imprints which, double tolerance, std::vector<ImportFinding>& findings) {
-  const double diagonal = rough_box(model.shape).diagonal();
+  const double diagonal = model.box().diagonal();
   bool is_changed = false;
   for (const double fuzzy : kFuzzy) {
     const FaceGroups groups(model);

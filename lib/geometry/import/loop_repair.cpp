@@ -368,7 +368,7 @@ TopoDS_Face forward_face(const ImportedShape& model, int i) {
 }  // namespace
 
 void rebuild_lost_loops(ImportedShape& model, std::vector<ImportFinding>& findings) {
-  const double diagonal = rough_box(model.shape).diagonal(), harmless = kHarmless * diagonal;
+  const double diagonal = model.box().diagonal(), harmless = kHarmless * diagonal;
   std::vector<int> numbers;  // of faces that may have lost loops, each shape once
   TopTools_MapOfShape seen;
   for (int i = 1; i <= model.faces.Extent(); ++i) {

@@ -285,7 +285,7 @@ bool repair_crossing_loops(ImportedShape& model, const ModelOfFile& tables, std:
 }
 
 void repair_pcurves(ImportedShape& model, std::vector<ImportFinding>& findings) {
-  const double diagonal = rough_box(model.shape).diagonal();
+  const double diagonal = model.box().diagonal();
   std::vector<std::uint8_t> leaves(model.faces.Extent(), 0);
   parallel_for(leaves.size(), 1, [&](std::size_t i, std::size_t) {
     visit_leaving(model.faces(static_cast<int>(i) + 1), diagonal,

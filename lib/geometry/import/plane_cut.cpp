@@ -73,10 +73,10 @@ PlaneSide side_of(const TopoDS_Face& face, const SymmetryPlane& plane, double to
 }
 
 TopoDS_Shape large_face(const ImportedShape& model, const SymmetryPlane& plane) {
-  const double reach = rough_box(model.shape).diagonal();
+  const double reach = model.box().diagonal();
   gp_XYZ normal(0, 0, 0);
   normal.SetCoord(plane.axis + 1, 1);
-  const Vec3 middle = rough_box(model.shape).center();
+  const Vec3 middle = model.box().center();
   gp_XYZ origin(middle.x, middle.y, middle.z);
   origin.SetCoord(plane.axis + 1, plane.value);
   return BRepBuilderAPI_MakeFace(gp_Pln(gp_Pnt(origin), gp_Dir(normal)), -reach, reach, -reach, reach).Shape();

@@ -356,7 +356,7 @@ Pairs sew_pairs(ImportedShape& model, const SewingLimits& limits, std::vector<Im
   if (pairs.is_group_sewn)
     findings.push_back(sewn_finding(FindingKind::kSewnByGroup, original, start, start.group_tolerance));
   const double base = std::max(2 * original.edge_tolerance, limits.stated_resolution);
-  pairs.tolerances = tolerances_to_try(rough_box(model.shape).diagonal(), base, limits.largest);
+  pairs.tolerances = tolerances_to_try(model.box().diagonal(), base, limits.largest);
   pairs.best = sew_all(model, start, pairs.tolerances);
   if (pairs.best && pairs.best->n_false > 0) pairs.best = sew_without_false_joins(model, start, *pairs.best, findings);
   if (pairs.best && pairs.best->n_free < start.n_free)

@@ -309,7 +309,7 @@ void make_space_curves(ImportedShape& model, std::vector<ImportFinding>& finding
     TopLoc_Location where;
     double t0, t1;
     if (edge_faces(i).IsEmpty() || !BRep_Tool::Curve(edge, where, t0, t1).IsNull()) continue;
-    if (harmless == 0) harmless = std::max(kHarmless * rough_box(model.shape).diagonal(), Precision::Confusion());
+    if (harmless == 0) harmless = std::max(kHarmless * model.box().diagonal(), Precision::Confusion());
     bool is_made = true;
     const std::string what = mend(edge, edge_faces(i), harmless, is_made);
     const TopoDS_Vertex vertex = TopExp::FirstVertex(edge);
@@ -322,7 +322,7 @@ void make_space_curves(ImportedShape& model, std::vector<ImportFinding>& finding
 void rebuild_space_curves(ImportedShape& model, std::vector<ImportFinding>& findings) {
   TopTools_IndexedDataMapOfShapeListOfShape edge_faces;
   TopExp::MapShapesAndAncestors(model.shape, TopAbs_EDGE, TopAbs_FACE, edge_faces);
-  const double harmless = kHarmless * rough_box(model.shape).diagonal();
+  const double harmless = kHarmless * model.box().diagonal();
   for (int i = 1; i <= edge_faces.Extent(); ++i) {
     const TopoDS_Edge edge = TopoDS::Edge(edge_faces.FindKey(i).Oriented(TopAbs_FORWARD));
     if (BRep_Tool::Degenerated(edge) || edge_faces(i).Extent() < 2) continue;

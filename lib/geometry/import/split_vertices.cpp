@@ -78,7 +78,7 @@ class VertexSplitter {
       if (BRep_Tool::Degenerated(edge(i)) && vertex(i, 0).IsSame(vertex(i, 1)) && !vertex(i, 0).IsNull())
         poles.push_back(i);
     if (poles.empty()) return;
-    harmless_ = std::max(kHarmless * rough_box(model_.shape).diagonal(), Precision::Confusion());
+    harmless_ = std::max(kHarmless * model_.box().diagonal(), Precision::Confusion());
     for (std::size_t i = 0; i < n_edges(); ++i) vertices_.push_back({vertex(i, 0), vertex(i, 1)});
     for (const std::size_t i : poles)
       if (const std::optional<Ends> ends = ends_of_arc(edge(i), harmless_)) split(i, *ends, findings);

@@ -25,6 +25,11 @@ bool ImportedShape::replace(const TopoDS_Shape& changed,
   return true;
 }
 
+const Box3& ImportedShape::box() const {
+  if (!boxed_.IsEqual(shape)) box_ = rough_box(boxed_ = shape);
+  return box_;
+}
+
 std::string file_label(std::int32_t file_face) {
   return file_face == kNone ? "face that the import made" : "face " + std::to_string(file_face + 1) + " of the file";
 }

@@ -49,6 +49,12 @@ struct ImportedShape {
   /// Takes over `changed`, in which `images(face)` stands for a face of old (any shape with faces in it, or null when
   /// it is gone): the attributes follow. Returns false and changes nothing when `changed` has no face.
   bool replace(const TopoDS_Shape& changed, const std::function<TopoDS_Shape(const TopoDS_Shape&)>& image);
+  /// rough_box() of the shape. It is made once for each shape: what becomes of its edges does not count. By one thread.
+  const Box3& box() const;
+
+ private:
+  mutable TopoDS_Shape boxed_;  // whose box it is
+  mutable Box3 box_;
 };
 
 /// All parts of the file in one compound. Throws Error(kGeometry) when there is no face.

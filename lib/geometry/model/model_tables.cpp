@@ -38,7 +38,7 @@ struct FaceMeasure {
 class TableWriter {
  public:
   TableWriter(const ImportedShape& model, const std::string& path)
-      : model_(model), path_(path), origin_(rough_box(model.shape).center()) {}
+      : model_(model), path_(path), origin_(model.box().center()) {}
 
   ModelOfFile run() {
     TopExp::MapShapes(model_.shape, TopAbs_EDGE, edges_);

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "base/threads.h"
 #include "geometry/import/cad_reader.h"
 #include "support/shapes.h"
 #include "unit/io/temporary_directory.h"
@@ -45,6 +46,22 @@ TEST(FileNumbers, takes_small_numbers_infinity_of_opencascade_and_names) {
   EXPECT_NO_THROW(require(parameters("406,1,9HNAN 1E300,1.D+02;") + parameters("inf ,NAN,1E300,", 'S'), "IGES"));
   EXPECT_NO_THROW(require("\nOpen CASCADE Topology V3\n nan ", "BREP"));
   EXPECT_NO_THROW(require("", "STEP"));
+}
+
+TEST(FileNumbers, tells_the_first_line_of_a_long_file_whoever_scans_it) {
+  std::string text;
+  for (int line = 1; line <= 90'000; ++line)
+    text += line == 50'000 || line == 80'000 ? "0 " + std::to_string(line) + "e300\n" : "0.125 17 3.5e-3\n";
+  for (const int n_threads : {1, 3}) {
+    set_thread_count(n_threads);
+    EXPECT_ERROR(require(text, "BREP"), kGeometry, "line 50000 has the number 50000e300;");
+  }
+  set_thread_count(1);
+  text.erase(text.find("50000e300"), 9);
+  EXPECT_ERROR(require(text, "BREP"), kGeometry, "line 80000 has the number 80000e300;");
+  const std::string up_to_a_piece((1 << 18) - 3, ' ');
+  EXPECT_ERROR(require(up_to_a_piece + "1e300 2\n3\n", "BREP"), kGeometry, "line 1 has the number 1e300;");
+  EXPECT_NO_THROW(require(std::string(1'000'000, '7'), "BREP"));
 }
 
 TEST(FileNumbers, refuses_exponents_that_step_does_not_have) {
