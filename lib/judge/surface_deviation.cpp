@@ -105,7 +105,7 @@ class FootFinder {
   static constexpr double kAside = 1e-5;       // of the shortest side: so much of the turning along it
   static constexpr double kNegligible = 1e-3;  // of the longest side
   static constexpr double kDoubtful = 0.1;     // of the longest side: an arc of 45 degrees
-  static constexpr int kMostSearches = 1000;   // of the whole surface, up to a millisecond each
+  static constexpr int kMostSearches = 250;    // of the whole surface, up to a millisecond each
 
   int n_searches_ = 0;
 };

@@ -40,7 +40,7 @@ struct SurfaceDeviation {
 /// What each triangle adds to a SurfaceDeviation, for passes that have its surface at hand (estimate_chord_error()).
 /// A midpoint's foot is found by steps in tangent planes from the mean (u,v) of the corners, exact to 1e-5 of the
 /// shortest side. Where that does not end, or at more than a tenth of the longest, it is projected from the mean, the
-/// corners, then by a search of the whole surface: at most a thousand of these per piece (kTrianglesPerPiece). Where
+/// corners, then by a search of the whole surface: at most 250 of these per piece (kTrianglesPerPiece). Where
 /// nothing nearer is found, the surface's point at the mean counts: never less than the true distance. Triangles of one
 /// piece are added in order, by one thread. Precondition: the mesh was made on the model.
 class DeviationSum {

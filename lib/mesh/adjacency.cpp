@@ -68,6 +68,39 @@ void EdgeTable::sort_buckets(std::size_t first, std::size_t last) {
   }
 }
 
+std::vector<SideId> find_fans(std::span<const Triangle> triangles, const EdgeTable& edges) {
+  const auto end_of = [](SideId s) { return s % 3 == 2 ? s - 2 : s + 1; };
+  std::vector<SideId> beyond(3 * triangles.size(), kNone);  // the next corner about the node, beyond the side from it
+  std::vector<std::span<const SideId>> irregular;
+  edges.for_each_edge([&](NodeId, NodeId, std::span<const SideId> sides) {
+    if (sides.size() == 2 && !run_alike(triangles, sides[0], sides[1]))
+      beyond[sides[0]] = end_of(sides[1]), beyond[sides[1]] = end_of(sides[0]);
+    else if (sides.size() > 1)
+      irregular.push_back(sides);
+  });
+  std::vector<SideId> fan(beyond.size(), kNone);
+  for (SideId c = 0; c < static_cast<SideId>(fan.size()); ++c) {
+    if (fan[c] != kNone) continue;
+    SideId s = c;
+    for (; s != kNone && fan[s] == kNone; s = beyond[s]) fan[s] = c;
+    if (s == kNone || fan[s] == c) continue;
+    const SideId lowest = fan[s];  // c is before it in an open fan
+    for (s = c; fan[s] == c; s = beyond[s]) fan[s] = lowest;
+  }
+  if (irregular.empty()) return fan;
+  DisjointSets fans(static_cast<std::int64_t>(fan.size()));
+  for (SideId c = 0; c < static_cast<SideId>(fan.size()); ++c) fans.join(c, fan[c]);
+  for (const std::span<const SideId> sides : irregular)
+    for (std::size_t i = 1; i < sides.size(); ++i) {
+      SideId from = sides[i], to = end_of(from);
+      if (!run_alike(triangles, sides[0], sides[i])) std::swap(from, to);
+      fans.join(sides[0], from);
+      fans.join(end_of(sides[0]), to);
+    }
+  for (SideId c = 0; c < static_cast<SideId>(fan.size()); ++c) fan[c] = fans.find(c);
+  return fan;
+}
+
 void ComponentFinder::add(std::span<const Triangle> triangles) {
   ST_ASSERT(are_nodes_below(triangles, static_cast<std::int64_t>(component_.size())));
   for (const Triangle& t : triangles) {

@@ -56,6 +56,10 @@ inline bool run_alike(std::span<const Triangle> triangles, SideId a, SideId b) {
   return side_start(triangles, a) == side_start(triangles, b);
 }
 
+/// [3 n_triangles] the lowest corner, 3 t + k as a side, of the fan that each corner is in: triangles around a node
+/// that edges join, those of several or of different orientation, too. `edges`: of these triangles.
+std::vector<SideId> find_fans(std::span<const Triangle> triangles, const EdgeTable& edges);
+
 /// Finds connected components of a mesh whose triangles come in pieces.
 class ComponentFinder {
  public:

@@ -7,6 +7,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/log.h"
+#include "base/threads.h"
 
 namespace st {
 
@@ -92,27 +93,20 @@ void find_duplicates(const SurfaceMesh& mesh, NodeId low, NodeId high, std::span
   }
 }
 
-/// Joins the corners that an edge puts into one fan, at both of its nodes.
-void join_fans(const SurfaceMesh& mesh, std::span<const SideId> sides, DisjointSets& corners) {
-  const auto end_of = [](SideId s) { return s % 3 == 2 ? s - 2 : s + 1; };
-  for (std::size_t i = 1; i < sides.size(); ++i) {
-    SideId from = sides[i], to = end_of(from);
-    if (!run_alike(mesh.triangles, sides[0], sides[i])) std::swap(from, to);
-    corners.join(sides[0], from);
-    corners.join(end_of(sides[0]), to);
-  }
-}
-
-void find_pinched_nodes(const SurfaceMesh& mesh, const OwnTriangles& own, DisjointSets& corners, Defects& pinched) {
+Defects find_pinched_nodes(const SurfaceMesh& mesh, const EdgeTable& edges, const OwnTriangles& own) {
+  Defects pinched;
+  const std::vector<SideId> fan = find_fans(mesh.triangles, edges);
   std::vector<std::uint8_t> n_fans(mesh.n_nodes(), 0);
-  for (std::int32_t c = 0; c < 3 * static_cast<std::int32_t>(mesh.n_triangles()); ++c) {
+  for (std::int32_t c = 0; c < static_cast<std::int32_t>(fan.size()); ++c) {
+    if (fan[c] != c) continue;
     const Triangle& t = mesh.triangles[c / 3];
-    if (has_repeated_node(t) || corners.find(c) != c) continue;
+    if (has_repeated_node(t)) continue;
     if (++n_fans[t.n[c % 3]] == 2 && own.has(c / 3))
       pinched.add(
           {mesh.node_xyz[t.n[c % 3]], mesh.triangle_face[c / 3], kNone, 3 * std::int64_t{own.number(c / 3)} + c % 3});
     n_fans[t.n[c % 3]] = std::min<std::uint8_t>(n_fans[t.n[c % 3]], 3);
   }
+  return pinched;
 }
 
 }  // namespace
@@ -149,21 +143,17 @@ void TopologyReport::set_parts(const MeshParts& parts, std::int64_t n_triangles)
   genus = n_components - euler / 2;
 }
 
-TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad) {
-  return check_topology(mesh, edges, cad, OwnTriangles::all(mesh));
-}
+namespace {
 
-TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad,
-                              const OwnTriangles& own) {
-  TopologyReport r;
+/// What is at edges alone.
+void check_edges(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad, const OwnTriangles& own,
+                 TopologyReport& r) {
   CadEdgeLookup lookup(mesh, cad);
-  DisjointSets corners(3 * mesh.n_triangles());
   const auto at_edge = [&](NodeId a, NodeId b, std::span<const SideId> sides) {
     return DefectPlace{0.5 * (mesh.node_xyz[a] + mesh.node_xyz[b]), mesh.triangle_face[sides[0] / 3],
                        sides.size() > 1 ? mesh.triangle_face[sides[1] / 3] : kNone, own.order(a, b)};
   };
   edges.for_each_edge([&](NodeId a, NodeId b, std::span<const SideId> sides) {
-    join_fans(mesh, sides, corners);
     if (!own.has_side(sides[0])) return;
     ++r.n_edges;
     if (sides.size() == 1) {
@@ -181,10 +171,26 @@ TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, c
     }
     find_duplicates(mesh, a, b, sides, own, r.duplicate_triangles);
   });
-  for (TriangleId t = own.begin; t < own.end; ++t)
-    if (has_repeated_node(mesh.triangles[t])) r.repeated_nodes.add(at_triangle(mesh, t, own));
-  find_pinched_nodes(mesh, own, corners, r.pinched_nodes);
-  if (own.is_all(mesh)) r.set_parts(count_parts(mesh.triangles, mesh.n_nodes()), mesh.n_triangles());
+}
+
+}  // namespace
+
+TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad) {
+  return check_topology(mesh, edges, cad, OwnTriangles::all(mesh));
+}
+
+TopologyReport check_topology(const SurfaceMesh& mesh, const EdgeTable& edges, const CadEdges& cad,
+                              const OwnTriangles& own) {
+  TopologyReport r;
+  MeshParts parts;
+  run_jobs({[&] { check_edges(mesh, edges, cad, own, r); },
+            [&] { r.pinched_nodes = find_pinched_nodes(mesh, edges, own); },
+            [&] {
+              for (TriangleId t = own.begin; t < own.end; ++t)
+                if (has_repeated_node(mesh.triangles[t])) r.repeated_nodes.add(at_triangle(mesh, t, own));
+              if (own.is_all(mesh)) parts = count_parts(mesh.triangles, mesh.n_nodes());
+            }});
+  if (own.is_all(mesh)) r.set_parts(parts, mesh.n_triangles());
   return r;
 }
 
@@ -332,11 +338,15 @@ ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges) {
 
 ShapeReport check_shape(const SurfaceMesh& mesh, const EdgeTable& edges, const OwnTriangles& own) {
   ShapeReport r;
-  for (TriangleId t = own.begin; t < own.end; ++t)
-    if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t]))
-      r.zero_area.add(at_triangle(mesh, t, own));
-  if (own.is_all(mesh)) r.duplicate_nodes = find_duplicate_nodes(mesh);
-  find_folds(mesh, edges, own, r.folds);
+  run_jobs({[&] { find_folds(mesh, edges, own, r.folds); },
+            [&] {
+              for (TriangleId t = own.begin; t < own.end; ++t)
+                if (!has_repeated_node(mesh.triangles[t]) && is_degenerate(mesh.node_xyz, mesh.triangles[t]))
+                  r.zero_area.add(at_triangle(mesh, t, own));
+            },
+            [&] {
+              if (own.is_all(mesh)) r.duplicate_nodes = find_duplicate_nodes(mesh);
+            }});
   return r;
 }
 

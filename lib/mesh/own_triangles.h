@@ -10,7 +10,7 @@
 namespace st {
 
 /// Triangles whose sums are added up at a time: by a piece of the whole mesh, so that neither threads nor shares show.
-inline constexpr std::size_t kTrianglesPerPiece = 16'384;
+inline constexpr std::size_t kTrianglesPerPiece = 4096;
 
 /// A share of a mesh has own triangles [begin, end), and around them all others that have a node in common with these:
 /// an edge or a node is looked at in the share that owns the first of its triangles. Triangles and nodes have the order

@@ -14,7 +14,7 @@
 namespace st {
 
 /// Triangles of a share, about: it takes some 400 MB.
-inline constexpr std::int64_t kTrianglesPerShare = 128 * static_cast<std::int64_t>(kTrianglesPerPiece);
+inline constexpr std::int64_t kTrianglesPerShare = 512 * static_cast<std::int64_t>(kTrianglesPerPiece);
 
 /// Whether the mesh may be larger than one share: nothing is read. Many ranks share small ones, too.
 bool is_worth_sharing(const CheckStageOptions& options, const Executor& ranks);

@@ -51,6 +51,35 @@ TEST(EdgeTable, of_nothing_has_no_edge) {
   EdgeTable({}, 0).for_each_edge([](NodeId, NodeId, std::span<const SideId>) { ADD_FAILURE(); });
 }
 
+std::vector<SideId> fans_of(const std::vector<Triangle>& triangles, std::int64_t n_nodes) {
+  return find_fans(triangles, EdgeTable(triangles, n_nodes));
+}
+
+TEST(Fans, are_one_for_each_node_of_a_closed_mesh) {
+  const SurfaceMesh m = shapes::cube(3);
+  const std::vector<SideId> fan = find_fans(m.triangles, edges_of(m));
+  std::vector<SideId> lowest(m.n_nodes(), kNone);
+  for (SideId c = 0; c < static_cast<SideId>(fan.size()); ++c) {
+    SideId& first = lowest[side_start(m.triangles, c)];
+    if (first == kNone) first = c;
+    EXPECT_EQ(fan[c], first);
+  }
+}
+
+TEST(Fans, have_the_lowest_corner_whichever_way_around_an_open_fan_it_is) {
+  EXPECT_EQ(fans_of({{{0, 1, 2}}, {{0, 2, 3}}, {{0, 3, 4}}}, 5), (std::vector<SideId>{0, 1, 2, 0, 2, 5, 0, 5, 8}));
+  EXPECT_EQ(fans_of({{{0, 3, 4}}, {{0, 2, 3}}, {{0, 1, 2}}}, 5), (std::vector<SideId>{0, 1, 2, 0, 4, 1, 0, 7, 4}));
+}
+
+TEST(Fans, end_where_triangles_meet_in_a_node_alone) {
+  EXPECT_EQ(fans_of({{{0, 1, 2}}, {{0, 3, 4}}}, 5), (std::vector<SideId>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(Fans, go_on_over_edges_of_three_triangles_and_of_triangles_that_run_alike) {
+  EXPECT_EQ(fans_of({{{0, 1, 2}}, {{1, 0, 3}}, {{0, 1, 4}}}, 5), (std::vector<SideId>{0, 1, 2, 1, 0, 5, 0, 1, 8}));
+  EXPECT_EQ(fans_of({{{0, 1, 2}}, {{0, 1, 3}}, {{0, 3, 4}}}, 5), (std::vector<SideId>{0, 1, 2, 0, 1, 5, 0, 5, 8}));
+}
+
 TEST(NodeComponents, are_numbered_by_their_lowest_node) {
   std::int32_t n = 0;
   const std::vector<Triangle> triangles{{{6, 7, 8}}, {{1, 2, 3}}, {{3, 4, 1}}};
