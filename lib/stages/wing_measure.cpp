@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "base/radix_sort.h"
+#include "base/threads.h"
 #include "mesh/group_mesh.h"
+#include "mesh/own_triangles.h"
 #include "sizing/wing_sizes.h"
 #include "stages/spanwise.h"
 
@@ -39,17 +41,18 @@ class WingMesh {
   WingMesh(const SurfaceMesh& mesh, const WingRecord& wing) : mesh_(mesh) {
     std::size_t n_skin = 0, n_base = 0;  // known first: the lists are large, and grow by copies
     for_each_own(wing, [&](TriangleId, bool is_skin, bool is_base) { n_skin += is_skin, n_base += is_base; });
-    skin_.reserve(n_skin);
-    base_.reserve(n_base);
+    skin_.reserve(n_skin), base_.reserve(n_base);
     for_each_own(wing, [&](TriangleId t, bool is_skin, bool is_base) {
-      if (is_skin) skin_.push_back(ball_of(t));
+      if (is_skin) skin_.push_back({t, {}, 0});
       if (is_base) base_.push_back(ball_of(t));
     });
     Box3 box;
     for (const WingRecord::Station& s : wing.stations) box.add(s.trailing);
     const Vec3 size = box.hi - box.lo;
     axis_ = size.x >= size.y && size.x >= size.z ? &Vec3::x : size.y >= size.z ? &Vec3::y : &Vec3::z;
-    for (Ball& b : skin_) b.at = b.center.*axis_;
+    parallel_for(skin_.size(), kTrianglesPerPiece, [&](std::size_t begin, std::size_t end) {
+      for (Ball& b : std::span(skin_).subspan(begin, end - begin)) b = ball_of(b.triangle), b.at = b.center.*axis_;
+    });
     sort_by_number(skin_, [](const Ball& b) { return b.at; });  // triangles come in their order
   }
   std::int64_t n_triangles() const { return static_cast<std::int64_t>(skin_.size() + base_.size()); }
@@ -150,9 +153,8 @@ class WingMesh {
   Vec3 corner(TriangleId t, std::size_t k) const { return mesh_.node_xyz[mesh_.triangles[t].n[k]]; }
   Ball ball_of(TriangleId t) const {
     const Vec3 center = (corner(t, 0) + corner(t, 1) + corner(t, 2)) / 3;
-    return {t, center,
-            std::max({distance(center, corner(t, 0)), distance(center, corner(t, 1)), distance(center, corner(t, 2))}),
-            0};
+    const auto away2 = [&](std::size_t k) { return norm2(center - corner(t, k)); };
+    return {t, center, std::sqrt(std::max({away2(0), away2(1), away2(2)}))};
   }
   /// A part of the skin that holds all centres not further from `place` than `reach`.
   std::span<const Ball> skin_within(Vec3 place, double reach) const {
@@ -370,8 +372,11 @@ std::vector<WingMeasure> measure_wings(const SurfaceMesh& mesh, std::span<const 
     own.group = main_group(mesh.labels, of_groups);
     if (!triangles.is_empty() && !spanwise.station.empty()) {
       measure_all_stations(triangles, wing, spanwise, own);
-      for (const std::size_t i : spanwise.listed())
-        own.stations.push_back(measure_station(triangles, wing, spanwise, i));
+      const std::vector<std::size_t> listed = spanwise.listed();
+      own.stations.resize(listed.size());
+      parallel_for(listed.size(), 1, [&](std::size_t i, std::size_t) {
+        own.stations[i] = measure_station(triangles, wing, spanwise, listed[i]);
+      });
     }
     all.push_back(std::move(own));
   }
