@@ -123,7 +123,7 @@ FaceDomain make_domain(const TopoDS_Face& face) {
   for (TopoDS_Iterator w(face); w.More(); w.Next()) {
     if (w.Value().ShapeType() != TopAbs_WIRE) continue;
     LoopUv loop;
-    for (const TopoDS_Edge& edge : walk_wire(TopoDS::Wire(w.Value()), face))
+    for (const TopoDS_Edge& edge : walk_wire(TopoDS::Wire(w.Value()), face, d.bounds))
       loop.coedges.push_back(make_coedge(edge, face));
     if (loop.coedges.empty()) continue;
     loop.area = polygon_area(loop);

@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "geometry/brep/shape_queries.h"
-#include "geometry/brep/uv_box.h"
 
 namespace st::occt {
 namespace {
@@ -32,11 +31,10 @@ gp_Pnt2d end_of(const TopoDS_Edge& edge, const TopoDS_Face& face, bool is_end) {
 }
 
 /// Whether each edge starts where the one before ends.
-bool is_ring(const std::vector<TopoDS_Edge>& edges, const TopoDS_Face& face) {
+bool is_ring(const std::vector<TopoDS_Edge>& edges, const TopoDS_Face& face, const Vec2& extent) {
   const auto after = [&](std::size_t k) -> const TopoDS_Edge& { return edges[(k + 1) % edges.size()]; };
   for (std::size_t k = 0; k < edges.size(); ++k)
     if (!TopExp::LastVertex(edges[k], true).IsSame(TopExp::FirstVertex(after(k), true))) return false;
-  const Vec2 extent = uv_box(face).size();
   for (std::size_t k = 0; k < edges.size(); ++k) {
     const TopoDS_Edge &edge = edges[k], &next = after(k);
     const gp_Pnt2d end = end_of(edge, face, true), next_start = end_of(next, face, false);
@@ -48,19 +46,21 @@ bool is_ring(const std::vector<TopoDS_Edge>& edges, const TopoDS_Face& face) {
 
 }  // namespace
 
-std::vector<TopoDS_Edge> walk_wire(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+std::vector<TopoDS_Edge> walk_wire(const TopoDS_Wire& wire, const TopoDS_Face& face, const Box2& bounds) {
   std::vector<TopoDS_Edge> stored = stored_edges(wire), walked;
-  for (BRepTools_WireExplorer e(wire, face); e.More(); e.Next())
+  BRepTools_WireExplorer e;
+  for (e.Init(wire, face, bounds.lo.x, bounds.hi.x, bounds.lo.y, bounds.hi.y); e.More(); e.Next())
     if (!is_constraint(e.Current())) walked.push_back(e.Current());
   if (walked.size() == stored.size()) return walked;
-  if (is_ring(stored, face)) return stored;
+  if (is_ring(stored, face, bounds.size())) return stored;
   std::reverse(stored.begin(), stored.end());
-  return is_ring(stored, face) ? stored : walked;
+  return is_ring(stored, face, bounds.size()) ? stored : walked;
 }
 
-bool can_be_walked(const TopoDS_Wire& wire, const TopoDS_Face& face) {
+bool can_be_walked(const TopoDS_Wire& wire, const TopoDS_Face& face, const Box2& bounds) {
   const std::vector<TopoDS_Edge> stored = stored_edges(wire);
-  return is_ring(stored, face) || walk_wire(wire, face).size() == stored.size();  // a ring is found sooner
+  return is_ring(stored, face, bounds.size()) || walk_wire(wire, face, bounds).size() == stored.size();  // a ring is
+                                                                                                         // found sooner
 }
 
 }  // namespace st::occt

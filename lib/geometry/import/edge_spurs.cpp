@@ -121,7 +121,7 @@ std::vector<EdgeChain> chains_of(const TopoDS_Face& forward) {
     if (w.Value().ShapeType() != TopAbs_WIRE) continue;
     const TopoDS_Wire wire = TopoDS::Wire(w.Value());
     if (!can_be_walked(wire, forward)) return {};
-    chains.push_back(walk_wire(wire, forward));
+    chains.push_back(walk_wire(wire, forward, uv_box(forward)));
   }
   return chains;
 }

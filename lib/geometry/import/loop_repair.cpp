@@ -1,6 +1,4 @@
 #include "geometry/import/loop_repair.h"
-#include "base/boxes.h"
-#include "base/threads.h"
 
 #include <BRep_Builder.hxx>
 #include <BRep_TEdge.hxx>
@@ -113,8 +111,9 @@ bool is_lost_edge(const TopoDS_Edge& edge, const TopoDS_Face& face, const Surfac
 }
 
 bool is_lost(const TopoDS_Face& face, double harmless) {
+  const Box2 bounds = uv_box(face);
   for (TopoDS_Iterator w(face); w.More(); w.Next())
-    if (w.Value().ShapeType() == TopAbs_WIRE && !can_be_walked(TopoDS::Wire(w.Value()), face)) return true;
+    if (w.Value().ShapeType() == TopAbs_WIRE && !can_be_walked(TopoDS::Wire(w.Value()), face, bounds)) return true;
   const auto surface = make_surface(BRep_Tool::Surface(face));
   for (TopExp_Explorer e(face, TopAbs_EDGE); e.More(); e.Next())
     if (is_lost_edge(TopoDS::Edge(e.Current()), face, *surface, harmless)) return true;

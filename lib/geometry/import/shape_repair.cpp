@@ -30,11 +30,12 @@ namespace {
 /// Loops of a face that cannot be walked; 1 for a face without loops.
 int count_bad_wires(const TopoDS_Shape& face) {
   const TopoDS_Face f = TopoDS::Face(face.Oriented(TopAbs_FORWARD));
+  const Box2 bounds = uv_box(f);
   int n = 0, n_wires = 0;
   for (TopoDS_Iterator w(f); w.More(); w.Next()) {
     if (w.Value().ShapeType() != TopAbs_WIRE) continue;
     ++n_wires;
-    n += !can_be_walked(TopoDS::Wire(w.Value()), f);
+    n += !can_be_walked(TopoDS::Wire(w.Value()), f, bounds);
   }
   return n_wires == 0 ? 1 : n;
 }
