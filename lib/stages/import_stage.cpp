@@ -217,9 +217,9 @@ void say_crossing_faces(const ImportStageOptions& o, const ImportResult& r) {
 }
 
 /// What is not as the CAD means it, and no later stage can mend.
-constexpr FindingKind kFaults[] = {FindingKind::kLeftOutFace, FindingKind::kStrayHole,    FindingKind::kFarCurve,
-                                   FindingKind::kMissingFile, FindingKind::kUndoneRepair, FindingKind::kKinkedFace,
-                                   FindingKind::kMergedSliver};
+constexpr FindingKind kFaults[] = {FindingKind::kLeftOutFace,  FindingKind::kStrayHole,    FindingKind::kFarCurve,
+                                   FindingKind::kMissingFile,  FindingKind::kUndoneRepair, FindingKind::kKinkedFace,
+                                   FindingKind::kMergedSliver, FindingKind::kUnread};
 
 /// For the verdict: kinds and numbers of those that are no repairs; empty where there is none.
 std::string faults_in_words(const ImportResult& r) {

@@ -844,6 +844,12 @@ const std::map<std::string, Factory>& factories() {
          return BRepAlgoAPI_Cut(BRepPrimAPI_MakeCylinder(2, 8).Shape(), BRepPrimAPI_MakeSphere(gp_Pnt(2.5, 0, 9.8), 4))
              .Shape();
        }},
+      {"hollow_ball_with_stem",
+       [] {
+         const TopoDS_Shape stem = BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, 0), gp::DX()), 1, 9).Shape();
+         return BRepAlgoAPI_Cut(BRepAlgoAPI_Fuse(BRepPrimAPI_MakeSphere(5), stem).Shape(), BRepPrimAPI_MakeSphere(3))
+             .Shape();
+       }},
       {"ball_without_octant", [] { return BRepAlgoAPI_Cut(BRepPrimAPI_MakeSphere(5), box(10, 10, 10)).Shape(); }},
       {"ring_with_dimple_at_seam",
        [] {

@@ -35,7 +35,9 @@ struct CadFile {
   std::vector<CadPart> parts;
   std::optional<double> unit_in_mm;  ///< of the file; nullopt: none (BREP, FLITE)
   bool has_mixed_units = false;
+  bool has_voids = false;                  ///< solids with cavities that the file names
   std::vector<std::string> missing_files;  ///< that hold parts of an assembly and are not there; ascending
+  std::vector<std::string> unread;         ///< what no shape was made of, "ADVANCED_FACE #17"
   double resolution_mm = 0;                ///< tolerance the file states, 0 when none
 };
 

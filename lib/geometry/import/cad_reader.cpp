@@ -84,6 +84,13 @@ bool has_flite_suffix(const std::string& path, const std::string& head) {
   return suffix == ".fli" && head.find('\0') == std::string::npos;
 }
 
+bool is_iges(const std::string& head) {
+  const std::size_t line_end = head.find_first_of("\r\n");
+  if (line_end != std::string::npos && line_end >= 73 && (head[72] == 'S' || head[72] == 'F' || head[72] == 'C'))
+    return true;
+  return head.size() >= 80 && head[72] == 'S' && std::strchr(" 0123456789", head[79]);
+}
+
 std::string format_of(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code code;
@@ -101,10 +108,9 @@ std::string format_of(const std::string& path) {
     return "BREP";
   if (head.compare(0, 8, "\x89HDF\r\n\x1a\n") == 0)
     fail(path, "is an HDF5 artifact; give a CAD file: STEP, IGES, BREP, STL, OBJ or PLY");
-  const std::size_t line_end = head.find_first_of("\r\n");
-  if (line_end != std::string::npos && line_end >= 73 && (head[72] == 'S' || head[72] == 'F' || head[72] == 'C'))
-    return "IGES";
-  if (head.size() >= 80 && head[72] == 'S' && std::strchr(" 0123456789", head[79])) return "IGES";
+  if (is_iges(head)) return "IGES";
+  if (is_iges(head.substr(std::min(head.size(), head.find_first_not_of("\xef\xbb\xbf\r\n")))))
+    fail(path, "an IGES file with a byte order mark or an empty line before its first one; remove it");
   if (is_flite(head) || has_flite_suffix(path, head)) return "FLITE";
   fail(path, what_else(head) + kNoModel);
 }

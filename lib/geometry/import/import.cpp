@@ -278,6 +278,12 @@ void name_parts(const ImportedShape& model, ImportResult& result) {
   }
 }
 
+void say_what_is_missing(const CadFile& file, std::vector<ImportFinding>& findings) {
+  for (const std::string& name : file.missing_files)
+    findings.push_back({FindingKind::kMissingFile, "", {}, 0, false, name});
+  for (const std::string& item : file.unread) findings.push_back({FindingKind::kUnread, "", {}, 0, false, item});
+}
+
 ImportResult import_cad(const std::string& path, const ImportOptions& options) {
   refuse_numbers(options);
   const std::optional<occt::SymmetryPlane> mirror = occt::parse_air(options).mirror;  // checks all of them
@@ -288,8 +294,7 @@ ImportResult import_cad(const std::string& path, const ImportOptions& options) {
   require_units(options, unit);
   ImportResult result;
   result.format = file.format;
-  for (const std::string& name : file.missing_files)
-    result.findings.push_back({FindingKind::kMissingFile, "", {}, 0, false, name});
+  say_what_is_missing(file, result.findings);
   occt::mend_wrong_sides(file, result.findings);
   ImportedShape model = occt::collect_parts(file, path);
   occt::require_sound_geometry(model.shape, path);

@@ -1,6 +1,7 @@
 #include "geometry/import/wrong_sides.h"
 
 #include <BRepTools_ReShape.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Geom2d_Curve.hxx>
 #include <Geom_Surface.hxx>
@@ -9,6 +10,7 @@
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
 #include <cmath>
@@ -92,6 +94,17 @@ std::vector<TopoDS_Face> wrong_sides_of(const TopoDS_Shape& shell, const PartFac
   return wrong;
 }
 
+/// A cavity that was outside its solid, of which a face was on its wrong side, is a solid of its own: what is closed
+/// becomes solids anew.
+TopoDS_Shape as_loose_shells(const TopoDS_Shape& shape) {
+  TopoDS_Compound shells;
+  BRep_Builder builder;
+  builder.MakeCompound(shells);
+  for (TopExp_Explorer s(shape, TopAbs_SHELL); s.More(); s.Next()) builder.Add(shells, s.Current());
+  for (TopExp_Explorer f(shape, TopAbs_FACE, TopAbs_SHELL); f.More(); f.Next()) builder.Add(shells, f.Current());
+  return shells;
+}
+
 }  // namespace
 
 void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings) {
@@ -117,6 +130,7 @@ void mend_wrong_sides(CadFile& file, std::vector<ImportFinding>& findings) {
     if (!is_changed) continue;
     for (CadPart::FaceAttributes& f : part.faces) f.face = reshape->Apply(f.face);
     part.shape = reshape->Apply(part.shape);
+    if (file.has_voids) part.shape = as_loose_shells(part.shape);
   }
 }
 

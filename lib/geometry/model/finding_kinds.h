@@ -79,3 +79,4 @@ KIND(kJoinedNodes, "nodes at gaps between facets joined", "nodes at gaps between
 KIND(kTurnedFacets, "facets turned", "facets turned to agree which side is outside: {}")
 KIND(kMirrored, "one half made the image of the other", "one half made the image of the other: {}")
 KIND(kCrossingFacets, "facets cross each other", "facets cross each other: {}")
+KIND(kUnread, "part of the file that is not read", "part of the file that is not read: {}")

@@ -131,6 +131,7 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   file.format = "STEP";
   file.parts.push_back(part_of(shape, *name));
   read_senses(reader.WS(), file);
+  find_unread(reader.WS(), file);
 }
 
 }  // namespace st::occt

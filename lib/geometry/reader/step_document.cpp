@@ -72,6 +72,7 @@ extern "C" void st_read_cad_file(const std::string& path, CadFile& file) {
   file.parts = document_parts(document);
   name_faces_by_entity(reader.Reader().WS(), file);
   read_senses(reader.Reader().WS(), file);
+  find_unread(reader.Reader().WS(), file);
   close_document(document);
 }
 

@@ -2,19 +2,34 @@
 
 #include <BRep_Tool.hxx>
 #include <Geom_Curve.hxx>
+#include <Interface_UndefinedContent.hxx>
 #include <STEPConstruct_UnitContext.hxx>
 #include <StepBasic_Product.hxx>
+#include <StepData_UndefinedEntity.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_GeomRepContextAndGlobUnitAssCtxAndGlobUncertaintyAssCtx.hxx>
 #include <StepGeom_GeometricRepresentationContextAndGlobalUnitAssignedContext.hxx>
+#include <StepGeom_Surface.hxx>
 #include <StepRepr_GlobalUnitAssignedContext.hxx>
 #include <StepRepr_MappedItem.hxx>
+#include <StepRepr_RepresentationItem.hxx>
+#include <StepSelect_StepType.hxx>
+#include <StepShape_BrepWithVoids.hxx>
+#include <StepShape_ConnectedFaceSet.hxx>
+#include <StepShape_CsgSolid.hxx>
 #include <StepShape_Edge.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_EdgeLoop.hxx>
+#include <StepShape_FaceBasedSurfaceModel.hxx>
 #include <StepShape_FaceBound.hxx>
 #include <StepShape_FaceSurface.hxx>
+#include <StepShape_HArray1OfFace.hxx>
+#include <StepShape_OrientedClosedShell.hxx>
 #include <StepShape_OrientedEdge.hxx>
+#include <StepShape_OrientedOpenShell.hxx>
+#include <StepShape_ShapeRepresentation.hxx>
+#include <StepShape_ShellBasedSurfaceModel.hxx>
+#include <StepShape_SolidModel.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
@@ -27,6 +42,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -39,9 +55,11 @@
 #include "base/ids.h"
 #include "geometry/brep/faces_of.h"
 #include "geometry/import/meridians.h"
+#include "geometry/import/part_names.h"
 #include "geometry/import/ring_edges.h"
 #include "geometry/import/seam_curves.h"
 #include "geometry/import/swapped_seams.h"
+#include "geometry/import/text_encoding.h"
 #include "geometry/import/vertex_loops.h"
 
 namespace st::occt {
@@ -109,6 +127,95 @@ std::optional<bool> lies_as_said(const StepShape_FaceSurface& entity, const Topo
   return (n_same > n_other) == entity.SameSense();
 }
 
+/// "ADVANCED_FACE #17", and its name.
+std::string label_of(const Handle(XSControl_WorkSession) & session, const Handle(Standard_Transient) & entity) {
+  const auto other = Handle(StepData_UndefinedEntity)::DownCast(entity);
+  const auto item = Handle(StepRepr_RepresentationItem)::DownCast(entity);
+  StepSelect_StepType type;
+  type.SetProtocol(session->Protocol());
+  std::string label = other.IsNull() ? type.Value(entity, session->Model()) : other->StepType();
+  label.append(" ").append(session->Model()->StringLabel(entity)->ToCString());
+  std::string name;
+  if (!item.IsNull() && !item->Name().IsNull()) name = item->Name()->ToCString();
+  if (!other.IsNull()) {  // in quotes
+    name = other->UndefinedContent()->ParamValue(1)->ToCString();
+    name = name.size() < 2 ? "" : name.substr(1, name.size() - 2);
+  }
+  return is_junk(name.c_str()) ? label : label.append(" \"").append(valid_utf8(name)).append("\"");
+}
+
+/// A body of facets that stands for no exact body, which OpenCASCADE leaves out.
+bool is_tessellated_alone(const Handle(Standard_Transient) & entity) {
+  constexpr int kLink = 3;  // TESSELLATED_SOLID(name, items, geometric_link)
+  const auto other = Handle(StepData_UndefinedEntity)::DownCast(entity);
+  if (other.IsNull() || other->UndefinedContent()->NbParams() < kLink) return false;
+  const std::string type = other->StepType();
+  if (type != "TESSELLATED_SOLID" && type != "TESSELLATED_SHELL") return false;
+  return other->UndefinedContent()->ParamType(kLink) != Interface_ParamIdent;
+}
+
+bool is_body(const Handle(Standard_Transient) & item) {
+  if (item.IsNull()) return false;  // of a damaged file
+  return item->IsKind(STANDARD_TYPE(StepShape_SolidModel)) || item->IsKind(STANDARD_TYPE(StepShape_CsgSolid)) ||
+         item->IsKind(STANDARD_TYPE(StepShape_ShellBasedSurfaceModel)) ||
+         item->IsKind(STANDARD_TYPE(StepShape_FaceBasedSurfaceModel));
+}
+
+/// Null also for an oriented shell: another one has its faces.
+Handle(StepShape_ConnectedFaceSet) shell_of(const Handle(Standard_Transient) & entity) {
+  if (entity->IsKind(STANDARD_TYPE(StepShape_OrientedClosedShell))) return {};
+  if (entity->IsKind(STANDARD_TYPE(StepShape_OrientedOpenShell))) return {};
+  return Handle(StepShape_ConnectedFaceSet)::DownCast(entity);
+}
+
+/// What two faces have in common that are one: the surface, its side, and the edges with their directions.
+using FacePlace = std::pair<const void*, std::multiset<std::pair<const void*, bool>>>;
+
+FacePlace place_of(const StepShape_FaceSurface& face) {
+  FacePlace place(face.FaceGeometry().get(), {{nullptr, face.SameSense()}});
+  for (int b = 1; b <= face.NbBounds(); ++b) {
+    const Handle(StepShape_FaceBound) bound = face.BoundsValue(b);
+    if (bound.IsNull()) continue;  // of a damaged file
+    const auto loop = Handle(StepShape_EdgeLoop)::DownCast(bound->Bound());
+    if (loop.IsNull()) place.second.emplace(bound->Bound().get(), true);
+    for (int e = 1; !loop.IsNull() && e <= loop->NbEdgeList(); ++e) {
+      const Handle(StepShape_OrientedEdge) use = loop->EdgeListValue(e);
+      if (!use.IsNull()) place.second.emplace(use->EdgeElement().get(), use->Orientation() == bound->Orientation());
+    }
+  }
+  return place;
+}
+
+/// Leaves out faces that a shell has twice: OpenCASCADE's healing makes several shells of it, with faces turned.
+void leave_out_twins(StepShape_ConnectedFaceSet& shell) {
+  std::set<FacePlace> places;
+  std::vector<Handle(StepShape_Face)> faces;
+  for (int k = 1; k <= shell.NbCfsFaces(); ++k) {
+    const auto face = Handle(StepShape_FaceSurface)::DownCast(shell.CfsFacesValue(k));
+    if (face.IsNull() || places.insert(place_of(*face)).second) faces.push_back(shell.CfsFacesValue(k));
+  }
+  if (static_cast<int>(faces.size()) == shell.NbCfsFaces()) return;
+  const Handle(StepShape_HArray1OfFace) kept = new StepShape_HArray1OfFace(1, static_cast<int>(faces.size()));
+  for (std::size_t k = 0; k < faces.size(); ++k) kept->SetValue(static_cast<int>(k) + 1, faces[k]);
+  shell.SetCfsFaces(kept);
+}
+
+/// The text of a file, but for what OpenCASCADE does not know: a byte order mark, tabs, which crash it, and the
+/// parameters of the data section that ISO 10303-21:2002 allows.
+std::string text_for_opencascade(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
+  std::replace(text.begin(), text.end(), '\t', ' ');
+  constexpr std::string_view kEndOfHeader = "ENDSEC;", kData = "DATA";
+  const std::size_t end = text.find(kEndOfHeader);
+  const std::size_t data = end == std::string::npos ? end : text.find_first_not_of(" \r\n", end + kEndOfHeader.size());
+  if (data == std::string::npos || text.compare(data, kData.size(), kData) != 0) return text;
+  const std::size_t open = data + kData.size(), close = text.find(';', open);
+  if (text[open] == '(' && close != std::string::npos) text.erase(open, close - open);
+  return text;
+}
+
 /// OpenCASCADE's healing of what its readers make, once outer loops and seams are right.
 class HealingOfLoops : public XSAlgo_AlgoContainer {
  public:
@@ -153,10 +260,12 @@ std::int32_t FacesOfEntities::find(const TopoDS_Shape& face) const {
 }
 
 void read_step_file(const std::string& path, XSControl_Reader& reader) {
-  std::ifstream file(path, std::ios::binary);
-  if (char mark[3] = {}; !file.read(mark, 3) || std::string_view(mark, 3) != "\xef\xbb\xbf") file.seekg(0);
-  if (reader.ReadStream(path.c_str(), file) != IFSelect_RetDone)
+  std::istringstream text(text_for_opencascade(path));
+  if (reader.ReadStream(path.c_str(), text) != IFSelect_RetDone)
     throw Error(ExitCode::kInput, path + ": the STEP file cannot be parsed; export the model again");
+  const Handle(Interface_InterfaceModel) model = reader.Model();
+  for (int i = 1; i <= model->NbEntities(); ++i)
+    if (const auto shell = shell_of(model->Value(i)); !shell.IsNull()) leave_out_twins(*shell);
 }
 
 void read_step_units(const Handle(Interface_InterfaceModel) & model, CadFile& file) {
@@ -215,6 +324,8 @@ void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file) {
     if (const auto entity = Handle(StepShape_FaceSurface)::DownCast(session->Model()->Value(i));
         !entity.IsNull() && faces.add(entity))
       entities.push_back(entity);
+    else
+      file.has_voids = file.has_voids || session->Model()->Value(i)->IsKind(STANDARD_TYPE(StepShape_BrepWithVoids));
   for (CadPart& part : file.parts)
     for (auto& face : part.faces)
       if (const std::int32_t k = faces.find(face.face); k != kNone) {
@@ -222,6 +333,28 @@ void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file) {
             lies_as_said(*entities[k], TopoDS::Face(face.face), session->TransferReader()->TransientProcess());
         face.has_seam = has_seam(*entities[k]);
       }
+}
+
+void find_unread(const Handle(XSControl_WorkSession) & session, CadFile& file) {
+  const Handle(Transfer_TransientProcess) process = session->TransferReader()->TransientProcess();
+  const auto is_read = [&](const Handle(Standard_Transient) & entity) {
+    return !TransferBRep::ShapeResult(process, entity).IsNull();
+  };
+  const auto add = [&](const Handle(Standard_Transient) & entity) { file.unread.push_back(label_of(session, entity)); };
+  for (int i = 1; i <= session->Model()->NbEntities(); ++i) {
+    const Handle(Standard_Transient) entity = session->Model()->Value(i);
+    if (is_tessellated_alone(entity)) add(entity);
+    if (const auto shape = Handle(StepShape_ShapeRepresentation)::DownCast(entity); !shape.IsNull())
+      for (int k = 1; k <= shape->NbItems(); ++k)
+        if (const Handle(Standard_Transient) item = shape->ItemsValue(k); is_body(item) && !is_read(item)) add(item);
+    const auto shell = shell_of(entity);
+    std::vector<Handle(Standard_Transient)> lost;
+    for (int k = 1; !shell.IsNull() && k <= shell->NbCfsFaces(); ++k)
+      if (const Handle(Standard_Transient) face = shell->CfsFacesValue(k); !face.IsNull() && !is_read(face))
+        lost.push_back(face);
+    if (!lost.empty() && static_cast<int>(lost.size()) < shell->NbCfsFaces())
+      for (const auto& face : lost) add(face);
+  }
 }
 
 }  // namespace st::occt

@@ -33,8 +33,8 @@ class FacesOfEntities {
 /// IGES files: join_ring_ends(), make_seams(). Precondition: a controller of OpenCASCADE's readers is there.
 void mend_loops_before_healing();
 
-/// Reads the file's entities, after a byte order mark that OpenCASCADE does not know. Throws Error(kInput) where it is
-/// no STEP file.
+/// Reads the file's entities, also with what OpenCASCADE does not know (byte order mark, tabs); faces that a shell has
+/// twice are left out. Throws Error(kInput) where it is no STEP file.
 void read_step_file(const std::string& path, XSControl_Reader& reader);
 
 /// The file's unit: unit_in_mm and has_mixed_units.
@@ -51,5 +51,8 @@ void refuse_scaled_parts(const Handle(XSControl_WorkSession) & session, const st
 
 /// What ADVANCED_FACEs say of the side that they face, and of their seams.
 void read_senses(const Handle(XSControl_WorkSession) & session, CadFile& file);
+
+/// Bodies and faces of a STEP file that no shape was made of, and tessellated bodies without an exact one: unread.
+void find_unread(const Handle(XSControl_WorkSession) & session, CadFile& file);
 
 }  // namespace st::occt

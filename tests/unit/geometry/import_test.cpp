@@ -457,6 +457,10 @@ TEST(Import, takes_an_iges_file_by_its_columns_whatever_its_title) {
   text.replace(0, 17, "OFFSHORE PLATFORM");
   write_bytes(dir / "box.igs", text);
   EXPECT_EQ(import_model(dir / "box.igs", {}).format, "IGES");
+  write_bytes(dir / "marked.igs", "\xef\xbb\xbf" + text);
+  EXPECT_ERROR(import_model(dir / "marked.igs", {}), kInput, "a byte order mark or an empty line before");
+  write_bytes(dir / "blank.igs", "\r\n" + text);
+  EXPECT_ERROR(import_model(dir / "blank.igs", {}), kInput, "a byte order mark or an empty line before");
 }
 
 TEST(Import, refuses_what_is_no_model) {

@@ -173,6 +173,49 @@ TEST(PlainStep, refuses_parts_that_are_scaled_where_they_are_placed) {
   EXPECT_NEAR(box.tables.box().lo.x, 5, 1e-5);
 }
 
+TEST(PlainStep, reads_tabs_and_parameters_of_the_data_section) {
+  const TemporaryDirectory dir;
+  test::write_step("box", dir / "a.step", "MM");
+  const std::optional<CadFile> plain = read_plain_step(dir / "a.step");
+  std::string text = bytes_of(dir / "a.step");
+  const std::size_t data = text.find("DATA;") + 4;
+  text.insert(data, "('a',('AUTOMOTIVE_DESIGN'))");
+  for (std::size_t at = data; (at = text.find("\n  ", at)) != std::string::npos;) text.replace(at, 3, "\n\t");
+  std::ofstream(dir / "b.step", std::ios::binary) << text;
+  const std::optional<CadFile> changed = read_plain_step(dir / "b.step");
+  ASSERT_TRUE(plain && changed);
+  expect_same(*plain, *changed);
+}
+
+TEST(PlainStep, leaves_out_faces_that_a_shell_has_twice) {
+  const TemporaryDirectory dir;
+  test::write_step("ball_with_stem", dir / "a.step", "MM");
+  std::string text = bytes_of(dir / "a.step");
+  const std::size_t face = text.find("#17 = ADVANCED_FACE("), list = text.find("CLOSED_SHELL('',(") + 17;
+  ASSERT_NE(face, std::string::npos);
+  const std::string twin = "#9000" + text.substr(face + 3, text.find(';', face) - face - 2) + "\n";
+  text.insert(face, twin).insert(list, "#9000,");
+  std::ofstream(dir / "b.step") << text;
+  const ImportResult sound = import_model(dir / "a.step", {}), r = import_model(dir / "b.step", {});
+  EXPECT_EQ(r.tables.n_faces(), sound.tables.n_faces());
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.area, sound.area, 1e-9 * sound.area);
+  EXPECT_NEAR(r.volume, sound.volume, 1e-9 * sound.volume);
+}
+
+TEST(PlainStep, names_faces_and_bodies_that_no_shape_was_made_of) {
+  using Names = std::vector<std::string>;
+  const std::string end = "ENDSEC;\nEND-ISO", facets = "#9001=TESSELLATED_SOLID('seat',(#9002),";
+  EXPECT_EQ(read_changed_box(end, end)->unread, Names());
+  EXPECT_EQ(read_changed_box("PLANE('',#33)", "CLOTHOID('',#33)")->unread, Names{"ADVANCED_FACE #17"});
+  EXPECT_EQ(read_changed_box(end, facets + "$);\n" + end)->unread, Names{"TESSELLATED_SOLID #9001 \"seat\""});
+  EXPECT_EQ(read_changed_box(end, facets + "#15);\n" + end)->unread, Names());  // stands for the box
+  const std::string items = "#10 = ADVANCED_BREP_SHAPE_REPRESENTATION('',(#11,#15", solid = "EXTRUDED_FACE_SOLID";
+  EXPECT_EQ(read_changed_box(items, items + ",#9003")->unread, Names());  // which is not in the file
+  const std::string line = "#9003 = " + solid + "('',#17,#13,1.);\n";
+  EXPECT_EQ(read_changed_box(items, line + items + ",#9003")->unread, Names{solid + " #9003"});
+}
+
 TEST(PlainStep, says_what_it_cannot_parse) {
   const TemporaryDirectory dir;
   std::ofstream(dir / "a.step") << "ISO-10303-21;\nHEADER;\nnonsense\nEND-ISO-10303-21;\n";

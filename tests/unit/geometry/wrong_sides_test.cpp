@@ -82,6 +82,7 @@ void expect_the_same_without_seams(const std::string& shape, int n_loops, std::s
 
 TEST(WrongSides, of_files_without_seams_are_told_by_the_other_faces) {
   expect_the_same_without_seams("ball_with_stem", 1, 1);
+  expect_the_same_without_seams("hollow_ball_with_stem", 1, 1);
 }
 
 TEST(WrongSides, of_files_without_seams_are_all_faces_where_none_lies_as_the_file_says) {
