@@ -2,22 +2,28 @@
 
 #include <BRepTools_ReShape.hxx>
 #include <BRep_Tool.hxx>
+#include <Geom2d_Curve.hxx>
+#include <Geom_Curve.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopTools_MapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Edge.hxx>
+#include <TopoDS_Iterator.hxx>
+#include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "geometry/brep/face_domain.h"
 #include "geometry/brep/shape_queries.h"
+#include "geometry/brep/uv_box.h"
 
 namespace st::occt {
 namespace {
 
-constexpr double kPoint = 1e-7;    // of the model's diagonal: the whole face
+constexpr double kPoint = 1e-7;    // of the model's diagonal: the whole face, or edge
 constexpr double kNoWidth = 1e-6;  // of the face's own diagonal: its mean width
 constexpr double kNoLoop = 1e-9;   // of the larger range of (u,v), squared
 constexpr int kMostCells = 64;     // along u and v
@@ -96,6 +102,34 @@ TopTools_MapOfShape bounding_faces(const TopoDS_Shape& shape) {
   return faces;
 }
 
+/// Whether the edge goes no further from its one vertex than its tolerance and `far`.
+bool is_point(const TopoDS_Edge& edge, double far) {
+  constexpr int kPlaces = 8;
+  if (BRep_Tool::Degenerated(edge)) return false;
+  TopoDS_Vertex first, last;
+  TopExp::Vertices(edge, first, last);
+  double t0, t1;
+  const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, t0, t1);
+  if (first.IsNull() || !first.IsSame(last) || curve.IsNull()) return false;
+  const double most = std::min(far, BRep_Tool::Tolerance(first));
+  for (int k = 0; k <= kPlaces; ++k)
+    if (curve->Value(t0 + k * (t1 - t0) / kPlaces).Distance(BRep_Tool::Pnt(first)) > most) return false;
+  return true;
+}
+
+bool is_point_in_uv(const TopoDS_Edge& edge, const TopoDS_Face& face) {
+  constexpr double kNear = 1e-4;  // of the face's range: no part of a pole
+  double t0, t1;
+  const Handle(Geom2d_Curve) curve = BRep_Tool::CurveOnSurface(edge, face, t0, t1);
+  if (curve.IsNull()) return false;
+  const Vec2 size = uv_box(face).size();
+  const gp_Pnt2d a = curve->Value(t0), middle = curve->Value(0.5 * (t0 + t1)), b = curve->Value(t1);
+  const auto is_near = [&](const gp_Pnt2d& p) {
+    return std::abs(p.X() - a.X()) <= kNear * size.x && std::abs(p.Y() - a.Y()) <= kNear * size.y;
+  };
+  return is_near(middle) && is_near(b);
+}
+
 }  // namespace
 
 std::optional<Box3> empty_box(const TopoDS_Face& face, double diagonal) {
@@ -138,6 +172,37 @@ void remove_empty_faces(ImportedShape& model, std::vector<ImportFinding>& findin
   if (n_removed == 0) return;
   if (!model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); }))
     throw Error(ExitCode::kGeometry, path + ": no face of the file has an area; export the surfaces again");
+}
+
+void remove_null_edges(ImportedShape& model, std::vector<ImportFinding>& findings) {
+  TopTools_IndexedMapOfShape edges;
+  TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
+  const double far = kPoint * rough_box(model.shape).diagonal();
+  TopTools_MapOfShape points;
+  for (int e = 1; e <= edges.Extent(); ++e)
+    if (is_point(TopoDS::Edge(edges(e)), far)) points.Add(edges(e));
+  if (points.IsEmpty()) return;
+  for (TopExp_Explorer f(model.shape, TopAbs_FACE); f.More(); f.Next())
+    for (TopExp_Explorer w(f.Current(), TopAbs_WIRE); w.More(); w.Next()) {
+      bool is_any_long = false;
+      for (TopoDS_Iterator e(w.Current()); e.More(); e.Next()) is_any_long |= !points.Contains(e.Value());
+      for (TopoDS_Iterator e(w.Current()); e.More(); e.Next())
+        if (points.Contains(e.Value()) &&
+            !(is_any_long && is_point_in_uv(TopoDS::Edge(e.Value()), TopoDS::Face(f.Current()))))
+          points.Remove(e.Value());
+    }
+  if (points.IsEmpty()) return;
+  const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+  Box3 box;
+  for (TopTools_MapOfShape::Iterator e(points); e.More(); e.Next()) {
+    reshape->Remove(e.Value());
+    const Box3 own = rough_box(e.Value());
+    box.add(own.lo);
+    box.add(own.hi);
+  }
+  if (model.replace(reshape->Apply(model.shape), [&](const TopoDS_Shape& face) { return reshape->Apply(face); }))
+    findings.push_back(
+        {FindingKind::kNullEdge, "", box.center(), box.diagonal(), true, std::to_string(points.Extent())});
 }
 
 }  // namespace st::occt

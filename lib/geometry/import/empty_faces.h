@@ -1,4 +1,4 @@
-// Faces whose surface is shrunk to a point or a line.
+// Faces whose surface is shrunk to a point or a line, and edges that are a point.
 #pragma once
 
 #include <TopoDS_Face.hxx>
@@ -22,5 +22,9 @@ std::optional<Box3> empty_box(const TopoDS_Face& face, double diagonal);
 /// face alone in the model stays. Throws Error(kGeometry)
 /// naming `path` when no face is left.
 void remove_empty_faces(ImportedShape& model, std::vector<ImportFinding>& findings, const std::string& path);
+
+/// Takes edges out of their loops that stay within the tolerance of their one vertex and 1e-7 of the model's diagonal,
+/// in space and in (u,v) of all their faces: no pole is one. Loops of such edges alone stay. One finding for all.
+void remove_null_edges(ImportedShape& model, std::vector<ImportFinding>& findings);
 
 }  // namespace st::occt

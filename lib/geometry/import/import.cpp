@@ -300,6 +300,7 @@ ImportResult import_cad(const std::string& path, const ImportOptions& options) {
   occt::require_sound_geometry(model.shape, path);
   progress.step("looking for faces without area and duplicates", 0.4);
   occt::remove_empty_faces(model, result.findings, path);
+  occt::remove_null_edges(model, result.findings);
   occt::split_vertices(model, result.findings);
   occt::make_space_curves(model, result.findings);
   occt::extend_short_ends(model, result.findings);

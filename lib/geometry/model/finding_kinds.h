@@ -79,4 +79,5 @@ KIND(kJoinedNodes, "nodes at gaps between facets joined", "nodes at gaps between
 KIND(kTurnedFacets, "facets turned", "facets turned to agree which side is outside: {}")
 KIND(kMirrored, "one half made the image of the other", "one half made the image of the other: {}")
 KIND(kCrossingFacets, "facets cross each other", "facets cross each other: {}")
+KIND(kNullEdge, "edges without length, taken out of their loops", "edges without length, taken out of their loops: {}")
 KIND(kUnread, "part of the file that is not read", "part of the file that is not read: {}")
