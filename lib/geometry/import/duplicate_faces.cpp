@@ -5,6 +5,8 @@
 #include <GeomAPI_ProjectPointOnSurf.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
+#include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Face.hxx>
 #include <algorithm>
@@ -119,6 +121,17 @@ bool same_side(const FaceDomain& a, const TopoDS_Face& b) {
   return du.Crossed(dv).Dot({n.x, n.y, n.z}) > 0;
 }
 
+/// Whether one shell has both faces, on the same side of it.
+bool are_in_same_shell(const TopTools_IndexedDataMapOfShapeListOfShape& shells_of, const TopoDS_Shape& a,
+                       const TopoDS_Shape& b, bool is_turned) {
+  if ((a.Orientation() == b.Orientation()) == is_turned || !shells_of.Contains(a) || !shells_of.Contains(b))
+    return false;
+  const TopTools_ListOfShape &of_a = shells_of.FindFromKey(a), &of_b = shells_of.FindFromKey(b);
+  return std::any_of(of_a.begin(), of_a.end(), [&](const TopoDS_Shape& shell) {
+    return std::any_of(of_b.begin(), of_b.end(), [&](const TopoDS_Shape& other) { return other.IsSame(shell); });
+  });
+}
+
 /// A solid with its faces in any order.
 struct SolidCandidate {
   TopoDS_Shape solid;
@@ -176,6 +189,8 @@ void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findin
   if (alike.empty()) return;
   const double place = kSamePlace * model.box().diagonal();
   const Handle(BRepTools_ReShape) reshape = new BRepTools_ReShape;
+  TopTools_IndexedDataMapOfShapeListOfShape shells_of;
+  TopExp::MapShapesAndAncestors(model.shape, TopAbs_FACE, TopAbs_SHELL, shells_of);
   bool is_changed = false;
   for (const std::vector<int>& faces : alike) {
     std::vector<Candidate> kept;
@@ -189,7 +204,10 @@ void share_common_faces(ImportedShape& model, std::vector<ImportFinding>& findin
         continue;
       }
       const bool is_turned = !same_side(make_domain(twin->face), face.face);
-      reshape->Replace(face.face, twin->face.Oriented(is_turned ? TopAbs_REVERSED : TopAbs_FORWARD));
+      if (are_in_same_shell(shells_of, model.faces(twin->id), model.faces(id), is_turned))
+        reshape->Remove(face.face);  // shared, the shell would have it twice
+      else
+        reshape->Replace(face.face, twin->face.Oriented(is_turned ? TopAbs_REVERSED : TopAbs_FORWARD));
       is_changed = true;
       findings.push_back({FindingKind::kDuplicateFace, model.file_label(id), face.box.center(), face.box.diagonal(),
                           true, model.file_label(twin->id)});

@@ -117,6 +117,23 @@ TEST(DuplicateFaces, between_some_common_edges_are_one_wall_of_both_solids) {
   EXPECT_EQ(findings_of(r, "bodies that touch joined").size(), 1u);
 }
 
+TEST(DuplicateFaces, of_one_shell_between_the_same_edges_go) {
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 5).Shape();
+  TopoDS_Shape shell = TopExp_Explorer(box, TopAbs_SHELL).Current();
+  const TopoDS_Shape face = TopExp_Explorer(shell, TopAbs_FACE).Current(), forward = face.Oriented(TopAbs_FORWARD);
+  TopoDS_Shape twin = forward.EmptyCopied(), solid = box.EmptyCopied();
+  BRep_Builder make;
+  for (TopoDS_Iterator wire(forward); wire.More(); wire.Next()) make.Add(twin, wire.Value());
+  shell.Free(true);
+  make.Add(shell, twin.Oriented(face.Orientation()));
+  make.Add(solid, shell);
+  const ImportResult r = test::import_faces({solid});
+  EXPECT_EQ(r.tables.n_faces(), 6);
+  EXPECT_TRUE(r.is_closed);
+  EXPECT_NEAR(r.volume, 500, 1e-6);
+  EXPECT_EQ(findings_of(r, "duplicated face").size(), 1u);
+}
+
 TEST(DuplicateFaces, of_instances_of_one_solid_at_different_places_stay) {
   const TopoDS_Shape box = BRepPrimAPI_MakeBox(10, 10, 5).Shape();
   gp_Trsf up;
