@@ -8,7 +8,7 @@
 namespace st {
 namespace {
 
-constexpr int kKinds = static_cast<int>(FindingKind::kCrossingFacets) + 1;
+constexpr int kKinds = static_cast<int>(FindingKind::kUnread) + 1;
 
 TEST(Finding, every_kind_has_its_own_name_and_comes_back_as_it_was_stored) {
   std::set<std::string> names;
