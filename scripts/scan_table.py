@@ -25,12 +25,17 @@ def write_stl(file, nodes, triangles):
     file.write_bytes(bytes(80) + numpy.uint32(len(facets)).tobytes() + facets.tobytes())
 
 
-def mesh_of(bin_dir, model, folder, *sizes):
-    run(bin_dir / "st-import", model, "-o", folder / "g.hdf", "-q")
+def make_mesh(bin_dir, folder, *sizes):
+    """m.hdf of the folder, of its g.hdf."""
     run(bin_dir / "st-raster", folder / "g.hdf", "-o", folder / "r.hdf", "-q", *sizes)
     run(bin_dir / "st-prolong", folder / "r.hdf", "-o", folder / "s.hdf", "-q")
     run(bin_dir / "st-mesh", folder / "g.hdf", folder / "s.hdf", "-o", folder / "p.hdf", "-q")
     run(bin_dir / "st-merge", folder / "p.hdf", "-o", folder / "m.hdf", "-q")
+
+
+def mesh_of(bin_dir, model, folder, *sizes):
+    run(bin_dir / "st-import", model, "-o", folder / "g.hdf", "-q")
+    make_mesh(bin_dir, folder, *sizes)
     with h5py.File(folder / "m.hdf") as file:
         return file["VTKHDF/Points"][:], file["VTKHDF/Connectivity"][:].reshape(-1, 3)
 
@@ -38,10 +43,7 @@ def mesh_of(bin_dir, model, folder, *sizes):
 def measured(bin_dir, scan, folder, *options):
     """Faces, triangles and whether the mesh passes."""
     said = json.loads(run(bin_dir / "st-import", scan, "--unit", "m", "-o", folder / "g.hdf", "--json", *options))
-    run(bin_dir / "st-raster", folder / "g.hdf", "-o", folder / "r.hdf", "-q")
-    run(bin_dir / "st-prolong", folder / "r.hdf", "-o", folder / "s.hdf", "-q")
-    run(bin_dir / "st-mesh", folder / "g.hdf", folder / "s.hdf", "-o", folder / "p.hdf", "-q")
-    run(bin_dir / "st-merge", folder / "p.hdf", "-o", folder / "m.hdf", "-q")
+    make_mesh(bin_dir, folder)
     check = json.loads(run(bin_dir / "st-check", folder / "m.hdf", "--geometry", folder / "g.hdf", "--json"))
     return f"{said['faces']} | {check['quality']['triangles']:,} {check['verdict']}"
 

@@ -59,8 +59,8 @@ std::vector<TopoDS_Edge> walk_wire(const TopoDS_Wire& wire, const TopoDS_Face& f
 
 bool can_be_walked(const TopoDS_Wire& wire, const TopoDS_Face& face, const Box2& bounds) {
   const std::vector<TopoDS_Edge> stored = stored_edges(wire);
-  return is_ring(stored, face, bounds.size()) || walk_wire(wire, face, bounds).size() == stored.size();  // a ring is
-                                                                                                         // found sooner
+  if (is_ring(stored, face, bounds.size())) return true;  // found sooner
+  return walk_wire(wire, face, bounds).size() == stored.size();
 }
 
 }  // namespace st::occt

@@ -14,6 +14,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "geometry/brep/face_domain.h"
@@ -102,7 +103,7 @@ TopTools_MapOfShape bounding_faces(const TopoDS_Shape& shape) {
   return faces;
 }
 
-/// Whether the edge goes no further from its one vertex than its tolerance and `far`.
+/// Whether the edge goes no further from its one vertex than that one's tolerance and `far`.
 bool is_point(const TopoDS_Edge& edge, double far) {
   constexpr int kPlaces = 8;
   if (BRep_Tool::Degenerated(edge)) return false;
@@ -177,10 +178,14 @@ void remove_empty_faces(ImportedShape& model, std::vector<ImportFinding>& findin
 void remove_null_edges(ImportedShape& model, std::vector<ImportFinding>& findings) {
   TopTools_IndexedMapOfShape edges;
   TopExp::MapShapes(model.shape, TopAbs_EDGE, edges);
-  const double far = kPoint * rough_box(model.shape).diagonal();
+  std::optional<double> far;  // most models have no edge that needs it
   TopTools_MapOfShape points;
-  for (int e = 1; e <= edges.Extent(); ++e)
-    if (is_point(TopoDS::Edge(edges(e)), far)) points.Add(edges(e));
+  for (int e = 1; e <= edges.Extent(); ++e) {
+    const TopoDS_Edge edge = TopoDS::Edge(edges(e));
+    if (!is_point(edge, std::numeric_limits<double>::max())) continue;
+    if (!far) far = kPoint * model.box().diagonal();
+    if (is_point(edge, *far)) points.Add(edge);
+  }
   if (points.IsEmpty()) return;
   for (TopExp_Explorer f(model.shape, TopAbs_FACE); f.More(); f.Next())
     for (TopExp_Explorer w(f.Current(), TopAbs_WIRE); w.More(); w.Next()) {
