@@ -58,6 +58,8 @@ constexpr double kSliverChord = 0.05;          // of the largest wing's: chord o
 constexpr double kRunsOut = 0.1;               // least chord of such a sliver over its largest, at most
 constexpr double kNearAxis = 0.94;             // cosine: 20 degrees
 constexpr double kNarrowStrip = 0.05;          // width of a strip of the skin over the length of its edge, at most
+constexpr double kParallelEnds = 0.9998;       // cosine: 1 degree
+constexpr double kAlongEnds = 0.3;             // as kAlongAxis, for normals that the ends of a chain tell
 constexpr double kSameDirection = 0.998;       // cosine: 4 degrees
 constexpr double kMostCorners = 0.5;           // of the way with profiles: where these end in a square corner
 constexpr double kSquareCorner = 0.5;          // cosine: 60 to 120 degrees
@@ -195,26 +197,22 @@ class FinderMemory {
 /// How a chain is cut; lengths in the model unit.
 struct CutRules {
   std::vector<Vec3> normals;  // of the planes: the first of equally good ones
-  std::size_t n_axes = 0;     // of these, those of the model; after them comes the line along the chain
+  std::size_t n_of_ends = 0;  // of these, those that its ends tell
+  std::size_t n_axes = 0;     // with those of the model; after them comes the line along the chain
   Vec3 along;                 // from end to end of the chain, unit
   std::vector<EdgeId> rims;   // edges of the chain on planes across that
   double reach = 0;           // how far from a place the cut may begin
   double diagonal = 0;        // reference diagonal
   ChainLine line;             // of the chain
+
+  std::span<const Vec3> of_ends() const { return std::span(normals).first(n_of_ends); }
 };
 
 class SurfaceMeasurer {
  public:
+  /// All must outlive the object.
   SurfaceMeasurer(const Model& model, const ProfileCutter& cutter, const CutRules& rules)
-      : model_(model),
-        cutter_(cutter),
-        normals_(rules.normals),
-        n_axes_(rules.n_axes),
-        along_(rules.along),
-        rims_(rules.rims),
-        reach_(rules.reach),
-        diagonal_(rules.diagonal),
-        line_(rules.line) {}
+      : model_(model), cutter_(cutter), rules_(rules) {}
 
   /// What profiles show; stations and faces may reach into other bodies yet. Where they show too little along the whole
   /// chain, that of its edges with profiles: others may be the rims of a thin tip or root. Else why there is none.
@@ -271,7 +269,7 @@ class SurfaceMeasurer {
     const std::vector<std::uint8_t> is_own = find_body_faces(model_.tables(), is_concave, is_wall, surface);
     for (std::size_t k = 0; k < surface.trailing.size(); ++k) {
       reach_ends(draft.axis[k], surface.faces, surface.trailing[k]);
-      close_gaps({model_, cutter_, reach_, is_own}, draft.axis[k], surface.trailing[k]);
+      close_gaps({model_, cutter_, rules_.reach, is_own}, draft.axis[k], surface.trailing[k]);
       if (draft.axis[k]) close_crests(*draft.axis[k], surface.faces, surface.trailing[k]);
     }
     for (ChordEdge& edge : surface.trailing) hide_tip(model_, surface, edge);
@@ -332,7 +330,7 @@ class SurfaceMeasurer {
   /// Without rims of planes across the span that run along the chord: skins that meet a tip or a root at a small angle.
   /// Cuts at rims may be oblique: the chord is that at the other edges.
   std::vector<WingEdge> without_rims(const std::vector<WingEdge>& chain, const LiftingSurface& surface) const {
-    const auto may_be_rim = [&](EdgeId e) { return std::ranges::count(rims_, e) > 0; };
+    const auto may_be_rim = [&](EdgeId e) { return std::ranges::count(rules_.rims, e) > 0; };
     LiftingSurface others;
     for (const ChordEdge& edge : surface.trailing)
       if (!may_be_rim(edge.edge)) others.trailing.push_back(edge);
@@ -345,15 +343,17 @@ class SurfaceMeasurer {
 
   /// Empty for a wing.
   std::string why_no_wing(const LiftingSurface& surface) const {
-    if (surface.span < std::min(kLeastSpan * surface.median_chord, kSmallPart * diagonal_))
+    if (surface.span < std::min(kLeastSpan * surface.median_chord, kSmallPart * rules_.diagonal))
       return "it is shorter than half of the chord";
     if (surface.span < kShortest * surface.median_chord) return "it is shorter than a fifth of the chord";
     return has_moving_noses(surface) ? "" : "its profiles have one nose, as a body of revolution has";
   }
 
   std::optional<Profile> profile_at(const EdgePlace& place, const Vec3* axis) const {
-    if (axis && std::abs(dot(place.tangent, *axis)) < kAlongAxis) return std::nullopt;
-    return cutter_.cut(place.x, axis ? *axis : place.tangent, reach_);
+    const bool is_of_ends = std::ranges::count(rules_.of_ends(), axis, [](const Vec3& n) { return &n; }) > 0;
+    const double least = is_of_ends ? kAlongEnds : kAlongAxis;
+    if (axis && std::abs(dot(place.tangent, *axis)) < least) return std::nullopt;
+    return cutter_.cut(place.x, axis ? *axis : place.tangent, rules_.reach);
   }
 
   /// Some of a few places have a profile: spares the many edges of machine parts.
@@ -362,7 +362,7 @@ class SurfaceMeasurer {
     const std::size_t step = std::max<std::size_t>(1, places.size() / kTried);
     for (std::size_t i = step / 2; i < places.size(); i += step) {
       if (profile_at(places[i], nullptr)) return true;
-      for (const Vec3& normal : normals_)
+      for (const Vec3& normal : rules_.normals)
         if (profile_at(places[i], &normal)) return true;
     }
     return false;
@@ -461,7 +461,7 @@ class SurfaceMeasurer {
   double way_with_own_nose(std::span<const EdgePlace> places, std::span<const std::optional<Profile>> profiles) const {
     double way = 0;
     for (std::size_t i = 0; i < places.size(); ++i)
-      if (profiles[i] && line_.is_near(profiles[i]->nose, kNearNose * profiles[i]->chord)) way += places[i].way;
+      if (profiles[i] && rules_.line.is_near(profiles[i]->nose, kNearNose * profiles[i]->chord)) way += places[i].way;
     return way;
   }
 
@@ -470,16 +470,18 @@ class SurfaceMeasurer {
   std::vector<std::optional<Profile>> profiles_along(std::span<const EdgePlace> places, const Vec3*& best_axis) const {
     std::vector<std::optional<Profile>> best;
     double longest = -1;
-    for (std::size_t k = 0; k <= normals_.size(); ++k) {
-      const Vec3* axis = k < normals_.size() ? &normals_[k] : nullptr;
+    bool has_of_ends = false;
+    for (std::size_t k = 0; k <= rules_.normals.size(); ++k) {
+      const Vec3* axis = k < rules_.normals.size() ? &rules_.normals[k] : nullptr;
       std::vector<std::optional<Profile>> own;
       for (const EdgePlace& place : places) own.push_back(profile_at(place, axis));
       const double on_itself = way_with_own_nose(places, own);
       double way = measured_way(places, own) - kLens * on_itself;
       const std::vector<std::size_t> long_ones = cuts_along_span(own);
       for (const std::size_t i : long_ones) way -= places[i].way;
-      const bool is_axis = k < n_axes_;
-      if (way <= (is_axis ? 1.0 : kClearlyMore) * longest) continue;
+      const bool is_clear = k >= rules_.n_axes || (k >= rules_.n_of_ends && has_of_ends);
+      if (way <= (is_clear ? kClearlyMore : 1.0) * longest) continue;
+      has_of_ends = has_of_ends || (k < rules_.n_of_ends && way > 0);
       longest = way;
       best_axis = axis;
       best = std::move(own);
@@ -553,9 +555,9 @@ class SurfaceMeasurer {
       const std::vector<double> around = chords_around(of_edge, i % kStations);
       if (is_between(of_edge, i % kStations)) continue;  // the nose's surface tells more: close_gaps()
       const double usual = around.empty() ? of_all : median(around);
-      std::vector<Vec3> normals = normals_;
+      std::vector<Vec3> normals = rules_.normals;
       const Vec3 tangent = places[i].tangent;
-      normals.push_back(normalized(dot(tangent, along_) < 0 ? along_ - tangent : along_ + tangent));
+      normals.push_back(normalized(dot(tangent, rules_.along) < 0 ? rules_.along - tangent : rules_.along + tangent));
       for (std::size_t k = 0; k < normals.size() && !profiles[i]; ++k) {
         profiles[i] = profile_at(places[i], &normals[k]);
         if (profiles[i] && is_outlier(profiles[i]->chord, usual)) profiles[i].reset();
@@ -609,7 +611,7 @@ class SurfaceMeasurer {
       return closest_point(*model_.surface(place.face), place.x, grid_[place.face]).distance <= most;
     };
     const auto is_inside = [&](const CutPlace& beside) { return beside.face == profile.nose_face; };
-    const double most = kOffSurface * reach_, most_beside = std::max(most, kOffBeside * profile.chord);
+    const double most = kOffSurface * rules_.reach, most_beside = std::max(most, kOffBeside * profile.chord);
     const bool is_exact = put_on_surface(profile, station);
     station.is_measured = is_exact || (is_near({profile.nose_face, profile.nose}, most) &&
                                        std::ranges::all_of(profile.beside_nose,
@@ -636,7 +638,7 @@ class SurfaceMeasurer {
   /// Whether the nose on a face is it, also where there is another one.
   bool put_on(FaceId f, const Profile& profile, std::optional<Vec2>& guess, const Vec3* other,
               ChordStation& station) const {
-    const double near = std::max(reach_, kNearNose * profile.chord);
+    const double near = std::max(rules_.reach, kNearNose * profile.chord);
     const auto nose = exact_nose(*model_.surface(f), station.trailing, profile, near, guess, &grid_[f]);
     if (!nose || is_behind_other(*nose, f, profile, near)) return false;
     if (other) {
@@ -733,7 +735,7 @@ class SurfaceMeasurer {
       for (const ChordStation& s : edge.stations) {
         if (!s.is_measured || is_own[s.nose_face]) continue;
         const Vec3 normal = draft.axis[k] ? *draft.axis[k] : normalized(curve->evaluate(arc.parameter_at(s.share)).d1);
-        const auto cut = cutter_.whole_cut(s.trailing, normal, reach_, is_own);
+        const auto cut = cutter_.whole_cut(s.trailing, normal, rules_.reach, is_own);
         if (cut && cut->is_covered()) covers.insert(covers.end(), cut->others.begin(), cut->others.end());
       }
     }
@@ -780,12 +782,7 @@ class SurfaceMeasurer {
 
   const Model& model_;
   const ProfileCutter& cutter_;
-  const std::vector<Vec3> normals_;
-  const std::size_t n_axes_;
-  const Vec3 along_;
-  const std::vector<EdgeId> rims_;
-  const double reach_, diagonal_;
-  const ChainLine& line_;
+  const CutRules& rules_;
   mutable bool is_off_ = false;                          // a nose on facets was far from the CAD
   mutable std::vector<FaceId> wrong_;                    // whose facets have a nose where their surface has none
   mutable std::map<FaceId, std::optional<Vec2>> guess_,  // (u,v) of the last nose of each face
@@ -1020,19 +1017,33 @@ class SurfaceFinder {
     return norm2(b - a) > 0 ? normalized(b - a) : Vec3{};
   }
 
-  /// The model's axes, and before them the normals of plane faces in which a chain ends, as tips and roots are, where
-  /// no axis is near: those of a delta may run along its nose.
-  std::vector<Vec3> cut_normals(const std::vector<WingEdge>& chain) {
-    std::vector<Vec3> normals;
+  /// First the normal that plane faces at both ends of a chain have, as tips and roots, and axes of the model near that
+  /// of one end. Then those of other ends, since axes of a delta may run along its nose, and the other axes but that
+  /// along the chain itself.
+  void find_normals(std::span<const FaceId> ends, CutRules& rules) {
     const auto is_near = [](Vec3 a, Vec3 b) { return std::abs(dot(a, b)) > kNearAxis; };
-    const auto is_known = [&](Vec3 n) {
-      return std::ranges::any_of(roles_.own.axis, [&](Vec3 a) { return is_near(a, n); }) ||
-             std::ranges::any_of(normals, [&](Vec3 a) { return is_near(a, n); });
+    std::vector<Vec3> of_ends;
+    for (const FaceId f : ends) of_ends.push_back(MirrorPlane(model_, f).normal);
+    std::vector<Vec3>& normals = rules.normals;
+    const auto add = [&](Vec3 n, double same) {
+      if (std::ranges::none_of(normals, [&](Vec3 a) { return std::abs(dot(a, n)) > same; })) normals.push_back(n);
     };
-    for (const FaceId f : planes_at_ends(chain))
-      if (const Vec3 n = MirrorPlane(model_, f).normal; !is_known(n)) normals.push_back(n);
-    normals.insert(normals.end(), roles_.own.axis.begin(), roles_.own.axis.end());
-    return normals;
+    for (std::size_t i = 0; i < of_ends.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (std::abs(dot(of_ends[i], of_ends[j])) > kParallelEnds) add(of_ends[j], kNearAxis);
+    const auto& axes = roles_.own.axis;
+    const auto is_near_any = [&](Vec3 a, std::span<const Vec3> of) {
+      return std::ranges::any_of(of, [&](Vec3 b) { return is_near(a, b); });
+    };
+    for (const Vec3 axis : axes)
+      if (is_near_any(axis, of_ends)) add(axis, kNearAxis);
+    rules.n_of_ends = normals.size();
+    for (const Vec3 n : of_ends)
+      if (!is_near_any(n, axes)) add(n, kNearAxis);
+    const auto is_along = [&](Vec3 axis) { return std::abs(dot(axis, rules.along)) > kSameDirection; };
+    for (const Vec3 axis : axes)
+      if (of_ends.empty() || !is_along(axis)) add(axis, kSameDirection);
+    rules.n_axes = normals.size();
   }
 
   std::vector<EdgeId> rims_of(const std::vector<WingEdge>& chain) const {
@@ -1138,13 +1149,13 @@ class SurfaceFinder {
 
   /// Planes are square to axes, and to the line along the chain: blades stand around a hub at any angle.
   CutRules rules_for(const std::vector<WingEdge>& chain, double reach) {
-    CutRules rules{.normals = cut_normals(chain),
+    CutRules rules{.normals = {},
                    .along = direction_of(chain),
                    .rims = rims_of(chain),
                    .reach = reach,
                    .diagonal = roles_.reference_diagonal,
                    .line = ChainLine(places_along(model_, chain))};
-    rules.n_axes = rules.normals.size();
+    find_normals(planes_at_ends(chain), rules);
     const auto is_same = [&](Vec3 n) { return std::abs(dot(n, rules.along)) > kSameDirection; };
     if (norm2(rules.along) > 0 && std::ranges::none_of(rules.normals, is_same)) rules.normals.push_back(rules.along);
     return rules;

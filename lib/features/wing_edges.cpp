@@ -173,8 +173,12 @@ class WingEdgeFinder {
     has_hollow_ = false;
     if (executor.is_root()) {
       for (const Strip& strip : strips_) try_blunt(strip, found);
+      std::vector<std::uint8_t> is_base(static_cast<std::size_t>(t_.n_faces()));
+      for (const auto& w : found)
+        if (w && w->base != kNone) is_base[w->base] = 1;
+      const auto ends_base = [&](const FaceCoedge& use) { return is_base[use.face] != 0; };
       for (EdgeId e = 0; e < t_.n_edges(); ++e)
-        if (!found[e] && is_candidate(e)) candidates.push_back(e);
+        if (!found[e] && is_candidate(e) && std::ranges::none_of(uses_[e], ends_base)) candidates.push_back(e);
     }
     share(executor, candidates);
     classify_all(candidates, executor, found);

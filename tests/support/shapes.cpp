@@ -419,8 +419,8 @@ Handle(Geom_BSplineCurve) aerofoil(double closing, double thickness = 0.12) {
   return curve.Curve();
 }
 
-/// A wing of chord 10 (x) and span 30 (z).
-TopoDS_Shape wing(double closing, double thickness = 0.12) {
+/// A wing of chord 10 (x) and span 30 (z), if not swept.
+TopoDS_Shape wing(double closing, double thickness = 0.12, gp_Vec along = gp_Vec(0, 0, 30)) {
   const Handle(Geom_BSplineCurve) curve = aerofoil(closing, thickness);
   const double nose = GeomAPI_ProjectPointOnCurve(gp_Pnt(0, 0, 0), curve).LowerDistanceParameter();
   const TopoDS_Edge upper = BRepBuilderAPI_MakeEdge(curve, curve->FirstParameter(), nose);
@@ -428,7 +428,7 @@ TopoDS_Shape wing(double closing, double thickness = 0.12) {
   BRepBuilderAPI_MakeWire wire(upper, lower);
   const double end = closing > 0.103 ? 0 : 6 * (0.2969 - 0.126 - 0.3516 + 0.2843 - closing);
   if (end > 0) wire.Add(BRepBuilderAPI_MakeEdge(gp_Pnt(10, end, 0), gp_Pnt(10, -end, 0)));
-  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), gp_Vec(0, 0, 30)).Shape();
+  return BRepPrimAPI_MakePrism(BRepBuilderAPI_MakeFace(wire.Wire(), true).Face(), along).Shape();
 }
 
 /// The blunt wing, the long edges of its base cut into four and two.
@@ -975,6 +975,13 @@ const std::map<std::string, Factory>& factories() {
       {"lens", lens},
       {"thin_sail", thin_sail},
       {"wing_with_pod", wing_with_pod},
+      {"swept_wing", [] { return wing(0.1015, 0.12, gp_Vec(32, 0, 27)); }},
+      {"far_swept_wing", [] { return wing(0.1036, 0.12, gp_Vec(60, 0, 27)); }},
+      {"swept_wing_in_box",
+       [] {
+         const TopoDS_Shape front = moved(box(14, 10, 10), -30, 4, 23);
+         return BRepAlgoAPI_Fuse(wing(0.1036, 0.12, gp_Vec(-22, 9, 27)), front).Shape();
+       }},
       {"half_sharp_wing", [] { return half_wing(0.1036); }},
       {"half_blunt_wing", [] { return half_wing(0.1015); }},
       {"wing_on_body", wing_on_body},

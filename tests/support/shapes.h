@@ -19,6 +19,8 @@ namespace st::test {
 ///   framed_plate (a square window 0.1 from an edge)
 ///   plate_of_2_with_touching_hole (15 x 10 x 1, cut at x = 0, where the hole of radius 2 touches)
 ///   sharp_wing blunt_wing (NACA 0012, chord 10, span 30, edge 0.0252 wide) wing_in_box (the box without the wing)
+///   swept_wing far_swept_wing (blunt and sharp, by 50 and 66 degrees)
+///   swept_wing_in_box (forward by 39 degrees; its tip is in the box but for the rear half of the chord)
 ///   wing_with_pod (3.5 long and 1 wide, half of it below the wing) half_sharp_wing half_blunt_wing (cut at y = 0)
 ///   wing_on_body (its root in a box of 16 x 4 x 8 that ends at z = 4)
 ///   thin_wing (3.5 % thick) tapering_wing (chord 60 to 6) double_wedge (a wing whose profile is a rhombus)

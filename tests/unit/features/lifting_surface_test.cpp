@@ -77,6 +77,24 @@ TEST(LiftingSurface, counts_both_sides_of_a_blunt_edge_as_one) {
   expect_wing_of_chord_10(wings[0]);
 }
 
+TEST(LiftingSurface, of_a_swept_wing_is_cut_as_its_plane_ends_are) {
+  for (const char* shape : {"swept_wing", "far_swept_wing"}) {
+    const std::vector<LiftingSurface> wings = wings_of(shape);
+    ASSERT_EQ(wings.size(), 1u) << shape;
+    EXPECT_NEAR(wings[0].least_chord, 10, 0.02) << shape;
+    EXPECT_NEAR(wings[0].largest_chord, 10, 0.02) << shape;
+  }
+}
+
+TEST(LiftingSurface, of_a_swept_wing_is_cut_along_the_flow_though_other_planes_show_more_of_it) {
+  const std::vector<LiftingSurface> wings = wings_of("swept_wing_in_box");
+  ASSERT_EQ(wings.size(), 1u);
+  for (const ChordStation& s : wings[0].trailing.at(0).stations)
+    if (s.is_measured && s.share < 0.8) {  // before the box
+      EXPECT_NEAR(s.chord, 10, 0.1) << s.share;
+    }
+}
+
 TEST(LiftingSurface, is_found_in_a_domain) {
   const Model model = test::make_model("wing_in_box");
   FaceRoles roles = face_roles(model.tables());

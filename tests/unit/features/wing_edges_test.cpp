@@ -54,6 +54,12 @@ TEST(WingEdges, are_nose_and_both_corners_of_a_blunt_wing) {
     }
 }
 
+TEST(WingEdges, are_not_the_ends_of_the_base_of_a_swept_wing) {
+  const std::vector<WingEdge> edges = found("swept_wing");
+  EXPECT_EQ(count(edges, WingEdgeKind::kBluntTrailing), 2);
+  EXPECT_EQ(count(edges, WingEdgeKind::kSharpTrailing), 0) << "of 40 degrees, at tip or root";
+}
+
 TEST(WingEdges, of_a_domain_lie_on_the_other_side_of_its_normals) {
   const Model model = test::make_model("wing_in_box");
   FaceRoles roles = face_roles(model.tables());
