@@ -1,20 +1,22 @@
 #include "sizing/end_stretch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
 
 #include "base/box_tree.h"
 #include "geometry/shape/projection.h"
+#include "sizing/line_stretch.h"
 
 namespace st {
 namespace {
 
 constexpr double kMostAcross = 0.7;  // cosine: a side that lies further along the stretch does not end it
 
-constexpr double kTapered = 0.99;  // of the chord at the other end: less is at a tip
-constexpr double kOutward = 0.3;   // cosine to the way out of an edge: a tip's face, not that of a hub
+constexpr double kAhead = 0.9;    // cosine: a side that lies so far along the stretch
+constexpr double kOutward = 0.3;  // cosine to the way out of an edge: a tip's face, not that of a hub
 
 bool lies_across(Vec3 side, Vec3 direction) { return std::abs(dot(side, direction)) <= kMostAcross; }
 
@@ -51,8 +53,6 @@ class EndSides {
 
 bool is_tip(const Model& model, bool is_material_ahead, const ChordEdge& trailing, std::size_t k) {
   const ModelTables& t = model.tables();
-  const double begin = trailing.stations.front().chord, end = trailing.stations.back().chord;
-  if (!(k == 0 ? begin < kTapered * end : end < kTapered * begin)) return false;
   const VertexId own = t.edge_vertices[2 * static_cast<std::size_t>(trailing.edge) + k];
   const auto is_at = [&](EdgeId e) { return t.edge_vertices[2 * e] == own || t.edge_vertices[2 * e + 1] == own; };
   const auto curve = model.curve(trailing.edge);
@@ -79,6 +79,28 @@ bool ends_inside(const Model& model, FaceId face, Vec3 x, double reach) {
 
 double most_aspect_at(Vec3 end, Vec3 direction) {
   return end != Vec3{} && lies_across(end, direction) ? kEndAspect : std::numeric_limits<double>::infinity();
+}
+
+void bound_stretch_by_widths(std::span<const SpaceSide> sides, std::size_t first, std::vector<RasterBox>& boxes) {
+  const std::span own = std::span(boxes).subspan(first);
+  const BoxTree tree = tree_of(sides);
+  for (RasterBox& box : own) {
+    if (!(box.stretch.along > kLeastStretch * box.length)) continue;
+    const Vec3 way(box.stretch.direction);
+    std::array<double, 2> free{box.stretch.along, box.stretch.along};  // behind and ahead
+    tree.visit_near(
+        box.center, [&](std::int32_t, double d2) { return d2 < free[0] * free[0] || d2 < free[1] * free[1]; },
+        [&](std::int32_t i) {
+          const Vec3 to = sides[i].nearest_to(box.center) - box.center;
+          const double along = dot(to, way);
+          if (!lies_across(sides[i].along, way) || std::abs(along) < kAhead * norm(to)) return;
+          double& room = free[along > 0 ? 1 : 0];
+          room = std::min(room, std::abs(along));
+        });
+    const double width = free[0] + free[1];
+    if (width < box.stretch.along)
+      box.stretch.along = static_cast<float>(width > kLeastStretch * box.length ? width : 0);
+  }
 }
 
 void bound_stretch_at_ends(std::span<const SpaceSide> sides, const std::function<bool(CoedgeId)>& ends,

@@ -19,9 +19,8 @@ inline constexpr double kEndAspect = 3;
 /// Likewise where a sharp edge ends at a tip: its skins meet there in a small triangle of the rim.
 inline constexpr double kSharpEndAspect = 1.8;
 
-/// Whether a trailing edge ends at a tip: the chord is less at its end `k` (0: where it begins, 1) than at the other
-/// one, a face looks out of the wing there, and none has a pole. Normals of faces point into the material or away from
-/// it. Local, linear in the model's edges.
+/// Whether a trailing edge ends at a tip: a face looks out of the wing at its end `k` (0: where it begins, 1), and none
+/// has a pole there. Normals of faces point into the material or away from it. Local, linear in the model's edges.
 bool is_tip(const Model& model, bool is_material_ahead, const ChordEdge& trailing, std::size_t k);
 
 /// What is allowed at the end of a trailing edge: less where a sharp one ends at a tip. As is_tip().
@@ -37,6 +36,9 @@ bool ends_inside(const Model& model, FaceId face, Vec3 x, double reach);
 /// face; `ends` tells the coedges at which it ends: across others the surface goes on. Local.
 void bound_stretch_at_ends(std::span<const SpaceSide> sides, const std::function<bool(CoedgeId)>& ends,
                            std::size_t first, std::vector<RasterBox>& boxes, std::vector<GapPatch>& patches);
+
+/// No length along is above the width of the face there: from one side across it to the other one. Local.
+void bound_stretch_by_widths(std::span<const SpaceSide> sides, std::size_t first, std::vector<RasterBox>& boxes);
 
 /// What is allowed along `direction` where the surface ends along `end` (unit vectors; `end` zero: nowhere). Infinite
 /// where the end does not lie across.

@@ -150,6 +150,7 @@ class RasterTasks {
     drop_tips(sides, *limits, n_before, boxes);
     const auto ends = [&](CoedgeId c) { return !limits_.edge_is_smooth[model_.tables().coedge_edge[c]]; };
     if (limits->max_aspect > 1) bound_stretch_at_ends(sides, ends, n_before, boxes, patches);
+    if (limits->max_aspect > 1) bound_stretch_by_widths(sides, n_before, boxes);
   }
 
   void raster_narrow_parts(FaceId f, std::span<const SpaceSide> sides, const Strip* strip,

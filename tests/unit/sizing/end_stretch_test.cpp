@@ -39,16 +39,15 @@ GapPatch patch_at(Vec3 x, Vec3 way) {
   return patch;
 }
 
-TEST(IsTip, is_where_the_chord_is_less_and_a_face_looks_outward) {
+TEST(IsTip, is_where_a_face_looks_outward) {
   const Model model = test::make_model("sharp_wing");
   const FaceRoles roles = face_roles(model.tables());
   ChordEdge trailing =
       find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0).trailing.at(0);
-  for (const std::size_t k : {0, 1}) EXPECT_FALSE(is_tip(model, false, trailing, k)) << "a wing of one chord";
-  trailing.stations.back().chord *= 0.9;
-  EXPECT_FALSE(is_tip(model, false, trailing, 0));
-  EXPECT_TRUE(is_tip(model, false, trailing, 1));
-  EXPECT_FALSE(is_tip(model, true, trailing, 1)) << "a hub";
+  for (const std::size_t k : {0, 1}) {
+    EXPECT_TRUE(is_tip(model, false, trailing, k)) << "a wing of one chord has two";
+    EXPECT_FALSE(is_tip(model, true, trailing, k)) << "a hub";
+  }
 }
 
 TEST(IsTip, looks_out_of_the_wing_in_a_domain) {
@@ -59,8 +58,19 @@ TEST(IsTip, looks_out_of_the_wing_in_a_domain) {
   ASSERT_TRUE(is_material_ahead(model.tables(), roles));
   ChordEdge trailing =
       find_lifting_surfaces(model, roles, find_wing_edges(model, roles, find_strips(model))).at(0).trailing.at(0);
-  trailing.stations.back().chord *= 0.9;
   EXPECT_TRUE(is_tip(model, true, trailing, 1));
+}
+
+TEST(EndStretch, is_no_longer_than_its_face_is_wide) {
+  std::vector<RasterBox> boxes{long_box({4, 5, 0}), long_box({5, 5, 0}), long_box({5, 5, 0}), long_box({5, 5, 0})};
+  boxes[1].stretch.along = 12;
+  boxes[2].stretch.along = 9;
+  boxes[3].stretch = {SmallNormal({0, 1, 0}), 12};
+  bound_stretch_by_widths(sides_of_square(), 1, boxes);
+  EXPECT_FLOAT_EQ(boxes[0].stretch.along, 2) << "before the first";
+  EXPECT_FLOAT_EQ(boxes[1].stretch.along, 10);
+  EXPECT_FLOAT_EQ(boxes[2].stretch.along, 9);
+  EXPECT_FLOAT_EQ(boxes[3].stretch.along, 12) << "no side ahead";
 }
 
 TEST(EndStretch, is_bounded_at_sides_across_it_alone) {
