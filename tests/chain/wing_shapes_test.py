@@ -190,6 +190,18 @@ class WingShapes(ToolTest):
             at = max(abs(station["nose"][1]) for station in wing["stations"])  # of 4
             self.assertGreater(at, 4 - 1e-3 * wing["chord"][1], name)
 
+    def test_chords_of_random_wings_are_along_the_flow(self):
+        for number in range(7, 40):  # OpenCASCADE loses the wing of 6 where it joins its body
+            model, geometry = self.folder / "random.brep", self.folder / "geometry.hdf"
+            subprocess.run([WING_MODELS, "random_wing", str(number), model], check=True, capture_output=True,
+                           timeout=100)
+            must("st-import", model, "-o", geometry)
+            wings = self.raster("random", "rans").json()["lifting_surfaces"]
+            self.assertGreater(len(wings), 0, number)
+            for wing in wings:  # chords are 1, but where twisted
+                self.assertGreater(wing["chord"][0], 0.85, f"{number}: {wing}")
+                self.assertLess(wing["chord"][2], 1.15, f"{number}: {wing}")
+
     def test_noses_of_a_swept_tip_are_not_on_the_tip(self):
         (wing,) = self.raster("c_wing", "euler").json()["lifting_surfaces"]
         self.assertGreater(wing["chord"][0], 0.95 * 0.3)  # of its tip

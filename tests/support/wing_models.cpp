@@ -30,6 +30,7 @@
 
 #include "geometry/brep/compound.h"
 #include "late_wings.h"
+#include "random_wings.h"
 #include "rare_wings.h"
 #include "unusual_wings.h"
 #include "wing_sections.h"
@@ -938,8 +939,10 @@ void run(const std::vector<std::string>& a) {
     for (const auto& [name, maker] : models()) std::puts(name.c_str());
   else if (a.size() == 2 && models().contains(a[0]))
     write(models().at(a[0])(), a[1]);
+  else if (a.size() == 3 && a[0] == "random_wing")
+    write(random_wing(static_cast<unsigned>(std::stoul(a[1]))), a[2]);
   else
-    throw std::runtime_error("usage: wing_models [NAME OUT.brep]");
+    throw std::runtime_error("usage: wing_models [NAME OUT.brep | random_wing NUMBER OUT.brep]");
 }
 
 }  // namespace
