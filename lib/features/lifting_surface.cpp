@@ -1059,7 +1059,7 @@ class SurfaceFinder {
     return rims;
   }
 
-  /// Plane faces at which an edge of a chain ends, and on which none lies, ascending.
+  /// Plane faces at which a chain ends, and on which none of its edges lies, ascending.
   std::vector<FaceId> planes_at_ends(const std::vector<WingEdge>& chain) {
     const ModelTables& t = model_.tables();
     if (planes_at_.empty()) {
@@ -1071,14 +1071,12 @@ class SurfaceFinder {
               planes_at_[static_cast<std::size_t>(t.edge_vertices[2 * static_cast<std::size_t>(e) + k])].push_back(f);
     }
     std::vector<FaceId> planes, own;
-    for (const WingEdge& w : chain) {
-      const auto e = static_cast<std::size_t>(w.edge);
-      for (const std::size_t k : {0, 1}) {
-        const auto& at = planes_at_[static_cast<std::size_t>(t.edge_vertices[2 * e + k])];
-        planes.insert(planes.end(), at.begin(), at.end());
-      }
-      own.insert(own.end(), faces_at_[w.edge].begin(), faces_at_[w.edge].end());
-    }
+    std::map<VertexId, int> n_edges;
+    for (const WingEdge& w : chain)
+      for (const std::size_t k : {0, 1}) ++n_edges[t.edge_vertices[2 * static_cast<std::size_t>(w.edge) + k]];
+    for (const auto& [v, n] : n_edges)
+      if (n == 1) planes.insert(planes.end(), planes_at_[v].begin(), planes_at_[v].end());
+    for (const WingEdge& w : chain) own.insert(own.end(), faces_at_[w.edge].begin(), faces_at_[w.edge].end());
     sort_once(planes);
     std::sort(own.begin(), own.end());
     std::erase_if(planes, [&](FaceId f) { return std::ranges::binary_search(own, f); });
